@@ -1,0 +1,231 @@
+//! `[body]`: shape, mass, inertia, support, potential, rotor.
+
+use super::error::{CaseError, Problem};
+use super::parameters::{Setting, coefficients, has};
+use super::section::{Section, Text};
+use crate::formula::{Formula, FormulaError, Type};
+use crate::mechanics::{
+    Features, FlatBase, Parameter, Polynomial, Potential, Range, Reach, Rubber, Shape, System,
+    Vocabulary,
+};
+
+/// Reads a formula and checks its kind and what it depends on.
+pub fn formula(
+    text: &Text,
+    vocabulary: &Vocabulary,
+    what: &str,
+    expected: Option<Type>,
+    reach: Reach,
+) -> Result<Formula, CaseError> {
+    let failed =
+        |error: FormulaError| CaseError::at(text.locate(error.span()), Problem::Formula(error));
+    let formula = Formula::parse(&text.value, vocabulary).map_err(failed)?;
+    let whole = || text.locate(0..text.value.len());
+    if let Some(expected) = expected.filter(|expected| *expected != formula.value_type()) {
+        let (what, found) = (what.to_string(), formula.value_type());
+        return Err(CaseError::at(whole(), Problem::WrongKind { what, expected, found }));
+    }
+    match vocabulary.reach(&formula) {
+        Some(entry) if entry.reach > reach => {
+            let allowed = match reach {
+                Reach::Parameters => "parameters",
+                _ => "γ and parameters",
+            };
+            let (what, name) = (what.to_string(), entry.name.clone());
+            Err(CaseError::at(whole(), Problem::Reach { what, allowed, name }))
+        }
+        _ => Ok(formula),
+    }
+}
+
+/// A formula under a key, or the default text where the key is missing.
+fn formula_or(
+    section: &Section<'_>,
+    key: &'static str,
+    default: &str,
+    vocabulary: &Vocabulary,
+    kind: Type,
+) -> Result<Formula, CaseError> {
+    let text = match section.text(key)? {
+        Some(text) => text,
+        None if has(vocabulary, default, kind) => Text::made(default.to_string(), 0..0),
+        None => {
+            let remedy =
+                format!("declare the {kind} `{default}` under [parameters], or give `{key}`");
+            return Err(section.missing(key, &remedy));
+        }
+    };
+    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters)
+}
+
+fn optional(
+    section: &Section<'_>,
+    key: &'static str,
+    vocabulary: &Vocabulary,
+    kind: Type,
+) -> Result<Option<Formula>, CaseError> {
+    let Some(text) = section.text(key)? else { return Ok(None) };
+    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters).map(Some)
+}
+
+/// What names a rubber body will have, from the keys alone.
+pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
+    Features {
+        radius: has(vocabulary, "R", Type::Scalar),
+        displacement: has(vocabulary, "c", Type::Vector),
+        curvature: curved,
+        potential: section.value("potential").is_some(),
+        profile: section.value("profile").is_some(),
+    }
+}
+
+/// A body rolling on a plane, or on a sphere if `curved`.
+pub fn rubber(
+    section: &Section<'_>,
+    curved: bool,
+    settings: &[Setting],
+    vocabulary: &Vocabulary,
+    parameters: &mut Vec<Parameter>,
+) -> Result<System, CaseError> {
+    let scalar = Type::Scalar;
+    let curvature = match curved {
+        true => Some(formula_or(section, "curvature", "k", vocabulary, scalar)?),
+        false => None,
+    };
+    let mass = formula_or(section, "mass", "m", vocabulary, scalar)?;
+    let inertia = formula_or(section, "inertia", "I", vocabulary, Type::Matrix)?;
+    let gyrostat = optional(section, "gyrostat", vocabulary, Type::Vector)?;
+    let shape = shape(section, curved, settings, vocabulary, parameters)?;
+    let potential = potential(section, settings, vocabulary, parameters)?;
+    let body = Rubber { mass, inertia, shape, curvature, gyrostat, potential };
+    Ok(System::Rubber(Box::new(body)))
+}
+
+/// A body with a flat part on a sphere.
+pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Result<System, CaseError> {
+    Ok(System::FlatBase(Box::new(FlatBase {
+        mass: formula_or(section, "mass", "m", vocabulary, Type::Scalar)?,
+        inertia: formula_or(section, "inertia", "I", vocabulary, Type::Matrix)?,
+        curvature: formula_or(section, "curvature", "k", vocabulary, Type::Scalar)?,
+        height: formula_or(section, "height", "z", vocabulary, Type::Scalar)?,
+        gyrostat: optional(section, "gyrostat", vocabulary, Type::Vector)?,
+    })))
+}
+
+/// Coefficients of arbitrary functions: the constant term large, so that the surface is convex.
+fn arbitrary(
+    prefix: &str,
+    polynomial: &Polynomial,
+    settings: &[Setting],
+    parameters: &mut Vec<Parameter>,
+) {
+    let small = Range::between((-1, 5), (1, 5));
+    coefficients(prefix, &polynomial.exponents, &small, settings, parameters);
+}
+
+fn shape(
+    section: &Section<'_>,
+    curved: bool,
+    settings: &[Setting],
+    vocabulary: &Vocabulary,
+    parameters: &mut Vec<Parameter>,
+) -> Result<Shape, CaseError> {
+    let named = section.text("shape")?;
+    let support = section.text("support")?;
+    let profile = section.text("profile")?;
+    let contact = section.text("contact")?;
+    let given = [&named, &support, &profile, &contact].into_iter().flatten().count();
+    if given != 1 {
+        return Err(CaseError::at(
+            section.span.clone(),
+            Problem::Other {
+                message: format!("[body] needs exactly one of its four shapes, and has {given}"),
+                remedy:
+                    "give one of shape = \"ball\", \"ellipsoid\" or \"disk\", support = \"…\", \
+                         profile = \"…\", contact = \"…\""
+                        .to_string(),
+            },
+        ));
+    }
+    let first = parameters.len();
+    let read = |text: &Text, what: &str, kind| {
+        formula(text, vocabulary, what, Some(kind), Reach::Configuration)
+    };
+    if let Some(text) = named {
+        let support = named_shape(&text, vocabulary)?;
+        return Ok(Shape::Support(read(&support, "the support function", Type::Scalar)?));
+    }
+    if let Some(text) = contact {
+        return Ok(Shape::Contact(read(&text, "the point of contact", Type::Vector)?));
+    }
+    if let Some(text) = profile {
+        if text.value == "arbitrary" {
+            let polynomial = Polynomial::on_interval(4, first);
+            arbitrary("p", &polynomial, settings, parameters);
+            return Ok(Shape::ArbitraryProfile(polynomial));
+        }
+        return Ok(Shape::Profile(read(&text, "the profile", Type::Scalar)?));
+    }
+    let text = support.unwrap_or_else(|| Text::made(String::new(), section.span.clone()));
+    if text.value == "arbitrary" {
+        // A residual contains derivatives of h up to the third on the plane, the fourth on a sphere.
+        let polynomial = Polynomial::on_sphere(if curved { 4 } else { 3 }, first);
+        arbitrary("h", &polynomial, settings, parameters);
+        return Ok(Shape::Arbitrary(polynomial));
+    }
+    // Whether it is homogeneous is found out when the model stands.
+    Ok(Shape::Support(read(&text, "the support function", Type::Scalar)?))
+}
+
+/// The support function of a shape that has a name.
+fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> {
+    let (needs, kind, support) = match text.value.as_str() {
+        "ball" => ("R", Type::Scalar, "R*|γ|"),
+        "ellipsoid" => ("B", Type::Matrix, "√(γ,B*γ)"),
+        "disk" => ("R", Type::Scalar, "R*√(γ1² + γ2²)"),
+        _ => {
+            return Err(CaseError::at(
+                text.span.clone(),
+                Problem::Other {
+                    message: format!("`{}` is no shape with a name", text.value),
+                    remedy:
+                        "ball, ellipsoid and disk have names; anything else is a support = \"h(γ)\""
+                            .to_string(),
+                },
+            ));
+        }
+    };
+    if !has(vocabulary, needs, kind) {
+        return Err(CaseError::at(
+            text.span.clone(),
+            Problem::Other {
+                message: format!("a {} needs the {kind} `{needs}`", text.value),
+                remedy: format!("declare `{needs}` under [parameters]"),
+            },
+        ));
+    }
+    let displaced = if has(vocabulary, "c", Type::Vector) { " + (c,γ)" } else { "" };
+    Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
+}
+
+fn potential(
+    section: &Section<'_>,
+    settings: &[Setting],
+    vocabulary: &Vocabulary,
+    parameters: &mut Vec<Parameter>,
+) -> Result<Option<Potential>, CaseError> {
+    let Some(text) = section.text("potential")? else { return Ok(None) };
+    let plain: String = text.value.chars().filter(|c| !c.is_whitespace()).collect();
+    let first = parameters.len();
+    let polynomial = match plain.as_str() {
+        "arbitrary" => Polynomial::in_space(2, first),
+        "arbitrary(γ3)" | "arbitrary(γ[3])" => Polynomial::on_interval(3, first),
+        _ => {
+            let what = "the potential";
+            let read = formula(&text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)?;
+            return Ok(Some(Potential::Formula(read)));
+        }
+    };
+    arbitrary("U", &polynomial, settings, parameters);
+    Ok(Some(Potential::Arbitrary(polynomial)))
+}

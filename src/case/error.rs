@@ -1,0 +1,152 @@
+//! What can be wrong with a case file, and where.
+
+use std::ops::Range;
+
+use crate::formula::{FormulaError, Type};
+
+/// A problem of a case file at a place in its text.
+#[derive(Debug)]
+pub struct CaseError {
+    /// What is wrong.
+    pub problem: Problem,
+    /// The bytes of the file that it concerns; `None` for the file as a whole.
+    pub span: Option<Range<usize>>,
+}
+
+/// What is wrong with a case file.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// The file cannot be read.
+    #[error("cannot read the file: {0}")]
+    Io(std::io::Error),
+    /// The file is larger than any case needs.
+    #[error("the file has {0} bytes; a case file may have up to {1}")]
+    TooLarge(u64, u64),
+    /// Not TOML.
+    #[error("{0}")]
+    Toml(String),
+    /// Nothing in it.
+    #[error("the file is empty")]
+    Empty,
+    /// A key that means nothing here.
+    #[error("unknown key `{key}` in {section}")]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// The table it stands in.
+        section: String,
+        /// The nearest key that is known.
+        nearest: Option<String>,
+        /// All that are known.
+        known: Vec<&'static str>,
+    },
+    /// A key that is needed.
+    #[error("{section} has no `{key}`")]
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// The table it should stand in.
+        section: String,
+        /// What to write.
+        remedy: String,
+    },
+    /// A value of another type.
+    #[error("`{key}` should be {expected}")]
+    WrongType {
+        /// The key.
+        key: String,
+        /// What belongs there.
+        expected: String,
+    },
+    /// Not an identifier, or one that is taken.
+    #[error("`{name}` cannot be a name here: {reason}")]
+    BadName {
+        /// The name.
+        name: String,
+        /// Why not.
+        reason: String,
+    },
+    /// A formula that cannot be read.
+    #[error("{0}")]
+    Formula(FormulaError),
+    /// A formula of another kind.
+    #[error("{what} should be a {expected}, but this is a {found}")]
+    WrongKind {
+        /// What the formula defines.
+        what: String,
+        /// What it should be.
+        expected: Type,
+        /// What it is.
+        found: Type,
+    },
+    /// A formula that depends on what it may not depend on.
+    #[error("{what} may depend on {allowed} only, not on `{name}`")]
+    Reach {
+        /// What the formula defines.
+        what: String,
+        /// What it may depend on.
+        allowed: &'static str,
+        /// What it depends on.
+        name: String,
+    },
+    /// A parameter that is not a number, a list or a range.
+    #[error("{0}")]
+    Parameter(String),
+    /// Anything else, with its remedy.
+    #[error("{message}")]
+    Other {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        remedy: String,
+    },
+}
+
+impl CaseError {
+    /// A problem at a place.
+    pub fn at(span: Range<usize>, problem: Problem) -> Self {
+        Self { problem, span: Some(span) }
+    }
+
+    /// A problem of the file as a whole.
+    pub fn whole(problem: Problem) -> Self {
+        Self { problem, span: None }
+    }
+
+    /// What is wrong, in one line.
+    pub fn message(&self) -> String {
+        self.problem.to_string()
+    }
+
+    /// What would be right.
+    pub fn help(&self) -> Option<String> {
+        match &self.problem {
+            Problem::UnknownKey { nearest: Some(nearest), .. } => {
+                Some(format!("did you mean `{nearest}`?"))
+            }
+            Problem::UnknownKey { nearest: None, known, .. } => {
+                Some(format!("known here: {}", known.join(", ")))
+            }
+            Problem::MissingKey { remedy, .. } | Problem::Other { remedy, .. } => {
+                Some(remedy.clone())
+            }
+            Problem::Formula(error) => error.help().map(str::to_string),
+            Problem::Empty => Some("docs/writing-a-case.md shows the smallest case".to_string()),
+            Problem::Parameter(_) => Some(
+                "write a number (1.5, \"3/7\"), a list ([1, 2, 3]), a range (\"0.5..2\"), \
+                 vector(-1..1), diag(1..4), spherical(1..3), inertia(0.5..5), \
+                 axisymmetric(0.5..5), full(0.5..5), rotation, \"one of 1, 2, 3\", or a formula"
+                    .to_string(),
+            ),
+            _ => None,
+        }
+    }
+}
+
+impl std::fmt::Display for CaseError {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.problem.fmt(out)
+    }
+}
+
+impl std::error::Error for CaseError {}

@@ -1,0 +1,159 @@
+//! `[state]`, `[field]`, `[level]`: a system of the user's own.
+
+use super::body::formula;
+use super::error::{CaseError, Problem};
+use super::parameters::{Given, origin, state_draws};
+use super::section::{Section, Text};
+use crate::formula::{Formula, Type, canonical_name};
+use crate::mechanics::{
+    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach, Variable,
+    Vocabulary,
+};
+
+/// State variables with the draws of their components.
+pub struct State {
+    /// The variables in order.
+    pub variables: Vec<Variable>,
+    /// One draw a component.
+    pub draws: Vec<Draw>,
+}
+
+/// Reads a table of names and ranges.
+pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary) -> Result<State, CaseError> {
+    let mut state = State { variables: Vec::new(), draws: Vec::new() };
+    for (key, value) in section.entries() {
+        let bad = |name: &str, reason: &str| {
+            let (name, reason) = (name.to_string(), reason.to_string());
+            CaseError::at(key.span(), Problem::BadName { name, reason })
+        };
+        let name = canonical_name(key.get_ref())
+            .ok_or_else(|| bad(key.get_ref(), "a name is letters, then digits, primes or _"))?;
+        if vocabulary.find(&name).is_some() {
+            return Err(bad(&name, "it is taken already"));
+        }
+        let described = origin(&name, value).ok().and_then(|given: Given| state_draws(&given));
+        let (kind, draws) = described.ok_or_else(|| {
+            let text = format!("`{name}` needs the range that its states are drawn from");
+            let remedy = "write \"-2..2\" for a scalar, \"vector(-1..1)\" for a vector".to_string();
+            CaseError::at(value.span(), Problem::Other { message: text, remedy })
+        })?;
+        vocabulary.add(&name, Meaning::State(state.variables.len()), kind, Reach::Phase);
+        state.variables.push(Variable { name, kind });
+        state.draws.extend(draws);
+    }
+    Ok(state)
+}
+
+/// Reads the rates: one formula a state variable, under its name with or without a prime.
+pub fn rates(
+    section: &Section<'_>,
+    variables: &[Variable],
+    vocabulary: &Vocabulary,
+) -> Result<Vec<Formula>, CaseError> {
+    let mut rates: Vec<Option<Formula>> = vec![None; variables.len()];
+    for (key, value) in section.entries() {
+        let name = canonical_name(key.get_ref()).unwrap_or_default();
+        let plain = name.strip_suffix('\'').unwrap_or(&name);
+        let Some(index) = variables.iter().position(|variable| variable.name == plain) else {
+            let message = format!("`{}` is the rate of no state variable", key.get_ref());
+            let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
+            let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
+            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+        };
+        let text = section.as_text(key.get_ref(), value)?;
+        let what = format!("the rate of {plain}");
+        let kind = Some(variables[index].kind);
+        rates[index] = Some(formula(&text, vocabulary, &what, kind, Reach::Phase)?);
+    }
+    let missing = rates.iter().position(Option::is_none).map(|index| &variables[index].name);
+    match missing {
+        None => Ok(rates.into_iter().flatten().collect()),
+        Some(name) => Err(CaseError::at(
+            section.span.clone(),
+            Problem::Other {
+                message: format!("[field] has no rate for `{name}`"),
+                remedy: format!("add \"{name}'\" = \"…\""),
+            },
+        )),
+    }
+}
+
+/// Reads `equations = ["(γ,γ) = 1", …]`.
+pub fn equations(
+    section: &Section<'_>,
+    vocabulary: &Vocabulary,
+) -> Result<Vec<LevelEquation>, CaseError> {
+    let mut level = Vec::new();
+    for text in section.texts("equations")? {
+        let Some((left, right)) = text.value.split_once('=') else {
+            let message = "a level equation has two sides".to_string();
+            let remedy = "write \"(γ,γ) = 1\"".to_string();
+            return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
+        };
+        let read = |side: &str, start: usize| {
+            let span = text.locate(start..start + side.len());
+            Formula::parse(side, vocabulary).map_err(|error| {
+                let inner = error.span();
+                let place = text.locate(start + inner.start..start + inner.end);
+                CaseError::at(place, Problem::Formula(error))
+            })?;
+            Ok::<_, CaseError>(span)
+        };
+        read(left, 0)?;
+        read(right, left.len() + 1)?;
+        let difference = Text::made(format!("({left}) − ({right})"), text.span.clone());
+        let function =
+            formula(&difference, vocabulary, "a level function", Some(Type::Scalar), Reach::Phase)?;
+        let function = LevelFunction::Formula(function);
+        level.push(LevelEquation { text: text.value.trim().to_string(), function });
+    }
+    Ok(level)
+}
+
+/// Reads `[level.chart]`: inputs with ranges, and a formula for each state variable.
+///
+/// `names` holds the parameters alone; the chart's formulas see them and the inputs.
+pub fn chart(
+    section: &Section<'_>,
+    model: &Model,
+    mut names: Vocabulary,
+) -> Result<Chart, CaseError> {
+    let inputs = section
+        .section("inputs")?
+        .ok_or_else(|| section.missing("inputs", "a chart needs inputs = { u = \"-2..2\", … }"))?;
+    let State { variables, draws } = state(&inputs, &mut names)?;
+    let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
+    for (key, value) in section.entries() {
+        if key.get_ref() == "inputs" {
+            continue;
+        }
+        let name = canonical_name(key.get_ref()).unwrap_or_default();
+        let Some(index) = model.state.iter().position(|variable| variable.name == name) else {
+            let message = format!("`{}` is no state variable", key.get_ref());
+            let remedy = "a chart gives a formula for each state variable".to_string();
+            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+        };
+        let text = section.as_text(key.get_ref(), value)?;
+        let kind = Some(model.state[index].kind);
+        formulas[index] = Some(formula(&text, &names, &name, kind, Reach::Phase)?);
+    }
+    if let Some(index) = formulas.iter().position(Option::is_none) {
+        let name = &model.state[index].name;
+        return Err(CaseError::at(
+            section.span.clone(),
+            Problem::Other {
+                message: format!("the chart has no formula for `{name}`"),
+                remedy: format!("add {name} = \"…\" under [level.chart]"),
+            },
+        ));
+    }
+    let model = Model {
+        vocabulary: names,
+        state: variables,
+        abbreviations: Vec::new(),
+        level: Vec::new(),
+        ..model.clone()
+    };
+    let formulas = formulas.into_iter().flatten().collect();
+    Ok(Chart::Given(Box::new(GivenChart { model, draws, formulas })))
+}

@@ -1,0 +1,206 @@
+//! Reading TOML tables with their places, so that every complaint can point.
+
+use std::cell::RefCell;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::error::{CaseError, Problem};
+use crate::formula::nearest;
+
+/// A string of the file with its place.
+#[derive(Clone, Debug)]
+pub struct Text {
+    /// The string.
+    pub value: String,
+    /// The bytes of the value, quotes included.
+    pub span: Range<usize>,
+    /// Where the content begins, if it stands in the file letter by letter.
+    content: Option<usize>,
+}
+
+impl Text {
+    fn new(value: &str, span: Range<usize>, source: &str) -> Self {
+        let raw = source.get(span.clone()).unwrap_or_default();
+        let content = raw.find(value).map(|offset| span.start + offset);
+        Self { value: value.to_string(), span, content }
+    }
+
+    /// A string that stands in no file, to be reported at `span`.
+    pub fn made(value: String, span: Range<usize>) -> Self {
+        Self { value, span, content: None }
+    }
+
+    /// The place in the file of a range of the content; the whole value where it is written with
+    /// escapes.
+    pub fn locate(&self, inner: Range<usize>) -> Range<usize> {
+        match self.content {
+            Some(start) => start + inner.start..start + inner.end,
+            None => self.span.clone(),
+        }
+    }
+}
+
+/// A table whose keys are ticked off as they are read.
+pub struct Section<'a> {
+    name: String,
+    table: &'a DeTable<'a>,
+    source: &'a str,
+    /// The place of the table.
+    pub span: Range<usize>,
+    asked: RefCell<Vec<&'static str>>,
+}
+
+impl<'a> Section<'a> {
+    /// A table under the name that messages give it.
+    pub fn new(name: &str, table: &'a DeTable<'a>, span: Range<usize>, source: &'a str) -> Self {
+        Self { name: name.to_string(), table, source, span, asked: RefCell::default() }
+    }
+
+    /// The value of a key.
+    pub fn value(&self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
+        self.asked.borrow_mut().push(key);
+        self.table.get(key)
+    }
+
+    /// The string of a key.
+    pub fn text(&self, key: &'static str) -> Result<Option<Text>, CaseError> {
+        self.value(key).map(|value| self.as_text(key, value)).transpose()
+    }
+
+    /// The string of a key that must be there.
+    pub fn required(&self, key: &'static str, remedy: &str) -> Result<Text, CaseError> {
+        self.text(key)?.ok_or_else(|| self.missing(key, remedy))
+    }
+
+    /// The complaint that a key is missing.
+    pub fn missing(&self, key: &'static str, remedy: &str) -> CaseError {
+        let problem =
+            Problem::MissingKey { key, section: self.name.clone(), remedy: remedy.to_string() };
+        CaseError { problem, span: (!self.span.is_empty()).then(|| self.span.clone()) }
+    }
+
+    /// A formula: a string, or a number.
+    pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, CaseError> {
+        let number = |text: String| Ok(Text::made(text, value.span()));
+        match value.get_ref() {
+            DeValue::String(text) => Ok(Text::new(text, value.span(), self.source)),
+            DeValue::Integer(number_text) if number_text.radix() == 10 => {
+                number(number_text.to_string())
+            }
+            DeValue::Float(float) => number(float.to_string()),
+            _ => Err(self.wrong_type(key, "a string", value.span())),
+        }
+    }
+
+    /// The complaint that a value has another type.
+    pub fn wrong_type(&self, key: &str, expected: &str, span: Range<usize>) -> CaseError {
+        let (key, expected) = (key.to_string(), expected.to_string());
+        CaseError::at(span, Problem::WrongType { key, expected })
+    }
+
+    /// Where a text stands in the file, letter by letter, for the first time.
+    pub fn find(&self, text: &str) -> Option<usize> {
+        self.source.find(text)
+    }
+
+    /// A whole number.
+    pub fn integer(&self, key: &'static str) -> Result<Option<u32>, CaseError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        match value.get_ref() {
+            DeValue::Integer(number) => number.to_string().parse().map(Some).ok(),
+            _ => None,
+        }
+        .ok_or_else(|| self.wrong_type(key, "a whole number", value.span()))
+    }
+
+    /// A truth value.
+    pub fn boolean(&self, key: &'static str) -> Result<Option<bool>, CaseError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        match value.get_ref() {
+            DeValue::Boolean(flag) => Ok(Some(*flag)),
+            _ => Err(self.wrong_type(key, "true or false", value.span())),
+        }
+    }
+
+    /// A table inside this one.
+    pub fn section(&self, key: &'static str) -> Result<Option<Section<'a>>, CaseError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                Ok(Some(Section::new(&format!("[{key}]"), table, value.span(), self.source)))
+            }
+            _ => Err(self.wrong_type(key, "a table", value.span())),
+        }
+    }
+
+    /// The tables of an array of tables.
+    pub fn sections(&self, key: &'static str) -> Result<Vec<Section<'a>>, CaseError> {
+        let Some(value) = self.value(key) else { return Ok(Vec::new()) };
+        let wrong = |span| self.wrong_type(key, &format!("an array of tables: [[{key}]]"), span);
+        let DeValue::Array(array) = value.get_ref() else { return Err(wrong(value.span())) };
+        array
+            .iter()
+            .map(|item| match item.get_ref() {
+                DeValue::Table(table) => {
+                    Ok(Section::new(&format!("[[{key}]]"), table, item.span(), self.source))
+                }
+                _ => Err(wrong(item.span())),
+            })
+            .collect()
+    }
+
+    /// The strings of an array, or one string by itself.
+    pub fn texts(&self, key: &'static str) -> Result<Vec<Text>, CaseError> {
+        match self.value(key) {
+            None => Ok(Vec::new()),
+            Some(value) => match value.get_ref() {
+                DeValue::Array(items) => items.iter().map(|item| self.as_text(key, item)).collect(),
+                _ => Ok(vec![self.as_text(key, value)?]),
+            },
+        }
+    }
+
+    /// All entries in the order of the file; for tables whose keys are the user's.
+    pub fn entries(
+        &self,
+    ) -> Vec<(&'a Spanned<std::borrow::Cow<'a, str>>, &'a Spanned<DeValue<'a>>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        entries
+    }
+
+    /// Complains about keys that nobody asked for.
+    pub fn finish(&self) -> Result<(), CaseError> {
+        let known = self.asked.borrow();
+        for (key, _) in self.entries() {
+            let name = key.get_ref().as_ref();
+            if !known.contains(&name) {
+                return Err(CaseError::at(
+                    key.span(),
+                    Problem::UnknownKey {
+                        key: name.to_string(),
+                        section: self.name.clone(),
+                        nearest: nearest(name, known.iter().copied()).map(str::to_string),
+                        known: known.clone(),
+                    },
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The numbers of an array of numbers, as they are written.
+pub fn numbers(array: &DeArray<'_>) -> Option<Vec<String>> {
+    array
+        .iter()
+        .map(|item| match item.get_ref() {
+            DeValue::Integer(number) => Some(number.to_string()),
+            DeValue::Float(number) => Some(number.to_string()),
+            DeValue::String(text) => Some(text.to_string()),
+            _ => None,
+        })
+        .collect()
+}

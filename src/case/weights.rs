@@ -1,0 +1,177 @@
+//! Are the terms of every sum of one weight? Time for the built-in systems, and whatever base
+//! dimensions `[dimensions]` declares.
+
+use super::Claim;
+use super::error::{CaseError, Problem};
+use super::section::{Section, Text};
+use crate::formula::{Formula, FormulaError, Scope, Symbol, Type, WeightSystem, canonical_name};
+use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, Shape, System};
+use crate::number::rational::Rational;
+
+/// Checks all formulas of a case in every base dimension that is known.
+pub fn check(
+    root: &Section<'_>,
+    model: &Model,
+    dimensions: Option<&Section<'_>>,
+    claims: &[Claim],
+) -> Result<(), CaseError> {
+    let mut systems = Vec::new();
+    if !matches!(model.system, System::Field(_)) {
+        systems.push(time(model));
+    }
+    if let Some(section) = dimensions {
+        systems.extend(declared(section, model)?);
+    }
+    for weights in &mut systems {
+        for (index, formula) in model.abbreviations.iter().enumerate() {
+            let weight = checked(root, formula, weights)?;
+            let meaning = Meaning::Abbreviation(index);
+            let symbol = model.vocabulary.iter().find(|(_, entry)| entry.meaning == meaning);
+            if let (Some((symbol, _)), Some(weight)) = (symbol, weight) {
+                weights.set(symbol, weight);
+            }
+        }
+        let level = model.level.iter().filter_map(|equation| match &equation.function {
+            LevelFunction::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let stated = claims.iter().filter_map(|claim| claim.kind.formula());
+        for formula in of_system(&model.system).into_iter().chain(level).chain(stated) {
+            checked(root, formula, weights)?;
+        }
+    }
+    Ok(())
+}
+
+fn checked(
+    root: &Section<'_>,
+    formula: &Formula,
+    weights: &mut WeightSystem,
+) -> Result<Option<Rational>, CaseError> {
+    formula.check_weights(weights).map_err(|error| {
+        let remedy = "if this is meant, set check-weights = false at the top of the file";
+        let found = root.find(formula.text());
+        let problem =
+            Problem::Other { message: error.message().to_string(), remedy: remedy.to_string() };
+        let place = |start: usize, error: &FormulaError| {
+            start + error.span().start..start + error.span().end
+        };
+        CaseError { span: found.map(|start| place(start, &error)), problem }
+    })
+}
+
+/// Formulas that define the system and are not lists of parameters.
+fn of_system(system: &System) -> Vec<&Formula> {
+    match system {
+        System::Rubber(body) => {
+            let shape = match &body.shape {
+                Shape::Support(formula)
+                | Shape::SupportOnSphere(formula)
+                | Shape::Profile(formula)
+                | Shape::Contact(formula) => Some(formula),
+                _ => None,
+            };
+            let potential = match &body.potential {
+                Some(Potential::Formula(formula)) => Some(formula),
+                _ => None,
+            };
+            shape.into_iter().chain(potential).collect()
+        }
+        System::FlatBase(_) => Vec::new(),
+        System::Field(rates) => rates.iter().collect(),
+    }
+}
+
+/// The weights under t → λt: ω and S scale as 1/t, energies as 1/t², shapes and masses not at all.
+fn time(model: &Model) -> WeightSystem {
+    let mut weights = WeightSystem::new("time");
+    for (symbol, entry) in model.vocabulary.iter() {
+        let weight = match entry.meaning {
+            Meaning::Parameter(_) => match entry.name.as_str() {
+                "m" | "I" | "R" | "c" | "B" | "k" | "μ" => Some(0),
+                _ => None,
+            },
+            Meaning::State(_) => Some(if entry.name.starts_with('ω') { -1 } else { 0 }),
+            Meaning::Abbreviation(_) => None,
+            Meaning::Quantity(Quantity::ContactRate | Quantity::NormalRate) => Some(-1),
+            Meaning::Quantity(Quantity::AngularAcceleration) => {
+                Some(if entry.name == "ω" { -1 } else { -2 })
+            }
+            Meaning::Quantity(Quantity::Energy | Quantity::Potential | Quantity::Multiplier) => {
+                Some(-2)
+            }
+            Meaning::Quantity(_) => Some(0),
+        };
+        if let Some(weight) = weight {
+            weights.set(symbol, Rational::from(weight));
+        }
+    }
+    let gyrostat = match &model.system {
+        System::Rubber(body) => body.gyrostat.as_ref(),
+        System::FlatBase(body) => body.gyrostat.as_ref(),
+        System::Field(_) => None,
+    };
+    if let Some(gyrostat) = gyrostat
+        && let Some((symbol, _)) = model.vocabulary.lookup(gyrostat.text())
+    {
+        weights.set(symbol, Rational::from(-1));
+    }
+    weights
+}
+
+/// Base dimensions are the names that the declarations use.
+struct Bases(Vec<String>);
+
+impl Scope for Bases {
+    fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+        let index = self.0.iter().position(|base| base == name)?;
+        Some((Symbol(index as u32), Type::Scalar))
+    }
+    fn names(&self) -> Vec<String> {
+        self.0.clone()
+    }
+}
+
+/// One system of weights for each base dimension that `[dimensions]` uses.
+fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, CaseError> {
+    let mut entries = Vec::new();
+    let mut bases: Vec<String> = Vec::new();
+    for (key, value) in section.entries() {
+        let name = canonical_name(key.get_ref()).unwrap_or_default();
+        let Some((symbol, _)) = model.vocabulary.lookup(&name) else {
+            let reason = "no such name is declared".to_string();
+            return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
+        };
+        let text = section.as_text(key.get_ref(), value)?;
+        let words = text.value.split(|c: char| !c.is_alphanumeric());
+        for word in words.filter(|word| word.starts_with(char::is_alphabetic)) {
+            if !bases.iter().any(|base| base == word) {
+                bases.push(word.to_string());
+            }
+        }
+        entries.push((symbol, text));
+    }
+    let scope = Bases(bases);
+    let formulas: Vec<(Symbol, Formula, Text)> = entries
+        .into_iter()
+        .map(|(symbol, text)| match Formula::parse(&text.value, &scope) {
+            Ok(formula) => Ok((symbol, formula, text)),
+            Err(error) => Err(CaseError::at(text.locate(error.span()), Problem::Formula(error))),
+        })
+        .collect::<Result<_, _>>()?;
+    let of_base = |base: usize| {
+        let mut powers = WeightSystem::new(&scope.0[base]);
+        for other in 0..scope.0.len() {
+            powers.set(Symbol(other as u32), Rational::from(i64::from(other == base)));
+        }
+        let mut weights = WeightSystem::new(&scope.0[base]);
+        for (symbol, formula, text) in &formulas {
+            let weight = formula.check_weights(&mut powers).map_err(|error| {
+                CaseError::at(text.locate(error.span()), Problem::Formula(error))
+            })?;
+            weights.set(*symbol, weight.unwrap_or_else(|| Rational::from(0)));
+        }
+        Ok(weights)
+    };
+    (0..scope.0.len()).map(of_base).collect()
+}

@@ -1,0 +1,37 @@
+//! Invariant densities: Liouville's equation v(ln ρ) + div v = 0.
+//!
+//! On a level set {F_i = c_i} the density refers to the volume σ with dx = dF_1∧…∧dF_k∧σ, and the
+//! equation is v(ln ρ) + div v - Σ d(L_vF_i)(n_i) = 0 with dF_i(n_j) = δ_ij. The logarithm is
+//! differentiated through products and powers, so that roots and exponentials of ρ drop out.
+
+use num_dual::DualNum;
+
+use super::Context;
+use crate::formula::Formula;
+use crate::graph::Expr;
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::{divergence, dot, level_cofactor};
+
+/// v(ln ρ) + div v less the cofactors of the level functions.
+pub(super) fn residual(phase: &Phase<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+    let moved = phase.lift(phase.field());
+    let along = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
+    vec![along + divergence(phase) - level_cofactor(phase, kept)]
+}
+
+/// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
+pub(super) fn context(phase: &Phase<'_, Expr>, formula: &Formula) -> Context {
+    let slope: Vec<Expr> = (0..phase.model().dimension())
+        .map(|index| {
+            let moved = phase.lift_along(index);
+            formula.logarithmic_derivative(&mut |symbol| moved.value(symbol))
+        })
+        .collect();
+    let (field, state) = (phase.field(), phase.state());
+    let rate = dot(&slope, &slope) + dot(&state, &state).recip();
+    Context {
+        scale: Some(dot(field, field) * rate),
+        density: Some(phase.scalar(formula)),
+        ..Context::default()
+    }
+}

@@ -1,0 +1,137 @@
+//! A claim is some scalars that must vanish identically on a level set.
+//!
+//! Each kind of claim is one file that says what its residual is; sampling, the ladder, verdicts and
+//! reports are written once for all of them.
+
+mod criterion;
+mod density;
+mod integral;
+mod place;
+
+use crate::formula::Formula;
+use crate::graph::Expr;
+use crate::mechanics::{Model, Phase, calculus};
+
+pub use place::Place;
+
+/// What is claimed.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// F is a first integral: L_vF = 0.
+    Integral(Formula),
+    /// ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
+    Density(Formula),
+    /// A density that is positive and analytic near ω = 0 exists.
+    AnalyticDensity,
+    /// A density of the configuration alone, ρ(γ) or ρ(r₁,r₂), exists.
+    PositionDensity,
+}
+
+impl Kind {
+    /// The kind's name in case files and reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Kind::Integral(_) => "integral",
+            Kind::Density(_) => "density",
+            Kind::AnalyticDensity => "analytic-density",
+            Kind::PositionDensity => "position-density",
+        }
+    }
+
+    /// The formula that the claim is about, if it has one.
+    pub fn formula(&self) -> Option<&Formula> {
+        match self {
+            Kind::Integral(formula) | Kind::Density(formula) => Some(formula),
+            Kind::AnalyticDensity | Kind::PositionDensity => None,
+        }
+    }
+
+    /// The scalars that vanish where the claim holds.
+    pub fn residual(&self, phase: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        match self {
+            Kind::Integral(formula) => integral::residual(phase, formula),
+            Kind::Density(formula) => density::residual(phase, formula, kept),
+            Kind::AnalyticDensity | Kind::PositionDensity => criterion::residual(phase),
+        }
+    }
+
+    /// What is asked beside the residual, on a few states only.
+    pub fn context(&self, phase: &Phase<'_, Expr>, kept: &[bool]) -> Context {
+        let mut context = match self {
+            Kind::Integral(formula) => integral::context(phase, formula, kept),
+            Kind::Density(formula) => density::context(phase, formula),
+            Kind::AnalyticDensity | Kind::PositionDensity => criterion::context(phase),
+        };
+        if let Some(formula) = self.formula() {
+            context.quadrature_defects = quadrature_defects(phase, formula, kept);
+        }
+        context
+    }
+
+    /// Why this kind of claim cannot be made about `model`, if it cannot.
+    pub fn objection(&self, model: &Model) -> Option<String> {
+        let criterion = matches!(self, Kind::AnalyticDensity | Kind::PositionDensity);
+        (criterion && matches!(model.system, crate::mechanics::System::Field(_))).then(|| {
+            format!(
+                "`{}` is decided by a criterion that is known for the rubber systems and the flat \
+                 base only; state a density instead",
+                self.name()
+            )
+        })
+    }
+
+    /// What a non-zero residual excludes, where that is less than the whole claim.
+    pub fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        (matches!(self, Kind::AnalyticDensity) && !model.system.is_free()).then_some(
+            "the criterion is not zero, which excludes every density of the configuration alone; with \
+             a potential or a gyrostat one that depends on ω as well stays open",
+        )
+    }
+}
+
+/// Quantities that tell what a vanishing residual means.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    /// The square of what the residual is small against; a residual is resolved when its error
+    /// bound is far below the root of this.
+    pub scale: Option<Expr>,
+    /// Zero exactly when the integral is constant on the level.
+    pub off_level: Option<Expr>,
+    /// Zero exactly when the integral depends on the level functions and the energy.
+    pub off_general: Option<Expr>,
+    /// A density, whose sign tells whether it is a positive measure.
+    pub density: Option<Expr>,
+    /// Zero exactly when the integrand of each ∫ is a function of its variable, on the level.
+    pub quadrature_defects: Vec<Expr>,
+}
+
+/// |∇f|² less its part along ∇x and the level functions, for each ∫(f, x) of a formula.
+fn quadrature_defects(phase: &Phase<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+    if !formula.has_antiderivative() {
+        return Vec::new();
+    }
+    let level = level_gradients(phase, kept);
+    let columns: Vec<_> = (0..phase.model().dimension())
+        .map(|index| {
+            let moved = phase.lift_along(index);
+            formula.antiderivatives(&mut |symbol| moved.value(symbol))
+        })
+        .collect();
+    let count = columns.first().map_or(0, Vec::len);
+    (0..count)
+        .map(|k| {
+            let integrand: Vec<Expr> = columns.iter().map(|pairs| pairs[k].0.eps).collect();
+            let variable: Vec<Expr> = columns.iter().map(|pairs| pairs[k].1.eps).collect();
+            let mut others = level.clone();
+            others.push(variable);
+            calculus::distance_from_span(&integrand, &others)
+        })
+        .collect()
+}
+
+/// The gradients of the level functions that are kept.
+fn level_gradients(phase: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Vec<Expr>> {
+    calculus::kept_functions(phase, kept)
+        .map(|function| calculus::gradient(phase, |at| at.level_function(function)))
+        .collect()
+}

@@ -1,0 +1,29 @@
+//! `liouville check`
+
+use std::io::IsTerminal;
+
+use liouville::report::{json, terminal};
+
+use super::{Answer, Check, colour, files, width};
+
+pub fn run(options: &Check) -> Result<Answer, String> {
+    let run = files::judge(&options.paths, options.sampling)?;
+    let text = if options.json {
+        json::render(&run).map_err(|error| format!("error: {error}"))? + "\n"
+    } else {
+        let style = terminal::Style {
+            verbose: options.verbose,
+            colour: colour(std::io::stdout().is_terminal()),
+            width: width(),
+        };
+        terminal::render(&run, style)
+    };
+    if options.json {
+        for outcome in &run.outcomes {
+            if let Err(problem) = &outcome.result {
+                anstream::eprintln!("{problem}");
+            }
+        }
+    }
+    Ok(Answer { text, code: run.exit_code() })
+}

@@ -1,0 +1,48 @@
+//! `liouville eval`
+
+use std::io::IsTerminal;
+
+use liouville::case::{Case, Setting};
+use liouville::formula::canonical_name;
+use liouville::report::diagnostic;
+use liouville::report::point;
+use liouville::verdict;
+
+use super::{Answer, Eval, colour};
+
+pub fn run(options: &Eval) -> Result<Answer, String> {
+    let settings = options
+        .settings
+        .iter()
+        .map(|text| setting(text))
+        .collect::<Result<Vec<Setting>, String>>()?;
+    let shown = options.case.display().to_string();
+    let coloured = colour(std::io::stderr().is_terminal());
+    let (text, case) = Case::read(&options.case, &settings);
+    let case =
+        case.map_err(|error| diagnostic::render(&shown, &text, &error, coloured))?;
+    let state = match &options.state {
+        None => None,
+        Some(text) => Some(
+            verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
+        ),
+    };
+    let report = verdict::evaluate(&case, state.as_deref(), options.seed, options.index)
+        .map_err(|error| {
+            diagnostic::render_plain(&shown, &error.to_string(), error.help(), coloured)
+        })?;
+    let text = if options.json {
+        point::json(&report).map_err(|error| format!("error: {error}"))? + "\n"
+    } else {
+        point::text(&report)
+    };
+    Ok(Answer { text, code: 0 })
+}
+
+fn setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = text.split_once('=').ok_or_else(|| {
+        format!("error: --set: `{text}` is not of the form name=value, such as m=5/4")
+    })?;
+    let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
+    Ok(Setting { name, value: value.to_string() })
+}

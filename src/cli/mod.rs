@@ -1,0 +1,131 @@
+//! Commands and their options.
+
+pub mod check;
+pub mod eval;
+mod files;
+pub mod table;
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Decides which tensor invariants a mechanical system has.
+#[derive(Debug, Parser)]
+#[command(name = "liouville", version, about, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Check the claims of case files; all of cases/ by default
+    Check(Check),
+    /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
+    Eval(Eval),
+    /// Print a hierarchy table of the paper, filled from verdicts
+    Table(Table),
+}
+
+/// How states are drawn.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Sampling {
+    /// Seed of all random states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// How many states a claim must survive (rounded up to blocks of 64)
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub states: u64,
+    /// How many threads to use; all cores by default. Results do not depend on it
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Case files, or folders of them
+    #[arg(default_value = "cases")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Show witnesses and how each verdict came about
+    #[arg(short, long)]
+    pub verbose: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+#[derive(Debug, Args)]
+pub struct Eval {
+    /// A case file
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// The state, by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
+    #[arg(long, value_name = "STATE")]
+    pub state: Option<String>,
+    /// The number of the state that is drawn
+    #[arg(long, default_value_t = 0)]
+    pub index: u64,
+    /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Table {
+    /// The number of the table: 1 for the plane, 2 for the sphere
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=2))]
+    pub number: u32,
+    /// Case files, or folders of them
+    #[arg(default_value = "cases")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+/// What a command has to say: text for standard output, and the exit code.
+pub struct Answer {
+    pub text: String,
+    pub code: u8,
+}
+
+/// Prints the answer, or the problem; bad input exits with 2.
+pub fn finish(answer: Result<Answer, String>) -> ExitCode {
+    match answer {
+        Ok(answer) => {
+            let mut out = anstream::stdout().lock();
+            // A reader that closes the pipe has seen enough.
+            let _ = out.write_all(answer.text.as_bytes()).and_then(|()| out.flush());
+            ExitCode::from(answer.code)
+        }
+        Err(problem) => {
+            anstream::eprintln!("{problem}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Does this stream take colours?
+pub fn colour(terminal: bool) -> bool {
+    terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// The width to lay tables out for: the terminal's, or a fixed one for files and pipes.
+pub fn width() -> u16 {
+    const WIDE: u16 = 160;
+    if !std::io::stdout().is_terminal() {
+        return WIDE;
+    }
+    std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok()).unwrap_or(WIDE).clamp(60, 240)
+}

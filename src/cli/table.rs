@@ -1,0 +1,24 @@
+//! `liouville table`
+
+use liouville::report::table;
+
+use super::{Answer, Table, files, width};
+
+pub fn run(options: &Table) -> Result<Answer, String> {
+    let run = files::judge(&options.paths, options.sampling)?;
+    for outcome in &run.outcomes {
+        if let Err(problem) = &outcome.result {
+            anstream::eprintln!("{problem}");
+        }
+    }
+    let table = table::regenerate(&run, options.number);
+    if table.is_empty() && run.exit_code() != 2 {
+        return Err(format!("error: no case belongs to table {}", options.number));
+    }
+    let text = if options.json {
+        table.json().map_err(|error| format!("error: {error}"))? + "\n"
+    } else {
+        table.text(width())
+    };
+    Ok(Answer { text, code: run.exit_code() })
+}

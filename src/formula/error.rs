@@ -1,0 +1,90 @@
+//! What is wrong with a formula, where, and what would be right.
+
+use std::fmt;
+use std::ops::Range;
+
+/// A byte range of the formula's text.
+pub(super) type Span = Range<usize>;
+
+/// An error in a formula, ready to be shown below the line it was written on.
+///
+/// One pointer wide: every step of reading a formula returns one or a piece of the formula.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FormulaError(Box<Fault>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Fault {
+    message: String,
+    span: Span,
+    help: Option<String>,
+}
+
+impl FormulaError {
+    pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
+        Self(Box::new(Fault { message: message.into(), span, help: None }))
+    }
+
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// What is wrong.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// Where it is wrong, in bytes of the formula's text.
+    pub fn span(&self) -> Range<usize> {
+        self.0.span.clone()
+    }
+
+    /// What would be right, if that can be told.
+    pub fn help(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+}
+
+impl fmt::Display for FormulaError {
+    /// The message and, after a colon, the help.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.0.message)?;
+        self.0.help.iter().try_for_each(|help| write!(out, ": {help}"))
+    }
+}
+
+impl std::error::Error for FormulaError {}
+
+/// The text shown for a piece of a formula in a message; a long one is cut in the middle.
+pub(super) fn excerpt(text: &str) -> String {
+    const LONGEST: usize = 60;
+    const END: usize = 25;
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return text.to_string();
+    }
+    let start: String = text.chars().take(END).collect();
+    let end: String = text.chars().skip(count - END).collect();
+    format!("{start} … {end}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_prints_its_message_and_help() {
+        let bare = FormulaError::new(1..2, "missing `*`");
+        assert_eq!(bare.to_string(), "missing `*`", "no help, no colon");
+        let helped = bare.with_help("write `2*m`");
+        assert_eq!(helped.to_string(), "missing `*`: write `2*m`", "the help follows");
+        assert_eq!((helped.span(), helped.help()), (1..2, Some("write `2*m`")), "and is kept");
+    }
+
+    #[test]
+    fn long_pieces_are_cut() {
+        assert_eq!(excerpt("a + b"), "a + b", "short pieces stay whole");
+        let cut = excerpt(&"γ + ".repeat(1000));
+        assert!(cut.chars().count() < 60 && cut.contains('…'), "long ones are cut: {cut}");
+    }
+}

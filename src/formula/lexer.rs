@@ -1,0 +1,186 @@
+//! Text into tokens. Knows characters, not grammar.
+
+use super::error::{FormulaError, Span};
+use super::names::identifier_length;
+
+/// What a token is; texts of numbers and names are read off the span.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Number,
+    Name,
+    /// `²`, `⁻¹`: a power written above the line.
+    Superscript,
+    Transpose,
+    Plus,
+    Minus,
+    Cross,
+    Outer,
+    Times,
+    Slash,
+    Caret,
+    Root,
+    Integral,
+    Open,
+    Close,
+    OpenSquare,
+    CloseSquare,
+    Bar,
+    Comma,
+    /// After the last token; its span is empty.
+    End,
+}
+
+/// One token and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Token {
+    pub kind: Kind,
+    pub span: Span,
+}
+
+/// The tokens of a formula, an [`Kind::End`] last.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
+    let mut tokens = Vec::new();
+    let mut start = 0;
+    while let Some(first) = text[start..].chars().next() {
+        if first.is_whitespace() {
+            start += first.len_utf8();
+            continue;
+        }
+        let (kind, length) = token(&text[start..], first)
+            .ok_or_else(|| stray(first, start..start + first.len_utf8()))?;
+        tokens.push(Token { kind, span: start..start + length });
+        start += length;
+    }
+    tokens.push(Token { kind: Kind::End, span: start..start });
+    Ok(tokens)
+}
+
+/// The token at the start of `rest` and its length in bytes.
+fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
+    let sign = match first {
+        '+' => Kind::Plus,
+        '-' | '−' | '–' => Kind::Minus,
+        '×' | '⨯' => Kind::Cross,
+        '⊗' => Kind::Outer,
+        '*' | '·' | '⋅' | '∙' | '∗' => Kind::Times,
+        '/' => Kind::Slash,
+        '^' => Kind::Caret,
+        '√' => Kind::Root,
+        '∫' => Kind::Integral,
+        'ᵀ' | '⊤' => Kind::Transpose,
+        '(' => Kind::Open,
+        ')' => Kind::Close,
+        '[' => Kind::OpenSquare,
+        ']' => Kind::CloseSquare,
+        '|' => Kind::Bar,
+        ',' => Kind::Comma,
+        _ => {
+            return [
+                (Kind::Number, number_length(rest)),
+                (Kind::Superscript, superscript_length(rest)),
+                (Kind::Name, identifier_length(rest)),
+            ]
+            .into_iter()
+            .find(|(_, length)| *length > 0);
+        }
+    };
+    Some((sign, first.len_utf8()))
+}
+
+/// `12`, `3.5`, `.5`, `1e-3`: how many bytes at the start of the text are one number.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits =
+        |from: usize| bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
+    let mut length = digits(0);
+    if bytes.get(length) == Some(&b'.') && digits(length + 1) > 0 {
+        length += 1 + digits(length + 1);
+    }
+    if length > 0 && matches!(bytes.get(length), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
+        let exponent = digits(length + 1 + sign);
+        // without digits the e is the start of a name: `2e`
+        length += if exponent > 0 { 1 + sign + exponent } else { 0 };
+    }
+    length
+}
+
+fn superscript_length(text: &str) -> usize {
+    let sign = text.chars().next().filter(|c| matches!(c, '⁻' | '⁺')).map_or(0, char::len_utf8);
+    let digits = &text[sign..];
+    let length = digits.find(|c| superscript_digit(c).is_none()).unwrap_or(digits.len());
+    if length > 0 { sign + length } else { 0 }
+}
+
+fn superscript_digit(c: char) -> Option<char> {
+    let digit = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|known| known == c)?;
+    char::from_digit(u32::try_from(digit).ok()?, 10)
+}
+
+/// A superscript as the number it raises to, written in ordinary digits.
+pub(super) fn superscript_number(text: &str) -> String {
+    let plain = |c| match c {
+        '⁻' => Some('-'),
+        '⁺' => None,
+        _ => superscript_digit(c),
+    };
+    text.chars().filter_map(plain).collect()
+}
+
+fn stray(c: char, span: Span) -> FormulaError {
+    let error = FormulaError::new(span, format!("`{c}` has no meaning in a formula"));
+    match c {
+        '=' | '<' | '>' => error.with_help("a formula is a value, not an equation"),
+        '.' => error.with_help("a number has digits on both sides of its point, as in 3.5"),
+        '{' | '}' => error.with_help("group with ( )"),
+        '‖' => error.with_help("write a norm as |a|"),
+        '⁻' | '⁺' => error.with_help("digits follow the sign, as in ⁻¹"),
+        ';' => error.with_help("separate with `,`"),
+        _ => error,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kinds(text: &str) -> Vec<Kind> {
+        tokens(text).expect("tokens").into_iter().map(|token| token.kind).collect()
+    }
+
+    #[test]
+    fn numbers_stop_where_names_begin() {
+        use Kind::{End, Name, Number};
+        assert_eq!(kinds("2m"), [Number, Name, End], "a factor without its sign");
+        assert_eq!(kinds("2e"), [Number, Name, End], "e without digits is a name");
+        assert_eq!(kinds("2.5e-3"), [Number, End], "an exponent");
+        assert_eq!(kinds(".5"), [Number, End], "a leading point");
+        assert_eq!(kinds("f2'"), [Name, End], "digits and primes inside a name");
+    }
+
+    #[test]
+    fn superscripts_and_transposes_end_a_name() {
+        use Kind::{End, Name, Superscript, Transpose};
+        assert_eq!(kinds("γ²"), [Name, Superscript, End], "a square");
+        assert_eq!(kinds("B⁻¹"), [Name, Superscript, End], "an inverse");
+        assert_eq!(kinds("Bᵀ"), [Name, Transpose, End], "a transpose");
+        assert_eq!(superscript_number("⁻¹²"), "-12", "read as a number");
+    }
+
+    #[test]
+    fn every_span_lies_on_character_boundaries() {
+        let text = "|Ĩ*ω × γ|² − 2·𝒥ᵀ[1,2]";
+        let spans: Vec<Span> =
+            tokens(text).expect("tokens").into_iter().map(|token| token.span).collect();
+        assert_eq!(&text[spans[1].clone()], "Ĩ", "a letter with its tilde");
+        assert!(spans.iter().all(|span| text.get(span.clone()).is_some()), "sliceable");
+    }
+
+    #[test]
+    fn stray_characters_are_named() {
+        let error = tokens("a ≠ b").expect_err("not a formula");
+        assert_eq!((error.message(), error.span()), ("`≠` has no meaning in a formula", 2..5));
+        let error = tokens("a = b").expect_err("not a formula");
+        assert_eq!(error.help(), Some("a formula is a value, not an equation"));
+    }
+}

@@ -1,0 +1,175 @@
+//! The language in which formulas are written, nearly as in the papers.
+//!
+//! In goes a text such as `|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)` and a [`Scope`] that knows its
+//! names; out comes a [`Formula`], typed and ready to be evaluated over any [`Scalar`], or a
+//! [`FormulaError`] that says where the text is wrong and what to write instead.
+//!
+//! Operators, loosest first:
+//!
+//! | written | meaning |
+//! |---|---|
+//! | `a + b`, `a − b` | sum, difference |
+//! | `a × b`, `a ⊗ b` | cross and outer product; a row of them needs brackets |
+//! | `a*b`, `a/b` | product of scalars, matrices and vectors; quotient by a scalar |
+//! | `−a`, `√a` | negative, square root |
+//! | `a^b`, `a²`, `A⁻¹`, `Aᵀ`, `γ[3]`, `B[1,2]` | power, inverse, transpose, component |
+//!
+//! `(a,b)` is the dot product, `|a|` the norm or absolute value, `[a,b,c]` a vector and
+//! `[[..],[..],[..]]` a matrix by rows. `γ3` is a component of `γ`, `I12` an entry and `I1` a
+//! diagonal entry of `I`, unless they are names themselves. `E` is the identity matrix.
+//!
+//! ```
+//! use liouville::formula::{Formula, Scope, Symbol, Type, Value};
+//!
+//! struct Letters;
+//!
+//! impl Scope for Letters {
+//!     fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+//!         (name == "m").then_some((Symbol(0), Type::Scalar))
+//!     }
+//!     fn names(&self) -> Vec<String> {
+//!         vec!["m".to_string()]
+//!     }
+//! }
+//!
+//! let formula = Formula::parse("√m/2", &Letters).unwrap();
+//! assert_eq!(formula.evaluate(&mut |_| Value::Scalar(9.0)), Value::Scalar(1.5));
+//!
+//! let error = Formula::parse("2m", &Letters).unwrap_err();
+//! assert_eq!((error.span(), error.help()), (1..2, Some("write `2*m`")));
+//! ```
+
+mod algebra;
+mod arena;
+mod diagnosis;
+mod error;
+mod evaluate;
+mod functions;
+mod homogeneity;
+mod lexer;
+mod logarithm;
+mod names;
+mod operands;
+mod parser;
+mod powers;
+mod scope;
+mod spelling;
+mod typing;
+mod unary;
+mod value;
+mod weights;
+
+#[cfg(test)]
+mod tests;
+
+use num_dual::Dual;
+
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+pub use error::FormulaError;
+pub use names::canonical_name;
+pub use scope::{Scope, Symbol};
+pub use spelling::nearest;
+pub use value::{Type, Value};
+pub use weights::{Weight, WeightSystem};
+
+use arena::{Arena, Node, Operation};
+
+/// A formula that has been read: its names known, its types checked.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    text: String,
+    /// Arguments stand before their users, the whole formula is the last node.
+    arena: Arena,
+}
+
+impl Formula {
+    /// Reads a formula whose names the scope knows.
+    pub fn parse(text: &str, scope: &dyn Scope) -> Result<Formula, FormulaError> {
+        let arena = parser::parse(text, scope)?;
+        Ok(Formula { text: text.to_string(), arena })
+    }
+
+    /// The text as written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether the formula is a scalar, a vector or a matrix.
+    pub fn value_type(&self) -> Type {
+        self.root().value_type
+    }
+
+    /// The symbols used, each once, in the order they are first written.
+    pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.arena.symbols.iter().map(|(symbol, _)| *symbol)
+    }
+
+    /// The number the formula is, such as `3/7` or `-0.5`; `None` if it contains anything else.
+    pub fn constant(&self) -> Option<Rational> {
+        self.arena.constant(self.arena.nodes.len() - 1).cloned()
+    }
+
+    /// The value, given the values of the symbols it uses; each is asked for once.
+    ///
+    /// # Panics
+    /// If `lookup` gives a value of another type than the scope declared for the symbol.
+    pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
+        let values = evaluate::values(&self.arena, lookup);
+        values[values.len() - 1]
+    }
+
+    /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
+    ///
+    /// Taken factor by factor, so that roots, powers and exponentials of factors drop out. Zero if
+    /// the formula is not a scalar.
+    ///
+    /// # Panics
+    /// As [`evaluate`](Formula::evaluate).
+    pub fn logarithmic_derivative<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
+    ) -> T {
+        logarithm::logarithmic_derivative(&self.arena, lookup)
+    }
+
+    /// Does the formula contain an `∫`?
+    pub fn has_antiderivative(&self) -> bool {
+        let integral = |node: &Node| matches!(node.operation, Operation::Antiderivative(..));
+        self.arena.nodes.iter().any(integral)
+    }
+
+    /// Integrand and variable of every `∫`, evaluated, in the order the integrals are written.
+    ///
+    /// # Panics
+    /// As [`evaluate`](Formula::evaluate).
+    pub fn antiderivatives<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+    ) -> Vec<(T, T)> {
+        let values = evaluate::values(&self.arena, lookup);
+        let pair = |node: &Node| match node.operation {
+            Operation::Antiderivative(f, x) => Some((values[f].scalar()?, values[x].scalar()?)),
+            _ => None,
+        };
+        self.arena.nodes.iter().filter_map(pair).collect()
+    }
+
+    /// Checks that terms of sums, exponents and the like have fitting weights, and learns from
+    /// them the weights of symbols that were not set.
+    ///
+    /// The weight of the formula itself is returned if it is known by then; `None` also for 0,
+    /// which fits any weight.
+    pub fn check_weights(
+        &self,
+        weights: &mut WeightSystem,
+    ) -> Result<Option<Weight>, FormulaError> {
+        homogeneity::check(&self.arena, &self.text, weights)
+    }
+
+    fn root(&self) -> &Node {
+        // a formula that was read has at least one node
+        &self.arena.nodes[self.arena.nodes.len() - 1]
+    }
+}

@@ -1,0 +1,168 @@
+//! Names: which texts are identifiers, and the one canonical spelling of each.
+//!
+//! `gamma3`, `γ₃` and `γ3` are one name, as are `omega'` and `ω′`. Everything that stores or
+//! compares names does so in the form [`canonical_name`] gives.
+
+/// Greek letters by their English names, and the two decorated letters of the papers.
+const SPELLED: [(&str, &str); 35] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ε"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("iota", "ι"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("pi", "π"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("phi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+    ("Gamma", "Γ"),
+    ("Delta", "Δ"),
+    ("Theta", "Θ"),
+    ("Lambda", "Λ"),
+    ("Xi", "Ξ"),
+    ("Pi", "Π"),
+    ("Sigma", "Σ"),
+    ("Phi", "Φ"),
+    ("Psi", "Ψ"),
+    ("Omega", "Ω"),
+    ("Itilde", "Ĩ"),
+    ("Jtilde", "J\u{303}"),
+    ("Jscript", "𝒥"),
+];
+
+/// Per combining mark, the letters it joins with and what they become.
+const COMPOSED: [(char, &str, &str); 4] = [
+    ('\u{302}', "AEIOUaeiou", "ÂÊÎÔÛâêîôû"),
+    ('\u{303}', "AEINOUVYaeinouvy", "ÃẼĨÑÕŨṼỸãẽĩñõũṽỹ"),
+    ('\u{307}', "ABCDEFGHMNOPRSTWXYZabcdefghmnoprstwxyz", "ȦḂĊḊĖḞĠḢṀṄȮṖṘṠṪẆẊẎŻȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż"),
+    ('\u{308}', "AEHIOUWXYaehiotuwxy", "ÄËḦÏÖÜẄẌŸäëḧïöẗüẅẍÿ"),
+];
+
+/// The canonical form of one identifier, or `None` if the text is not one.
+///
+/// Spelled-out Greek becomes letters, look-alike letters, primes and subscript digits become one,
+/// a letter and its tilde become one character: `gamma3` → `γ3`, `mu_1` → `μ_1`, `Itilde` → `Ĩ`.
+pub fn canonical_name(text: &str) -> Option<String> {
+    if identifier_length(text) != text.len() || text.is_empty() {
+        return None;
+    }
+    let mut plain = String::with_capacity(text.len());
+    for c in text.chars() {
+        match (c, plain.chars().next_back().and_then(|last| compose(last, c))) {
+            (_, Some(composed)) => {
+                plain.pop();
+                plain.push(composed);
+            }
+            ('′' | '’', _) => plain.push('\''),
+            ('″', _) => plain.push_str("''"),
+            ('\u{b5}', _) => plain.push('μ'),
+            ('ϵ', _) => plain.push('ε'),
+            ('ϕ', _) => plain.push('φ'),
+            ('\u{2126}', _) => plain.push('Ω'),
+            _ => plain.push(subscript(c).unwrap_or(c)),
+        }
+    }
+    let base = plain.find(|c: char| !c.is_alphabetic()).unwrap_or(plain.len());
+    match SPELLED.iter().find(|(spelled, _)| *spelled == &plain[..base]) {
+        Some((_, letter)) => Some(format!("{letter}{}", &plain[base..])),
+        None => Some(plain),
+    }
+}
+
+/// How many bytes at the start of the text belong to one identifier; 0 if none starts here.
+pub(super) fn identifier_length(text: &str) -> usize {
+    let mut primed = false;
+    let ends = |(at, c): &(usize, char)| {
+        let belongs = match c {
+            _ if *at == 0 => is_letter(*c),
+            '\'' | '′' | '’' | '″' => {
+                primed = true;
+                true
+            }
+            _ if c.is_ascii_digit() || subscript(*c).is_some() => true,
+            // only digits follow a prime: γ'3 is a component of γ'
+            _ => !primed && (*c == '_' || is_letter(*c) || is_combining_mark(*c)),
+        };
+        !belongs
+    };
+    text.char_indices().find(ends).map_or(text.len(), |(at, _)| at)
+}
+
+fn is_letter(c: char) -> bool {
+    // the transpose sign is a letter to Unicode, but an operator to us
+    c.is_alphabetic() && c != 'ᵀ'
+}
+
+fn is_combining_mark(c: char) -> bool {
+    ('\u{300}'..='\u{36f}').contains(&c)
+}
+
+fn subscript(c: char) -> Option<char> {
+    let digit = (c as u32).checked_sub('₀' as u32).filter(|digit| *digit < 10)?;
+    char::from_digit(digit, 10)
+}
+
+fn compose(letter: char, mark: char) -> Option<char> {
+    let (_, letters, results) = COMPOSED.iter().find(|(with, _, _)| *with == mark)?;
+    results.chars().nth(letters.chars().position(|c| c == letter)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spellings_of_one_name_agree() {
+        let pairs = [
+            ("gamma3", "γ3"),
+            ("γ₃", "γ3"),
+            ("mu_1", "μ_1"),
+            ("omega'", "ω'"),
+            ("ω′", "ω'"),
+            ("r’’", "r''"),
+            ("r″", "r''"),
+            ("\u{b5}", "μ"),
+            ("ϵ", "ε"),
+            ("ϕ2", "φ2"),
+            ("Itilde", "Ĩ"),
+            ("I\u{303}12", "Ĩ12"),
+            ("Jscript", "𝒥"),
+            ("Omega", "Ω"),
+            ("x\u{307}", "ẋ"),
+            ("rdot", "rdot"),
+            ("gammas", "gammas"),
+            ("f2'", "f2'"),
+            ("γ'3", "γ'3"),
+        ];
+        for (text, canonical) in pairs {
+            assert_eq!(canonical_name(text).as_deref(), Some(canonical), "`{text}`");
+            assert_eq!(canonical_name(canonical).as_deref(), Some(canonical), "idempotent");
+        }
+    }
+
+    #[test]
+    fn other_texts_are_no_names() {
+        for text in ["", "3a", "a b", "a+b", "'", "_a", "aᵀ", "γ²", "a'b", "\u{303}", "a "] {
+            assert_eq!(canonical_name(text), None, "`{text}` is no identifier");
+        }
+    }
+
+    #[test]
+    fn the_composition_table_is_aligned() {
+        for (mark, letters, results) in COMPOSED {
+            assert_eq!(letters.chars().count(), results.chars().count(), "mark {mark:?}");
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! The grammar: operator precedence over tokens, building typed nodes as it reads.
+//!
+//! Loosest first: `+ −`; `× ⊗`; `* · /`; prefix `−` and `√`; `^`, superscripts, `ᵀ`, indices.
+//! Only brackets, prefixes and exponents nest, and no deeper than [`MAX_DEPTH`].
+
+use super::arena::Arena;
+use super::error::{FormulaError, Span};
+use super::lexer::{Kind, Token, tokens};
+use super::scope::Scope;
+use super::typing::{Builder, Infix, Operand};
+
+/// How deep brackets, prefixes and exponents may nest.
+const MAX_DEPTH: usize = 200;
+
+/// Binding strengths of the infix operators.
+const SUM: u8 = 1;
+const VECTOR_PRODUCT: u8 = 2;
+const PRODUCT: u8 = 3;
+
+/// The state of reading one formula.
+pub(super) struct Parser<'t> {
+    pub(super) builder: Builder<'t>,
+    pub(super) scope: &'t dyn Scope,
+    tokens: Vec<Token>,
+    position: usize,
+    depth: usize,
+    /// The innermost open bracket or bar.
+    innermost: Option<Span>,
+    /// Is it a bar, so that the next bar closes it?
+    inside_bars: bool,
+}
+
+pub(super) type Parsed = Result<Operand, FormulaError>;
+
+/// Reads a whole formula; the last node of the arena is its value.
+pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Arena, FormulaError> {
+    let builder = Builder { arena: Arena::default(), text };
+    let tokens = tokens(text)?;
+    let mut parser = Parser {
+        builder,
+        scope,
+        tokens,
+        position: 0,
+        depth: 0,
+        innermost: None,
+        inside_bars: false,
+    };
+    if parser.peek() == Kind::End {
+        return Err(FormulaError::new(0..text.len(), "the formula is empty"));
+    }
+    parser.expression(SUM)?;
+    match parser.peek() {
+        Kind::End => Ok(parser.builder.arena),
+        _ => Err(parser.unexpected_end()),
+    }
+}
+
+impl<'t> Parser<'t> {
+    pub(super) fn text(&self, span: &Span) -> &'t str {
+        &self.builder.text[span.clone()]
+    }
+
+    pub(super) fn token(&self) -> &Token {
+        // the End token is never passed
+        &self.tokens[self.position.min(self.tokens.len() - 1)]
+    }
+
+    pub(super) fn peek(&self) -> Kind {
+        self.token().kind
+    }
+
+    pub(super) fn advance(&mut self) -> Span {
+        let span = self.token().span.clone();
+        self.position += 1;
+        span
+    }
+
+    /// Reads one level further in, opened at `span`.
+    fn nested(&mut self, span: &Span, read: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
+        if self.depth == MAX_DEPTH {
+            let error = FormulaError::new(span.clone(), "this is nested too deeply");
+            return Err(error.with_help(format!("at most {MAX_DEPTH} levels are read")));
+        }
+        self.depth += 1;
+        let result = read(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// Reads an expression between the bracket or bar opened at `span` and its partner.
+    fn enclosed(&mut self, span: &Span, bars: bool) -> Parsed {
+        let outer_bars = std::mem::replace(&mut self.inside_bars, bars);
+        let outer = self.innermost.replace(span.clone());
+        let result = self.nested(span, |parser| parser.expression(SUM));
+        (self.innermost, self.inside_bars) = (outer, outer_bars);
+        result
+    }
+
+    /// Operands joined by operators that bind at least as tightly as `loosest`.
+    fn expression(&mut self, loosest: u8) -> Parsed {
+        let mut left = self.prefix()?;
+        while let Some((infix, level)) = infix(self.peek()).filter(|(_, level)| *level >= loosest) {
+            self.advance();
+            let right = self.expression(level + 1)?;
+            let result = self.builder.infix(infix, &left, &right)?;
+            if level == VECTOR_PRODUCT && matches!(self.peek(), Kind::Cross | Kind::Outer) {
+                return Err(self.chained_products(&left, &right));
+            }
+            left = result;
+        }
+        Ok(left)
+    }
+
+    /// `−a`, `√a`, `a^b`.
+    fn prefix(&mut self) -> Parsed {
+        let kind = self.peek();
+        if !matches!(kind, Kind::Minus | Kind::Root) {
+            return self.power();
+        }
+        let sign = self.advance();
+        let operand = self.nested(&sign, Self::prefix)?;
+        let span = sign.start..operand.span.end;
+        match kind {
+            Kind::Minus => Ok(self.builder.negate(&operand, span)),
+            _ => self.builder.root(&operand, span),
+        }
+    }
+
+    fn power(&mut self) -> Parsed {
+        let base = self.postfix()?;
+        if self.peek() != Kind::Caret {
+            return Ok(base);
+        }
+        let caret = self.advance();
+        let exponent = self.nested(&caret, Self::prefix)?;
+        self.builder.power(&base, &exponent)
+    }
+
+    /// A primary with its superscripts, transposes and indices.
+    fn postfix(&mut self) -> Parsed {
+        let mut operand = self.primary()?;
+        loop {
+            operand = match self.peek() {
+                Kind::Superscript => {
+                    let exponent = self.advance();
+                    let value = self.superscript(&exponent)?;
+                    let span = operand.span.start..exponent.end;
+                    self.builder.constant_power(&operand, &value, exponent, span)?
+                }
+                Kind::Transpose => {
+                    let span = operand.span.start..self.advance().end;
+                    self.builder.transpose(&operand, span)?
+                }
+                Kind::OpenSquare => {
+                    let (indices, brackets) = self.indices()?;
+                    self.builder.index(&operand, &indices, brackets)?
+                }
+                _ => break,
+            };
+        }
+        if self.starts_operand() { Err(self.missing_times(&operand)) } else { Ok(operand) }
+    }
+
+    fn primary(&mut self) -> Parsed {
+        match self.peek() {
+            Kind::Number => self.number(),
+            Kind::Name | Kind::Integral => self.name(),
+            Kind::Open => self.group(),
+            Kind::OpenSquare => self.literal(),
+            Kind::Bar => self.bars(),
+            _ => Err(self.missing_operand()),
+        }
+    }
+
+    /// `(a)` or `(a,b)`.
+    fn group(&mut self) -> Parsed {
+        let (items, span) = self.list(Kind::Close)?;
+        match items.as_slice() {
+            [inner] => {
+                // the brackets belong to the text of what they hold
+                self.builder.arena.nodes[inner.node].span = span.clone();
+                Ok(Operand { span, ..inner.clone() })
+            }
+            [a, b] => self.builder.dot(a, b, span),
+            _ => {
+                let error = FormulaError::new(span, "a dot product takes two vectors");
+                Err(error.with_help("a vector is written `[a,b,c]`"))
+            }
+        }
+    }
+
+    /// `|a|`.
+    fn bars(&mut self) -> Parsed {
+        let open = self.advance();
+        let inner = self.enclosed(&open, true)?;
+        if self.peek() != Kind::Bar {
+            return Err(self.unclosed(&open));
+        }
+        let span = open.start..self.advance().end;
+        self.builder.modulus(&inner, span)
+    }
+
+    /// Expressions between brackets, parted by commas; the span covers the brackets.
+    pub(super) fn list(&mut self, close: Kind) -> Result<(Vec<Operand>, Span), FormulaError> {
+        let open = self.advance();
+        if self.peek() == close {
+            let span = open.start..self.advance().end;
+            return Err(FormulaError::new(span, "there is nothing between these brackets"));
+        }
+        let mut items = Vec::new();
+        loop {
+            items.push(self.enclosed(&open, false)?);
+            match self.peek() {
+                Kind::Comma => self.advance(),
+                kind if kind == close => break,
+                _ => return Err(self.unclosed(&open)),
+            };
+        }
+        let span = open.start..self.advance().end;
+        Ok((items, span))
+    }
+
+    /// Does the next token begin an operand, where an operator should stand?
+    fn starts_operand(&self) -> bool {
+        match self.peek() {
+            Kind::Number | Kind::Name | Kind::Integral | Kind::Root | Kind::Open => true,
+            Kind::Bar => !self.inside_bars,
+            _ => false,
+        }
+    }
+
+    /// The innermost open bracket, to point at where something else should have closed it.
+    pub(super) fn innermost(&self) -> Option<Span> {
+        self.innermost.clone()
+    }
+
+    /// Reads what follows as an operand, for the sake of a message.
+    pub(super) fn attempt(&mut self) -> Parsed {
+        self.nested(&self.token().span.clone(), Self::prefix)
+    }
+}
+
+fn infix(kind: Kind) -> Option<(Infix, u8)> {
+    Some(match kind {
+        Kind::Plus => (Infix::Add, SUM),
+        Kind::Minus => (Infix::Subtract, SUM),
+        Kind::Cross => (Infix::Cross, VECTOR_PRODUCT),
+        Kind::Outer => (Infix::Outer, VECTOR_PRODUCT),
+        Kind::Times => (Infix::Multiply, PRODUCT),
+        Kind::Slash => (Infix::Divide, PRODUCT),
+        _ => return None,
+    })
+}

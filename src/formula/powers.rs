@@ -1,0 +1,79 @@
+//! Powers: which exponents go with scalars, vectors and matrices.
+
+use super::arena::{MAX_CONSTANT_BITS, Operation};
+use super::error::{FormulaError, Span};
+use super::typing::{Builder, Built, Operand};
+use super::value::Type;
+use crate::number::rational::Rational;
+
+/// Highest power of a matrix.
+const MAX_MATRIX_POWER: i64 = 100;
+
+impl Builder<'_> {
+    /// `base^exponent`.
+    pub fn power(&mut self, base: &Operand, exponent: &Operand) -> Built {
+        let span = base.span.start..exponent.span.end;
+        if exponent.value_type != Type::Scalar {
+            let message = format!("an exponent is a scalar, this is a {}", exponent.value_type);
+            return Err(FormulaError::new(exponent.span.clone(), message));
+        }
+        match self.arena.take_constant(exponent.node) {
+            Some(value) => self.constant_power(base, &value, exponent.span.clone(), span),
+            None if base.value_type == Type::Scalar => {
+                Ok(self.push(Operation::PowerOf(base.node, exponent.node), Type::Scalar, span))
+            }
+            None => {
+                let message = format!("a {} is raised to whole numbers only", base.value_type);
+                Err(FormulaError::new(exponent.span.clone(), message))
+            }
+        }
+    }
+
+    /// `base^value` for a number written at `exponent`.
+    pub fn constant_power(
+        &mut self,
+        base: &Operand,
+        value: &Rational,
+        exponent: Span,
+        span: Span,
+    ) -> Built {
+        let whole = value.to_integer();
+        match (base.value_type, whole) {
+            (Type::Scalar, _) => self.scalar_power(base, value, span),
+            (Type::Vector, Some(2)) => {
+                Ok(self.push(Operation::Dot(base.node, base.node), Type::Scalar, span))
+            }
+            (Type::Vector, _) => {
+                let error = FormulaError::new(exponent, "a vector has no power but its square");
+                Err(error
+                    .with_help(format!("write a power of the norm, `|{}|`", self.written(base))))
+            }
+            (Type::Matrix, Some(-1)) => {
+                Ok(self.push(Operation::Inverse(base.node), Type::Matrix, span))
+            }
+            (Type::Matrix, Some(n @ 1..=MAX_MATRIX_POWER)) => {
+                let operation = Operation::MatrixPower(base.node, n.unsigned_abs() as u32);
+                Ok(self.push(operation, Type::Matrix, span))
+            }
+            (Type::Matrix, _) => {
+                let message = format!("a matrix has the powers -1 and 1 to {MAX_MATRIX_POWER}");
+                Err(FormulaError::new(exponent, message))
+            }
+        }
+    }
+
+    fn scalar_power(&mut self, base: &Operand, value: &Rational, span: Span) -> Built {
+        let zero = self.arena.constant(base.node).is_some_and(Rational::is_zero);
+        if zero && value.is_negative() {
+            return Err(FormulaError::new(span, "this divides by zero"));
+        }
+        let fold = |n: &[&Rational]| {
+            let exponent = i32::try_from(value.to_integer()?).ok()?;
+            // the size is known before the power is taken
+            let bits = n[0].bits().checked_mul(u64::from(exponent.unsigned_abs()))?;
+            (bits <= MAX_CONSTANT_BITS).then(|| n[0].powi(exponent)).flatten()
+        };
+        let operation = Operation::Power(base.node, value.clone());
+        Ok(self.push_folded(operation, &[base.node], span, fold))
+    }
+}

@@ -1,0 +1,215 @@
+//! Every error: what it says, where it points, and what it suggests.
+
+use super::*;
+
+/// Checks the message, the text pointed at and the help of the error a text gives.
+#[track_caller]
+fn error(text: &str, message: &str, at: &str, help: Option<&str>) {
+    let error = refuse(text);
+    assert_eq!(error.message(), message, "the message for `{text}`");
+    assert_eq!(&text[error.span()], at, "the place in `{text}`");
+    assert_eq!(error.help(), help, "the help for `{text}`");
+}
+
+#[test]
+fn juxtaposition_is_not_a_product() {
+    let missing = "missing `*`";
+    error("2m", missing, "m", Some("write `2*m`"));
+    error("x + R(γ,c)", missing, "(", Some("write `R*(γ,c)`"));
+    error("(x)(y)", missing, "(", Some("write `(x)*(y)`"));
+    error("Ĩ ω", missing, "ω", Some("write `Ĩ*ω`"));
+    error("x√y", missing, "√", Some("write `x*√y`"));
+    error("2|x|", missing, "|", Some("write `2*|x|`"));
+    error("x² y^2", missing, "y", Some("write `x²*y^2`"));
+    error("2 ?", "`?` has no meaning in a formula", "?", None);
+    error("2(x", missing, "(", Some("write `2*(…`"));
+    error("2|mR|", "unknown name `mR`", "mR", Some("write `m*R`?"));
+    let vectors = "there is no operator between two vectors";
+    error("γ ω", vectors, "ω", Some("write `(γ,ω)` or `γ × ω`"));
+}
+
+#[test]
+fn unknown_names_are_guessed_at() {
+    error("mR + 1", "unknown name `mR`", "mR", Some("write `m*R`?"));
+    error("mγ3", "unknown name `mγ3`", "mγ3", Some("write `m*γ3`?"));
+    error("x + g2", "unknown name `g2`", "g2", Some("did you mean `g1`?"));
+    error("X", "unknown name `X`", "X", Some("did you mean `x`?"));
+    error("energy", "unknown name `energy`", "energy", None);
+    error("pi", "unknown name `pi`", "pi", None);
+    error("sqr(x)", "unknown function `sqr`", "sqr", Some("did you mean `sqrt`?"));
+    error("γ4", "there is no component `γ4`", "γ4", Some("`γ` has the components γ1, γ2, γ3"));
+    error("I14", "there is no component `I14`", "I14", Some("`I` has the entries I11 to I33"));
+}
+
+#[test]
+fn sums_need_equal_types() {
+    error("x + γ", "a scalar cannot be added to a vector", "x + γ", None);
+    error("γ - x", "a scalar cannot be subtracted from a vector", "γ - x", None);
+    error("x + B", "a scalar cannot be added to a matrix", "x + B", Some("write `x*E`"));
+}
+
+#[test]
+fn products_need_fitting_types() {
+    error(
+        "x*γ*ω",
+        "`*` does not multiply two vectors",
+        "x*γ*ω",
+        Some("write `(x*γ,ω)` or `x*γ × ω`"),
+    );
+    error("γ*B", "a vector cannot stand left of a matrix", "γ*B", Some("write `Bᵀ*γ`"));
+    error(
+        "B × γ",
+        "`×` stands between two vectors, not a matrix and a vector",
+        "B × γ",
+        Some("write `B*γ`"),
+    );
+    error(
+        "x/γ",
+        "nothing can be divided by a vector",
+        "γ",
+        Some("divide by a scalar such as its norm"),
+    );
+    error(
+        "γ/B",
+        "nothing can be divided by a matrix",
+        "B",
+        Some("write `solve(B, γ)` or `inverse(B)`"),
+    );
+    error("x/0", "this divides by zero", "0", None);
+    error("x/(1-1)", "this divides by zero", "(1-1)", None);
+    error("0^-1", "this divides by zero", "0^-1", None);
+    error(
+        "γ × ω × c",
+        "products of vectors in a row need brackets",
+        "γ × ω × c",
+        Some("write `(γ × ω) × c` or `γ × (ω × c)`"),
+    );
+    error(
+        "γ × ω ⊗ c",
+        "products of vectors in a row need brackets",
+        "γ × ω ⊗ c",
+        Some("write `(γ × ω) ⊗ c` or `γ × (ω ⊗ c)`"),
+    );
+    error("(x,γ)", "a dot product takes two vectors, this is a scalar", "x", None);
+    error(
+        "(γ,ω,c)",
+        "a dot product takes two vectors",
+        "(γ,ω,c)",
+        Some("a vector is written `[a,b,c]`"),
+    );
+}
+
+#[test]
+fn powers_need_fitting_types() {
+    error("x^γ", "an exponent is a scalar, this is a vector", "γ", None);
+    error("γ^x", "a vector is raised to whole numbers only", "x", None);
+    let norm = Some("write a power of the norm, `|γ|`");
+    error("γ^3", "a vector has no power but its square", "3", norm);
+    error("γ⁻¹", "a vector has no power but its square", "⁻¹", norm);
+    error("B^-2", "a matrix has the powers -1 and 1 to 100", "-2", None);
+    error("B^(1/2)", "a matrix has the powers -1 and 1 to 100", "(1/2)", None);
+    error("√γ", "a vector has no square root", "γ", None);
+    error(
+        "γᵀ",
+        "only a matrix is transposed, this is a vector",
+        "γ",
+        Some("write `(a,b)` for aᵀb and `a ⊗ b` for abᵀ"),
+    );
+    error("|B|", "bars do not stand around a matrix", "|B|", Some("write `det(B)`"));
+}
+
+#[test]
+fn functions_check_their_arguments() {
+    error(
+        "det(γ)",
+        "`det` takes a matrix here, this is a vector",
+        "γ",
+        Some("write `det(matrix)`"),
+    );
+    error("det(B, B)", "`det` takes 1 argument, not 2", "det(B, B)", Some("write `det(matrix)`"));
+    error("x + det", "`det` is a function", "det", Some("write `det(matrix)`"));
+    error("∫ x", "`∫` is a function", "∫", Some("write `∫(integrand, variable)`"));
+    error(
+        "diag(x,y)",
+        "`diag` takes 1 or 3 arguments, not 2",
+        "diag(x,y)",
+        Some("write `diag(vector)` or `diag(scalar, scalar, scalar)`"),
+    );
+}
+
+#[test]
+fn literals_and_indices_have_three_places() {
+    let vector = Some("a vector is written `[a,b,c]`, a dot product `(a,b)`");
+    error("[1,2]", "a vector has 3 components, not 2", "[1,2]", vector);
+    let rows = Some("a matrix with the rows u, v, w is written `mat(u,v,w)`");
+    error("[x,γ,1]", "a component is a scalar, this is a vector", "γ", rows);
+    error("[γ,ω,c]", "a component is a scalar, this is a vector", "γ", rows);
+    error("[[1,2,3],γ,c]", "a row of a matrix is written `[a,b,c]`, this is a vector", "γ", rows);
+    let index = Some("write `γ[3]` or `B[1,2]`");
+    error("γ[4]", "an index is 1, 2 or 3", "4", index);
+    error("γ[x]", "an index is 1, 2 or 3", "x", index);
+    error("γ[1,2]", "a vector has one index", "[1,2]", Some("write `γ[1]`"));
+    error("B[1]", "a matrix has two indices", "[1]", Some("write `B[1,2]`"));
+    error("x[1]", "a scalar has no components", "[1]", None);
+}
+
+#[test]
+fn brackets_point_at_the_opening_one() {
+    error("x*(x + (y)", "this `(` is not closed", "(", None);
+    assert_eq!(refuse("x*(x + (y)").span(), 2..3, "the outer one is open");
+    error("(x|", "this `|` has no partner", "|", None);
+    error("|x", "this `|` is not closed", "|", None);
+    let bar = Some("it should close before `|`");
+    error("|(x|", "this `(` is not closed", "(", bar);
+    error("[1,2,3", "this `[` is not closed", "[", None);
+    error("(x]", "this `(` is not closed", "(", Some("it should close before `]`"));
+    error("γ[1", "this `[` is not closed", "[", None);
+    error("γ[", "this `[` is not closed", "[", None);
+    error("x)", "this `)` closes nothing", ")", None);
+    error("x|", "this `|` has no partner", "|", None);
+    error("()", "there is nothing between these brackets", "()", None);
+}
+
+#[test]
+fn incomplete_formulas_say_so() {
+    error("", "the formula is empty", "", None);
+    error("  ", "the formula is empty", "  ", None);
+    error("x + ", "the formula breaks off after this", "+", None);
+    error("x*/y", "a number, a name or a bracket should stand before `/`", "/", None);
+    error(
+        "+x",
+        "a number, a name or a bracket should stand before `+`",
+        "+",
+        Some("leave out a leading `+`"),
+    );
+    error(
+        "x**2",
+        "a number, a name or a bracket should stand before `*`",
+        "*",
+        Some("a power is written `a^b`"),
+    );
+    let comma = Some("a dot product is written `(a,b)`, a vector `[a,b,c]`");
+    error("γ,ω", "a comma stands between brackets only", ",", comma);
+    error(
+        "x = y",
+        "`=` has no meaning in a formula",
+        "=",
+        Some("a formula is a value, not an equation"),
+    );
+    error(
+        "1e99999",
+        "this number is too long: at most 4000 digits and exponents within ±1000",
+        "1e99999",
+        None,
+    );
+}
+
+#[test]
+fn nesting_has_a_limit() {
+    for open in ["(", "|", "-", "√", "[", "x^", "exp(", "2*(", "γ × (", "[1,2,"] {
+        let error = refuse(&open.repeat(100_000));
+        assert_eq!(error.message(), "this is nested too deeply", "{open} without end");
+        assert_eq!(error.help(), Some("at most 200 levels are read"), "the limit is told");
+    }
+    assert_eq!(read(&format!("{}x", "-".repeat(200))).value_type(), Type::Scalar, "200 are fine");
+}

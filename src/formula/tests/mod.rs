@@ -1,0 +1,92 @@
+//! Tests of the whole language, over one small scope.
+
+mod errors;
+mod language;
+mod logarithm;
+mod random;
+mod weights;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Formula, FormulaError, Scope, Symbol, Type, Value};
+
+/// The names the tests use.
+const NAMES: [(&str, Type); 13] = [
+    ("m", Type::Scalar),
+    ("R", Type::Scalar),
+    ("k", Type::Scalar),
+    ("x", Type::Scalar),
+    ("y", Type::Scalar),
+    ("g1", Type::Scalar),
+    ("γ", Type::Vector),
+    ("ω", Type::Vector),
+    ("c", Type::Vector),
+    ("r'", Type::Vector),
+    ("I", Type::Matrix),
+    ("Ĩ", Type::Matrix),
+    ("B", Type::Matrix),
+];
+
+struct Names;
+
+impl Scope for Names {
+    fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+        let place = NAMES.iter().position(|(known, _)| *known == name)?;
+        Some((Symbol(place as u32), NAMES[place].1))
+    }
+
+    fn names(&self) -> Vec<String> {
+        NAMES.iter().map(|(name, _)| name.to_string()).collect()
+    }
+}
+
+fn symbol(name: &str) -> Symbol {
+    Names.lookup(name).expect("a name of the tests").0
+}
+
+/// Positive values, no two alike.
+fn value_of(Symbol(number): Symbol) -> Value<f64> {
+    let place = number as usize;
+    let entry = |i: usize| 0.5 + 0.37 * ((7 * place + 3 * i + i * i * place) % 11) as f64;
+    match NAMES[place].1 {
+        Type::Scalar => Value::Scalar(entry(0) + 0.25 * place as f64),
+        Type::Vector => Value::Vector(Vector3::from_fn(|i, _| entry(i))),
+        Type::Matrix => Value::Matrix(Matrix3::from_fn(|i, j| {
+            entry(i + 2 * j) + if i == j { 6.0 } else { 0.0 }
+        })),
+    }
+}
+
+fn scalar_of(name: &str) -> f64 {
+    value_of(symbol(name)).scalar().expect("a scalar")
+}
+
+fn vector_of(name: &str) -> Vector3<f64> {
+    value_of(symbol(name)).vector().expect("a vector")
+}
+
+fn matrix_of(name: &str) -> Matrix3<f64> {
+    value_of(symbol(name)).matrix().expect("a matrix")
+}
+
+fn read(text: &str) -> Formula {
+    Formula::parse(text, &Names).unwrap_or_else(|error| panic!("`{text}`: {error}"))
+}
+
+fn refuse(text: &str) -> FormulaError {
+    match Formula::parse(text, &Names) {
+        Ok(formula) => panic!("`{text}` reads as a {}", formula.value_type()),
+        Err(error) => error,
+    }
+}
+
+fn evaluate(text: &str) -> Value<f64> {
+    read(text).evaluate(&mut value_of)
+}
+
+/// Do the two agree up to rounding?
+fn close(a: &Value<f64>, b: &Value<f64>) -> bool {
+    let (a, b) = (a.components(), b.components());
+    let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+    a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-9 * size)
+}

@@ -1,0 +1,174 @@
+//! Weights of symbols in one base dimension, and what equations between them imply.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::scope::Symbol;
+use crate::number::rational::Rational;
+
+/// The power of the base dimension with which a quantity scales: -1 for a frequency in time.
+pub type Weight = Rational;
+
+/// A weight that may depend on weights not yet known: `constant + Σ factor · unknown`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Form {
+    constant: Rational,
+    /// Factors by unknown; none is zero.
+    factors: BTreeMap<usize, Rational>,
+}
+
+impl Form {
+    pub fn constant(constant: Rational) -> Self {
+        Self { constant, factors: BTreeMap::new() }
+    }
+
+    pub fn zero() -> Self {
+        Self::constant(Rational::from(0))
+    }
+
+    /// `self + factor · other`.
+    pub fn plus(mut self, other: &Form, factor: &Rational) -> Self {
+        self.constant = &self.constant + &(&other.constant * factor);
+        for (unknown, its) in &other.factors {
+            let added = its * factor;
+            let total = self.factors.get(unknown).map_or(added.clone(), |old| old + &added);
+            if total.is_zero() {
+                self.factors.remove(unknown);
+            } else {
+                self.factors.insert(*unknown, total);
+            }
+        }
+        self
+    }
+
+    /// `factor · self`.
+    pub fn times(&self, factor: &Rational) -> Self {
+        Self::zero().plus(self, factor)
+    }
+
+    /// The weight, if no unknown is left in it.
+    pub fn known(&self) -> Option<&Weight> {
+        self.factors.is_empty().then_some(&self.constant)
+    }
+}
+
+/// The weights of all symbols of a case in one base dimension, known or being inferred.
+///
+/// Every formula that is checked adds its equations, so what one formula says of a symbol holds
+/// in the next.
+#[derive(Clone, Debug)]
+pub struct WeightSystem {
+    dimension: String,
+    symbols: HashMap<Symbol, usize>,
+    unknowns: usize,
+    /// Unknowns expressed in unknowns of smaller number.
+    solved: HashMap<usize, Form>,
+}
+
+impl WeightSystem {
+    /// A system for one base dimension, such as `time`, in which no weight is known.
+    pub fn new(dimension_name: &str) -> Self {
+        Self {
+            dimension: dimension_name.to_string(),
+            symbols: HashMap::new(),
+            unknowns: 0,
+            solved: HashMap::new(),
+        }
+    }
+
+    /// Declares a weight. To be done before formulas are checked: a weight already inferred stays.
+    pub fn set(&mut self, symbol: Symbol, weight: Rational) {
+        let symbol = self.symbol(symbol);
+        // a contradiction leaves the system as it was
+        let _ = self.equate(&symbol, &Form::constant(weight));
+    }
+
+    /// The weight of a symbol, if it is declared or implied by the formulas checked so far.
+    pub fn get(&self, symbol: Symbol) -> Option<Weight> {
+        let unknown = *self.symbols.get(&symbol)?;
+        self.reduced(Form { factors: [(unknown, Rational::from(1))].into(), ..Form::zero() })
+            .known()
+            .cloned()
+    }
+
+    /// The name of the base dimension.
+    pub fn dimension(&self) -> &str {
+        &self.dimension
+    }
+
+    /// The weight of a symbol, unknown or not.
+    pub(super) fn symbol(&mut self, symbol: Symbol) -> Form {
+        let next = &mut self.unknowns;
+        let unknown = *self.symbols.entry(symbol).or_insert_with(|| {
+            *next += 1;
+            *next - 1
+        });
+        self.reduced(variable(unknown))
+    }
+
+    /// A weight about which nothing is known.
+    pub(super) fn fresh(&mut self) -> Form {
+        self.unknowns += 1;
+        variable(self.unknowns - 1)
+    }
+
+    /// The same weight with everything known put in.
+    pub(super) fn reduced(&self, mut form: Form) -> Form {
+        let mut free = BTreeMap::new();
+        // solutions contain smaller unknowns only, so the largest is never met again
+        while let Some((unknown, factor)) = form.factors.pop_last() {
+            match self.solved.get(&unknown) {
+                Some(solution) => form = form.plus(solution, &factor),
+                None => {
+                    free.insert(unknown, factor);
+                }
+            }
+        }
+        Form { constant: form.constant, factors: free }
+    }
+
+    /// Adds the equation `left = right`; `Err` with their difference if it contradicts others.
+    pub(super) fn equate(&mut self, left: &Form, right: &Form) -> Result<(), Weight> {
+        let minus = Rational::from(-1);
+        let mut difference = self.reduced(left.clone().plus(right, &minus));
+        let Some((unknown, factor)) = difference.factors.pop_last() else {
+            let constant = difference.constant;
+            return if constant.is_zero() { Ok(()) } else { Err(constant) };
+        };
+        if let Some(inverse) = factor.recip() {
+            self.solved.insert(unknown, difference.times(&-&inverse));
+        }
+        Ok(())
+    }
+}
+
+fn variable(unknown: usize) -> Form {
+    Form { constant: Rational::from(0), factors: [(unknown, Rational::from(1))].into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equations_determine_unknowns() {
+        let mut system = WeightSystem::new("time");
+        let one = Rational::from(1);
+        let (x, y) = (system.symbol(Symbol(0)), system.symbol(Symbol(1)));
+        let sum = x.clone().plus(&y, &one);
+        assert_eq!(system.equate(&sum, &Form::constant(3.into())), Ok(()), "x + y = 3");
+        assert_eq!(system.get(Symbol(0)), None, "not determined yet");
+        assert_eq!(system.equate(&x, &y.times(&Rational::from(2))), Ok(()), "x = 2y");
+        assert_eq!(system.get(Symbol(0)), Some(Rational::from(2)), "x");
+        assert_eq!(system.get(Symbol(1)), Some(Rational::from(1)), "y");
+        assert_eq!(system.equate(&x, &y), Err(Rational::from(1)), "x = y contradicts");
+    }
+
+    #[test]
+    fn declared_weights_are_known_at_once() {
+        let mut system = WeightSystem::new("time");
+        system.set(Symbol(5), Rational::from(-1));
+        assert_eq!(system.symbol(Symbol(5)).known(), Some(&Rational::from(-1)), "declared");
+        assert_eq!(system.fresh().known(), None, "a fresh weight is unknown");
+        assert_eq!(system.get(Symbol(6)), None, "so is that of a symbol never seen");
+    }
+}

@@ -1,0 +1,125 @@
+//! Runs a tape over blocks of states in any number domain.
+
+use super::tape::{Instruction, Tape};
+use crate::number::Domain;
+
+/// A tape with the memory to run it in one domain; built once, run on many blocks.
+pub struct Evaluator<'t, D: Domain> {
+    tape: &'t Tape,
+    domain: D,
+    slots: Vec<Box<D::Block>>,
+    spare: Box<D::Block>,
+}
+
+impl<'t, D: Domain> Evaluator<'t, D> {
+    /// Prepares the constants of `tape` in `domain`.
+    pub fn new(tape: &'t Tape, domain: D) -> Self {
+        let blank = domain.constant(&crate::number::rational::Rational::from(0));
+        let mut slots: Vec<Box<D::Block>> =
+            (0..tape.slots).map(|_| Box::new(blank.clone())).collect();
+        for (slot, value) in slots[tape.inputs..].iter_mut().zip(&tape.constants) {
+            **slot = domain.constant(value);
+        }
+        Self { tape, domain, slots, spare: Box::new(blank) }
+    }
+
+    /// Computes the outputs from one block an input; inputs that are left out keep their value.
+    pub fn run(&mut self, inputs: &[D::Block]) {
+        for (slot, input) in self.slots.iter_mut().take(self.tape.inputs).zip(inputs) {
+            (**slot).clone_from(input);
+        }
+        self.execute();
+    }
+
+    /// The value of output `index` after the last run.
+    pub fn output(&self, index: usize) -> &D::Block {
+        &self.slots[self.tape.outputs[index] as usize]
+    }
+
+    /// All outputs of the last run.
+    pub fn outputs(&self) -> impl Iterator<Item = &D::Block> {
+        self.tape.outputs.iter().map(|slot| &*self.slots[*slot as usize])
+    }
+
+    fn execute(&mut self) {
+        for instruction in &self.tape.instructions {
+            // The result is made beside the slots and swapped in: it may replace an argument.
+            let (slots, out) = (&self.slots, &mut *self.spare);
+            let target = match *instruction {
+                Instruction::Unary { function, a, out: target } => {
+                    self.domain.unary(function, &slots[a as usize], out);
+                    target
+                }
+                Instruction::Binary { operation, a, b, out: target } => {
+                    self.domain.binary(operation, &slots[a as usize], &slots[b as usize], out);
+                    target
+                }
+                Instruction::Power { a, exponent, out: target } => {
+                    let exponent = &self.tape.exponents[exponent as usize];
+                    self.domain.power(&slots[a as usize], exponent, out);
+                    target
+                }
+            };
+            std::mem::swap(&mut self.slots[target as usize], &mut self.spare);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record;
+    use super::*;
+    use crate::number::ball::Ball;
+    use crate::number::exact::Exact;
+    use crate::number::float::Float;
+    use crate::number::rational::Rational;
+    use crate::scalar::Scalar;
+    use num_dual::DualNum;
+
+    #[test]
+    fn slots_are_reused() {
+        let (graph, sum) = record(1, |x| (0..100).fold(x[0], |sum, _| (sum * x[0] + x[0]).sqrt()))
+            .expect("records");
+        let tape = Tape::new(&graph, &[sum]);
+        assert!(tape.slots <= 4, "a chain needs two slots beside its input, not {}", tape.slots);
+    }
+
+    #[test]
+    fn dead_code_is_left_out() {
+        let (graph, kept) = record(1, |x| {
+            let _unused = x[0].exp().sin();
+            x[0] + x[0]
+        })
+        .expect("records");
+        assert_eq!(Tape::new(&graph, &[kept]).operations(), 1, "only the sum is computed");
+    }
+
+    #[test]
+    fn all_domains_agree_on_a_rational_function() {
+        let (graph, value) = record(2, |x| {
+            let third = Expr::rational(&Rational::new(1, 3));
+            (x[0] * x[0] - third) / (x[1] + x[0]) - x[1].powi(-2)
+        })
+        .expect("records");
+        let tape = Tape::new(&graph, &[value]);
+        let state = [Rational::new(3, 7), Rational::new(-5, 4)];
+        let mut exact = Evaluator::new(&tape, Exact);
+        exact.run(&state.clone().map(Some));
+        let reference = exact.output(0).clone().expect("a rational value");
+
+        let mut float = Evaluator::new(&tape, Float::<4>);
+        float.run(&state.clone().map(|x| [x.to_f64().0; 4]));
+        let (nearest, _) = reference.to_f64();
+        assert!((float.output(0)[3] - nearest).abs() < 1e-15, "f64 is near the exact value");
+
+        let mut ball = Evaluator::new(&tape, Ball::<4>);
+        ball.run(&state.map(|x| Ball::<4>.values(&[x])));
+        let enclosure = ball.output(0);
+        let mid = Rational::from_f64(enclosure.mid[2]).expect("finite");
+        let rad = Rational::from_f64(enclosure.rad[2]).expect("finite");
+        assert!((&mid - &reference).abs() <= rad, "the ball holds the exact value");
+        assert!(enclosure.rad[2] < 1e-14, "and is narrow");
+    }
+
+    use super::super::Expr;
+}

@@ -1,0 +1,211 @@
+//! [`Expr`], the recording scalar: a handle into the graph that is being recorded.
+
+use std::fmt;
+use std::ops::{
+    Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
+};
+
+use super::{Fault, Graph, NodeId, with_graph};
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::scalar::Scalar;
+
+/// A value of the recording under way. Arithmetic on it adds nodes to the graph.
+///
+/// It has neither magnitude nor order: comparing it, or asking for its absolute value by
+/// `abs`, makes the recording fail with a [`Fault`]; equality means "the same node".
+#[derive(Clone, Copy)]
+pub struct Expr {
+    session: u32,
+    node: NodeId,
+}
+
+impl Expr {
+    /// The node, or `None` for a handle that was never part of a recording.
+    pub(super) fn id(self) -> Option<NodeId> {
+        (self.session != 0).then_some(self.node)
+    }
+
+    /// A further free input of the recording under way.
+    pub(super) fn input() -> Self {
+        Self::made(Graph::input)
+    }
+
+    /// Runs `make` in the current graph.
+    fn made(make: impl FnOnce(&mut Graph) -> NodeId) -> Self {
+        with_graph(|graph| {
+            let node = make(graph);
+            Self { session: graph.session, node }
+        })
+    }
+
+    /// This value's node in `graph`; one of another recording is a fault, and counts as 0.
+    fn node_in(self, graph: &mut Graph) -> NodeId {
+        if self.session == graph.session {
+            return self.node;
+        }
+        graph.fail(Fault::ForeignValue);
+        graph.constant(Rational::from(0))
+    }
+
+    pub(super) fn constant(value: Rational) -> Self {
+        Self::made(|graph| graph.constant(value))
+    }
+
+    pub(super) fn unary(self, function: Function) -> Self {
+        Self::made(|graph| {
+            let a = self.node_in(graph);
+            graph.unary(function, a)
+        })
+    }
+
+    pub(super) fn binary(self, operation: Operation, other: Self) -> Self {
+        Self::made(|graph| {
+            let (a, b) = (self.node_in(graph), other.node_in(graph));
+            graph.binary(operation, a, b)
+        })
+    }
+
+    /// The constant this value was folded to.
+    pub(super) fn known(self) -> Option<Rational> {
+        with_graph(|graph| {
+            let node = self.node_in(graph);
+            graph.constant_at(node).cloned()
+        })
+    }
+
+    /// Reports an operation that needs a magnitude or an order.
+    pub(super) fn refuse(operation: &'static str) {
+        with_graph(|graph| graph.fail(Fault::NeedsValue(operation)));
+    }
+}
+
+impl Scalar for Expr {
+    fn rational(value: &Rational) -> Self {
+        Self::constant(value.clone())
+    }
+
+    fn power(self, exponent: &Rational) -> Self {
+        Self::made(|graph| {
+            let base = self.node_in(graph);
+            graph.power(base, exponent)
+        })
+    }
+
+    fn power_of(self, exponent: Self) -> Self {
+        self.binary(Operation::Pow, exponent)
+    }
+
+    fn modulus(self) -> Self {
+        self.unary(Function::Abs)
+    }
+
+    fn antiderivative(integrand: Self, variable: Self) -> Self {
+        Self::made(|graph| {
+            let (integrand, variable) = (integrand.node_in(graph), variable.node_in(graph));
+            graph.antiderivative(integrand, variable)
+        })
+    }
+}
+
+impl From<f64> for Expr {
+    /// The dyadic rational that the f64 is; NaN and infinities make the recording fail.
+    fn from(value: f64) -> Self {
+        match Rational::from_f64(value) {
+            Some(value) => Self::constant(value),
+            None => {
+                Self::refuse("a constant that is not finite");
+                Self::constant(Rational::from(0))
+            }
+        }
+    }
+}
+
+impl fmt::Debug for Expr {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "node {}", self.node.0)
+    }
+}
+
+impl fmt::Display for Expr {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self, out)
+    }
+}
+
+impl PartialEq for Expr {
+    fn eq(&self, other: &Self) -> bool {
+        self.session == other.session && self.node == other.node
+    }
+}
+
+impl PartialEq<f64> for Expr {
+    fn eq(&self, other: &f64) -> bool {
+        *self == Self::from(*other)
+    }
+}
+
+impl Neg for Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        self.unary(Function::Neg)
+    }
+}
+
+impl Neg for &Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        -*self
+    }
+}
+
+fn quotient(a: Expr, b: Expr) -> Expr {
+    // One reciprocal serves every quotient by the same denominator.
+    a.binary(Operation::Mul, b.unary(Function::Recip))
+}
+
+fn remainder(a: Expr, _: Expr) -> Expr {
+    Expr::refuse("%");
+    a
+}
+
+macro_rules! arithmetic {
+    ($($trait:ident $method:ident $assign_trait:ident $assign:ident $with:expr;)*) => {$(
+        impl $trait for Expr {
+            type Output = Expr;
+            fn $method(self, other: Expr) -> Expr {
+                $with(self, other)
+            }
+        }
+        impl $trait<&Expr> for Expr {
+            type Output = Expr;
+            fn $method(self, other: &Expr) -> Expr {
+                $with(self, *other)
+            }
+        }
+        impl $trait<f64> for Expr {
+            type Output = Expr;
+            fn $method(self, other: f64) -> Expr {
+                $with(self, Expr::from(other))
+            }
+        }
+        impl $assign_trait for Expr {
+            fn $assign(&mut self, other: Expr) {
+                *self = $with(*self, other);
+            }
+        }
+        impl $assign_trait<f64> for Expr {
+            fn $assign(&mut self, other: f64) {
+                *self = $with(*self, Expr::from(other));
+            }
+        }
+    )*};
+}
+
+arithmetic! {
+    Add add AddAssign add_assign |a: Expr, b| a.binary(Operation::Add, b);
+    Sub sub SubAssign sub_assign |a: Expr, b| a.binary(Operation::Sub, b);
+    Mul mul MulAssign mul_assign |a: Expr, b| a.binary(Operation::Mul, b);
+    Div div DivAssign div_assign quotient;
+    Rem rem RemAssign rem_assign remainder;
+}

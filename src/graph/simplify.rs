@@ -1,0 +1,270 @@
+//! How nodes are made: equal ones once, and with the simplifications that hold for every number.
+//!
+//! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` are one node),
+//! `x - x`, `x · 1/x`, `√x · √x`. Not rewritten, because it would change the real meaning:
+//! `√(x²)`, `(xᵃ)ᵇ`.
+
+use super::{Graph, Node, NodeId};
+use crate::number::exact::square_root;
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+
+/// Constants are folded exactly as long as they stay below this size.
+const MAX_CONSTANT_BITS: u64 = 1 << 12;
+/// Integer powers up to this exponent are multiplied out.
+const MAX_UNROLLED: u32 = 64;
+
+impl Graph {
+    pub(super) fn constant(&mut self, value: Rational) -> NodeId {
+        let index = self.intern_constant(value);
+        self.intern(Node::Constant(index))
+    }
+
+    fn integer(&mut self, value: i64) -> NodeId {
+        self.constant(Rational::from(value))
+    }
+
+    pub(super) fn input(&mut self) -> NodeId {
+        let index = self.inputs;
+        self.inputs += 1;
+        self.intern(Node::Input(index))
+    }
+
+    /// A free symbol standing for an antiderivative; the same one for the same arguments.
+    pub(super) fn antiderivative(&mut self, integrand: NodeId, variable: NodeId) -> NodeId {
+        if let Some(index) = self.antiderivatives.get(&(integrand, variable)) {
+            let node = Node::Input(*index);
+            return self.intern(node);
+        }
+        self.antiderivatives.insert((integrand, variable), self.inputs);
+        self.input()
+    }
+
+    fn is_zero(&self, id: NodeId) -> bool {
+        self.constant_at(id).is_some_and(Rational::is_zero)
+    }
+
+    fn is_one(&self, id: NodeId) -> bool {
+        self.constant_at(id).is_some_and(Rational::is_one)
+    }
+
+    /// The argument of a negation.
+    fn negated(&self, id: NodeId) -> Option<NodeId> {
+        self.argument(Function::Neg, id)
+    }
+
+    /// The argument of `function`, if that is what this node is.
+    fn argument(&self, function: Function, id: NodeId) -> Option<NodeId> {
+        match self.node(id) {
+            Node::Unary(f, a) if f == function => Some(a),
+            _ => None,
+        }
+    }
+
+    fn fold(
+        &mut self,
+        a: NodeId,
+        b: NodeId,
+        operation: impl FnOnce(&Rational, &Rational) -> Rational,
+    ) -> Option<NodeId> {
+        let value = operation(self.constant_at(a)?, self.constant_at(b)?);
+        (value.bits() <= MAX_CONSTANT_BITS).then(|| self.constant(value))
+    }
+
+    pub(super) fn binary(&mut self, operation: Operation, a: NodeId, b: NodeId) -> NodeId {
+        match operation {
+            Operation::Add => self.add(a, b),
+            Operation::Sub => self.sub(a, b),
+            Operation::Mul => self.mul(a, b),
+            Operation::Pow => self.pow(a, b),
+        }
+    }
+
+    fn commutative(&mut self, operation: Operation, a: NodeId, b: NodeId) -> NodeId {
+        self.intern(Node::Binary(operation, a.min(b), a.max(b)))
+    }
+
+    pub(super) fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        if let Some(folded) = self.fold(a, b, |x, y| x + y) {
+            return folded;
+        }
+        if self.is_zero(a) {
+            return b;
+        }
+        if self.is_zero(b) {
+            return a;
+        }
+        match (self.negated(a), self.negated(b)) {
+            (_, Some(y)) => self.sub(a, y),
+            (Some(x), None) => self.sub(b, x),
+            (None, None) => self.commutative(Operation::Add, a, b),
+        }
+    }
+
+    pub(super) fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        if let Some(folded) = self.fold(a, b, |x, y| x - y) {
+            return folded;
+        }
+        if a == b {
+            return self.integer(0);
+        }
+        if self.is_zero(a) {
+            return self.unary(Function::Neg, b);
+        }
+        if self.is_zero(b) {
+            return a;
+        }
+        match (self.negated(a), self.negated(b)) {
+            (_, Some(y)) => self.add(a, y),
+            (Some(x), None) => {
+                let sum = self.add(x, b);
+                self.unary(Function::Neg, sum)
+            }
+            (None, None) if a > b => {
+                let difference = self.intern(Node::Binary(Operation::Sub, b, a));
+                self.unary(Function::Neg, difference)
+            }
+            (None, None) => self.intern(Node::Binary(Operation::Sub, a, b)),
+        }
+    }
+
+    pub(super) fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        if let Some(folded) = self.fold(a, b, |x, y| x * y) {
+            return folded;
+        }
+        if self.is_zero(a) || self.is_zero(b) {
+            return self.integer(0);
+        }
+        if self.is_one(a) {
+            return b;
+        }
+        if self.is_one(b) {
+            return a;
+        }
+        match (self.negated(a), self.negated(b)) {
+            (Some(x), Some(y)) => return self.mul(x, y),
+            (Some(x), None) => return self.negated_product(x, b),
+            (None, Some(y)) => return self.negated_product(a, y),
+            (None, None) => {}
+        }
+        for (constant, other) in [(a, b), (b, a)] {
+            if let Some(value) = self.constant_at(constant).cloned() {
+                return self.scaled(&value, constant, other);
+            }
+        }
+        if a == b
+            && let Some(x) = self.argument(Function::Sqrt, a)
+        {
+            return x;
+        }
+        if self.argument(Function::Recip, a) == Some(b)
+            || self.argument(Function::Recip, b) == Some(a)
+        {
+            return self.integer(1);
+        }
+        self.commutative(Operation::Mul, a, b)
+    }
+
+    fn negated_product(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        let product = self.mul(a, b);
+        self.unary(Function::Neg, product)
+    }
+
+    /// value · other; a negative constant gives its sign away, two constants merge.
+    fn scaled(&mut self, value: &Rational, constant: NodeId, other: NodeId) -> NodeId {
+        if value.is_negative() {
+            let positive = self.constant(-value);
+            return self.negated_product(positive, other);
+        }
+        if let Node::Binary(Operation::Mul, x, y) = self.node(other) {
+            for (inner, rest) in [(x, y), (y, x)] {
+                if let Some(merged) = self.fold(constant, inner, |p, q| p * q) {
+                    return self.mul(merged, rest);
+                }
+            }
+        }
+        self.commutative(Operation::Mul, constant, other)
+    }
+
+    pub(super) fn unary(&mut self, function: Function, a: NodeId) -> NodeId {
+        if let Some(value) = self.constant_at(a).cloned()
+            && let Some(folded) = fold_unary(function, &value)
+        {
+            return self.constant(folded);
+        }
+        let inner = match self.node(a) {
+            Node::Unary(inner, x) => Some((inner, x)),
+            _ => None,
+        };
+        match (function, inner) {
+            (Function::Neg, Some((Function::Neg, x)))
+            | (Function::Recip, Some((Function::Recip, x)))
+            | (Function::Ln, Some((Function::Exp, x)))
+            | (Function::Exp, Some((Function::Ln, x))) => x,
+            (Function::Recip | Function::Sin | Function::Atan, Some((Function::Neg, x))) => {
+                let positive = self.unary(function, x);
+                self.unary(Function::Neg, positive)
+            }
+            (Function::Cos | Function::Abs, Some((Function::Neg, x))) => self.unary(function, x),
+            (Function::Abs, Some((Function::Abs | Function::Sqrt | Function::Exp, _))) => a,
+            _ => self.intern(Node::Unary(function, a)),
+        }
+    }
+
+    pub(super) fn pow(&mut self, base: NodeId, exponent: NodeId) -> NodeId {
+        match self.constant_at(exponent).cloned() {
+            Some(exponent) => self.power(base, &exponent),
+            None if self.is_one(base) => base,
+            None => self.intern(Node::Binary(Operation::Pow, base, exponent)),
+        }
+    }
+
+    /// x^q: small integers are multiplied out, half-integers use one root, the rest is a node.
+    pub(super) fn power(&mut self, base: NodeId, exponent: &Rational) -> NodeId {
+        if exponent.is_negative() {
+            let positive = self.power(base, &-exponent);
+            return self.unary(Function::Recip, positive);
+        }
+        let doubled =
+            (exponent * &Rational::from(2)).to_integer().and_then(|n| u32::try_from(n).ok());
+        match doubled {
+            Some(n) if n <= 2 * MAX_UNROLLED => {
+                let whole = self.unrolled(base, n / 2);
+                if n % 2 == 0 {
+                    return whole;
+                }
+                let root = self.unary(Function::Sqrt, base);
+                self.mul(whole, root)
+            }
+            _ if self.is_one(base) => base,
+            _ => {
+                let index = self.intern_constant(exponent.clone());
+                self.intern(Node::Power(base, index))
+            }
+        }
+    }
+
+    fn unrolled(&mut self, base: NodeId, exponent: u32) -> NodeId {
+        match exponent {
+            0 => self.integer(1),
+            1 => base,
+            n => {
+                let half = self.unrolled(base, n / 2);
+                let square = self.mul(half, half);
+                if n % 2 == 0 { square } else { self.mul(square, base) }
+            }
+        }
+    }
+}
+
+fn fold_unary(function: Function, value: &Rational) -> Option<Rational> {
+    match function {
+        Function::Neg => Some(-value),
+        Function::Recip => value.recip(),
+        Function::Abs => Some(value.abs()),
+        Function::Sqrt => square_root(value),
+        Function::Exp | Function::Cos => value.is_zero().then(|| Rational::from(1)),
+        Function::Sin | Function::Atan => value.is_zero().then(|| Rational::from(0)),
+        Function::Ln => value.is_one().then(|| Rational::from(0)),
+    }
+}

@@ -1,0 +1,184 @@
+//! The tape: a graph laid out as a straight line of instructions over numbered slots.
+
+use super::{Expr, Graph, Node};
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+
+/// A place for one block of values.
+pub(super) type Slot = u32;
+
+/// One step; the result slot may be one of the argument slots.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Instruction {
+    Unary {
+        function: Function,
+        a: Slot,
+        out: Slot,
+    },
+    Binary {
+        operation: Operation,
+        a: Slot,
+        b: Slot,
+        out: Slot,
+    },
+    /// A power with a constant exponent, an index into the tape's exponents.
+    Power {
+        a: Slot,
+        exponent: u32,
+        out: Slot,
+    },
+}
+
+/// Instructions that compute some expressions of a graph from its inputs, and nothing else.
+///
+/// Slots `0..inputs` hold the inputs, then come the constants, then the intermediate results, whose
+/// slots are reused as soon as a value has been read for the last time.
+#[derive(Clone, Debug)]
+pub struct Tape {
+    pub(super) inputs: usize,
+    pub(super) constants: Vec<Rational>,
+    pub(super) exponents: Vec<Rational>,
+    pub(super) instructions: Vec<Instruction>,
+    pub(super) outputs: Vec<Slot>,
+    pub(super) slots: usize,
+}
+
+impl Tape {
+    /// Lays out what `outputs` need; everything else in the graph is left out.
+    pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
+        let roots: Vec<usize> =
+            outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
+        let last_use = last_uses(graph, &roots);
+        let mut tape = Tape {
+            inputs: graph.inputs(),
+            constants: Vec::new(),
+            exponents: graph.constants.clone(),
+            instructions: Vec::new(),
+            outputs: Vec::new(),
+            slots: 0,
+        };
+        let used = |index: usize| last_use[index] != UNUSED;
+        let mut slot_of: Vec<Slot> = vec![0; graph.nodes.len()];
+        for (index, node) in graph.nodes.iter().enumerate().filter(|(index, _)| used(*index)) {
+            if let Node::Constant(constant) = node {
+                slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
+                tape.constants.push(graph.constants[*constant as usize].clone());
+            }
+        }
+        let mut slots =
+            Slots { free: Vec::new(), next: (tape.inputs + tape.constants.len()) as Slot };
+        for (index, node) in graph.nodes.iter().enumerate().filter(|(index, _)| used(*index)) {
+            let release = |argument: usize, slots: &mut Slots| {
+                if last_use[argument] == index && graph.nodes[argument].is_computed() {
+                    slots.free.push(slot_of[argument]);
+                }
+            };
+            let instruction = match *node {
+                Node::Constant(_) => continue,
+                Node::Input(input) => {
+                    slot_of[index] = input;
+                    continue;
+                }
+                Node::Unary(function, a) => {
+                    release(a.0 as usize, &mut slots);
+                    let a = slot_of[a.0 as usize];
+                    Instruction::Unary { function, a, out: slots.take() }
+                }
+                Node::Power(a, exponent) => {
+                    release(a.0 as usize, &mut slots);
+                    let a = slot_of[a.0 as usize];
+                    Instruction::Power { a, exponent, out: slots.take() }
+                }
+                Node::Binary(operation, a, b) => {
+                    release(a.0 as usize, &mut slots);
+                    if a != b {
+                        release(b.0 as usize, &mut slots);
+                    }
+                    let (a, b) = (slot_of[a.0 as usize], slot_of[b.0 as usize]);
+                    Instruction::Binary { operation, a, b, out: slots.take() }
+                }
+            };
+            slot_of[index] = instruction.out();
+            tape.instructions.push(instruction);
+        }
+        tape.outputs = roots.iter().map(|root| slot_of[*root]).collect();
+        tape.slots = slots.next as usize;
+        tape
+    }
+
+    /// How many operations one run costs a state.
+    pub fn operations(&self) -> usize {
+        self.instructions.len()
+    }
+
+    /// How many inputs a run needs.
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// How many outputs a run gives.
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+}
+
+impl Instruction {
+    fn out(self) -> Slot {
+        match self {
+            Instruction::Unary { out, .. }
+            | Instruction::Binary { out, .. }
+            | Instruction::Power { out, .. } => out,
+        }
+    }
+}
+
+impl Node {
+    fn is_computed(&self) -> bool {
+        !matches!(self, Node::Constant(_) | Node::Input(_))
+    }
+}
+
+const UNUSED: usize = usize::MAX;
+
+/// The index of each node's last user, past the end for an output, `UNUSED` where nobody asks.
+fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
+    let end = graph.nodes.len();
+    let mut last = vec![UNUSED; end];
+    for root in roots.iter().filter(|root| **root < end) {
+        last[*root] = end;
+    }
+    for index in (0..end).rev() {
+        if last[index] == UNUSED {
+            continue;
+        }
+        let mut read = |argument: super::NodeId| {
+            let entry = &mut last[argument.0 as usize];
+            if *entry == UNUSED {
+                *entry = index;
+            }
+        };
+        match graph.nodes[index] {
+            Node::Constant(_) | Node::Input(_) => {}
+            Node::Unary(_, a) | Node::Power(a, _) => read(a),
+            Node::Binary(_, a, b) => {
+                read(a);
+                read(b);
+            }
+        }
+    }
+    last
+}
+
+struct Slots {
+    free: Vec<Slot>,
+    next: Slot,
+}
+
+impl Slots {
+    fn take(&mut self) -> Slot {
+        self.free.pop().unwrap_or_else(|| {
+            self.next += 1;
+            self.next - 1
+        })
+    }
+}

@@ -1,0 +1,121 @@
+//! Charts: how a state on the level set is made from free numbers, exactly, in any domain.
+//!
+//! A chart makes the *point* only. Derivatives are taken in the ambient variables, and the chart's
+//! formulas are put in afterwards: differentiating along the chart would give another quantity.
+
+use nalgebra::Vector3;
+
+use super::model::{Model, Phase};
+use super::recipe::{Draw, Range};
+use crate::formula::Formula;
+use crate::scalar::Scalar;
+
+/// How states are made.
+#[derive(Clone, Debug)]
+pub enum Chart {
+    /// The rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where s = 1 on
+    /// γ² = 1 and t = 0 on (ω,γ) = 0.
+    Rolling,
+    /// Every component of the state by itself; there is no level set, or it is left.
+    Free,
+    /// The user's parametrisation.
+    Given(Box<GivenChart>),
+    /// Level equations solved one after the other, each for a variable that enters it linearly.
+    Solved(Vec<Step>),
+    /// No parametrisation is known: states are found by Newton's method in f64.
+    Numerical,
+}
+
+/// A parametrisation typed by the user.
+#[derive(Clone, Debug)]
+pub struct GivenChart {
+    /// A model whose state is the chart's inputs and whose parameters are the case's.
+    pub model: Model,
+    /// The draws of the inputs' components.
+    pub draws: Vec<Draw>,
+    /// One formula a state variable.
+    pub formulas: Vec<Formula>,
+}
+
+/// One level equation and the component of the state it is solved for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// An index into the model's level equations.
+    pub equation: usize,
+    /// A component of the state.
+    pub component: usize,
+}
+
+impl Chart {
+    /// The draws that make a state; `kept[i]` says whether level equation i is to hold.
+    pub fn draws(&self, free: &[Draw], kept: &[bool]) -> Vec<Draw> {
+        match self {
+            Chart::Rolling => {
+                let within =
+                    |low, high, count| vec![Draw::Within(Range::between(low, high)); count];
+                let mut draws = within((-8, 5), (8, 5), 2);
+                draws.extend(within((-2, 1), (2, 1), 3));
+                let off_level = kept.iter().filter(|kept| !**kept).count();
+                draws.extend(within((1, 2), (3, 2), off_level));
+                draws
+            }
+            Chart::Given(chart) if kept.iter().all(|kept| *kept) => chart.draws.clone(),
+            _ => free.to_vec(),
+        }
+    }
+
+    /// The state made from draws; `parameters` are the components of the free parameters.
+    pub fn point<T: Scalar>(
+        &self,
+        model: &Model,
+        kept: &[bool],
+        parameters: &[T],
+        draws: &[T],
+    ) -> Vec<T> {
+        let on_level = kept.iter().all(|kept| *kept);
+        match self {
+            Chart::Rolling => rolling(kept, draws),
+            Chart::Given(chart) if on_level => {
+                let phase = Phase::new(&chart.model, parameters, draws);
+                chart.formulas.iter().flat_map(|f| phase.evaluate(f).components()).collect()
+            }
+            Chart::Solved(steps) if on_level => solve(model, steps, parameters, draws.to_vec()),
+            _ => draws.to_vec(),
+        }
+    }
+}
+
+fn rolling<T: Scalar>(kept: &[bool], draws: &[T]) -> Vec<T> {
+    let [u, v, a1, a2, a3, off_level @ ..] = draws else { return draws.to_vec() };
+    let mut off_level = off_level.iter();
+    let mut unless = |kept: bool, default: T| {
+        if kept { default } else { off_level.next().copied().unwrap_or(default) }
+    };
+    let (length, spin) = (unless(kept[0], T::one()), unless(kept[1], T::zero()));
+    let (one, two, square) = (T::one(), T::from(2.0), *u * *u + *v * *v);
+    let scale = length / (one + square);
+    let gamma = Vector3::new(two * *u, two * *v, one - square).map(|x| x * scale);
+    let omega = gamma.cross(&Vector3::new(*a1, *a2, *a3)) + gamma * spin;
+    omega.iter().chain(gamma.iter()).copied().collect()
+}
+
+/// Fills in the components that the equations determine; the later equations' variables first,
+/// because an earlier solution may contain them.
+pub(super) fn solve<T: Scalar>(
+    model: &Model,
+    steps: &[Step],
+    parameters: &[T],
+    mut state: Vec<T>,
+) -> Vec<T> {
+    let Some((last, earlier)) = steps.split_last() else { return state };
+    let function = &model.level[last.equation].function;
+    let mut at = |value: T| {
+        state[last.component] = value;
+        let completed = solve(model, earlier, parameters, state.clone());
+        Phase::new(model, parameters, &completed).level_function(function)
+    };
+    // F is linear in this component: F(x) = F(0) + x (F(1) - F(0)).
+    let (constant, at_one) = (at(T::zero()), at(T::one()));
+    state[last.component] = -(constant / (at_one - constant));
+    solve(model, earlier, parameters, state)
+}

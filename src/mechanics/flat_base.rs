@@ -1,0 +1,153 @@
+//! A body with a flat part rolling, rubber-like, on a sphere.
+//!
+//! The contact stays in the plane face: γ = e₃ in the body, ω = (ω₁,ω₂,0), and the point of contact
+//! r = (r₁,r₂,z) wanders, z fixed (the third coordinate of the vector from the mass centre):
+//!
+//! ```text
+//! r₁' = ω₂/k,  r₂' = -ω₁/k
+//! (Ĩω')₁,₂ = [(Ĩω + S)×ω - m r×(ω×r')]₁,₂,   Ĩ = I + m r²E - m r⊗r
+//! ```
+//!
+//! For a diagonal I these are (4.6), (4.7) of Borisov, Mamaev, Bizyaev 2013.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual;
+
+use super::body::{matrix, scalar, vector};
+use super::linear::point_mass;
+use super::model::Phase;
+use super::quantity::Quantity;
+use crate::formula::{Formula, Value};
+use crate::scalar::Scalar;
+
+/// A body with a flat part on a sphere of curvature k.
+#[derive(Clone, Debug)]
+pub struct FlatBase {
+    /// m
+    pub mass: Formula,
+    /// The central inertia tensor I.
+    pub inertia: Formula,
+    /// k
+    pub curvature: Formula,
+    /// z
+    pub height: Formula,
+    /// S
+    pub gyrostat: Option<Formula>,
+}
+
+/// The constants of the motion's equations over one scalar.
+#[derive(Clone, Copy)]
+struct Constants<T> {
+    mass: T,
+    inertia: Matrix3<T>,
+    curvature: T,
+    height: T,
+    gyrostat: Vector3<T>,
+}
+
+impl FlatBase {
+    fn constants<T: Scalar>(&self, phase: &Phase<'_, T>) -> Constants<T> {
+        let at = &phase.configuration;
+        let nothing = || Vector3::repeat(T::zero());
+        Constants {
+            mass: scalar(at.evaluate(&self.mass)),
+            inertia: matrix(at.evaluate(&self.inertia)),
+            curvature: scalar(at.evaluate(&self.curvature)),
+            height: scalar(at.evaluate(&self.height)),
+            gyrostat: self.gyrostat.as_ref().map_or_else(nothing, |s| vector(at.evaluate(s))),
+        }
+    }
+
+    /// (ω₁', ω₂', r₁', r₂')
+    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let [w1, w2, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        let [a1, a2] = constants.acceleration([w1, w2], [r1, r2]);
+        vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
+    }
+
+    /// ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂, zero exactly when a density ρ(r₁,r₂) exists; ∂ln ρ/∂r_i = ξ_i, (4.8).
+    pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let [from_1, from_2] = self.criterion_terms(phase);
+        from_2 - from_1
+    }
+
+    /// ∂ξ₁/∂r₂ and ∂ξ₂/∂r₁.
+    pub fn criterion_terms<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
+        let [_, _, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase).map(Dual::from_re);
+        let still = Dual::from_re;
+        let along = |x: T| Dual::new(x, T::one());
+        let k = constants.curvature;
+        // div v = -(ξ,r'): ω = (0,k) makes r' = (1,0), ω = (-k,0) makes r' = (0,1).
+        let xi1 = -constants.divergence([Dual::from_re(T::zero()), k], [still(r1), along(r2)]);
+        let xi2 = -constants.divergence([-k, Dual::from_re(T::zero())], [along(r1), still(r2)]);
+        [xi1.eps, xi2.eps]
+    }
+
+    /// ½(ω,Ĩω)
+    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let [w1, w2, r1, r2] = coordinates(phase);
+        let omega = Vector3::new(w1, w2, T::zero());
+        let inertia = self.constants(phase).inertia_at([r1, r2]);
+        omega.dot(&(inertia * omega)) / T::from(2.0)
+    }
+
+    /// A quantity that a formula names.
+    pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        let [w1, w2, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        match quantity {
+            Quantity::Contact => Value::Vector(Vector3::new(r1, r2, constants.height)),
+            Quantity::AngularAcceleration => Value::Vector(Vector3::new(w1, w2, T::zero())),
+            Quantity::InertiaAtContact => Value::Matrix(constants.inertia_at([r1, r2])),
+            _ => Value::Scalar(self.energy(phase)),
+        }
+    }
+}
+
+impl<T: Scalar> Constants<T> {
+    fn map<U: Scalar>(self, f: impl Fn(T) -> U + Copy) -> Constants<U> {
+        Constants {
+            mass: f(self.mass),
+            inertia: self.inertia.map(f),
+            curvature: f(self.curvature),
+            height: f(self.height),
+            gyrostat: self.gyrostat.map(f),
+        }
+    }
+
+    fn inertia_at(&self, r: [T; 2]) -> Matrix3<T> {
+        self.inertia + point_mass(self.mass, &Vector3::new(r[0], r[1], self.height))
+    }
+
+    fn acceleration(&self, omega: [T; 2], r: [T; 2]) -> [T; 2] {
+        let inertia = self.inertia_at(r);
+        let omega = Vector3::new(omega[0], omega[1], T::zero());
+        let rate = Vector3::new(omega.y, -omega.x, T::zero()).map(|x| x / self.curvature);
+        let r = Vector3::new(r[0], r[1], self.height);
+        let torque = (inertia * omega + self.gyrostat).cross(&omega)
+            - r.cross(&omega.cross(&rate)) * self.mass;
+        let determinant = inertia[(0, 0)] * inertia[(1, 1)] - inertia[(0, 1)] * inertia[(0, 1)];
+        [
+            (inertia[(1, 1)] * torque.x - inertia[(0, 1)] * torque.y) / determinant,
+            (inertia[(0, 0)] * torque.y - inertia[(0, 1)] * torque.x) / determinant,
+        ]
+    }
+
+    /// ∂ω₁'/∂ω₁ + ∂ω₂'/∂ω₂
+    fn divergence(&self, omega: [T; 2], r: [T; 2]) -> T {
+        let lifted = self.map(Dual::from_re);
+        let r = r.map(Dual::from_re);
+        let along = |i: usize| {
+            let mut seeded = omega.map(Dual::from_re);
+            seeded[i].eps = T::one();
+            lifted.acceleration(seeded, r)[i].eps
+        };
+        along(0) + along(1)
+    }
+}
+
+fn coordinates<T: Scalar>(phase: &Phase<'_, T>) -> [T; 4] {
+    [0, 1, 2, 3].map(|index| scalar(phase.configuration.variable(index)))
+}

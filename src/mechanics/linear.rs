@@ -1,0 +1,35 @@
+//! Small linear algebra without pivots or comparisons, fit for recorded scalars.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::scalar::Scalar;
+
+/// The adjugate: A adj(A) = det(A) E.
+pub fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
+    let rows = [a.row(0).transpose(), a.row(1).transpose(), a.row(2).transpose()];
+    Matrix3::from_columns(&[
+        rows[1].cross(&rows[2]),
+        rows[2].cross(&rows[0]),
+        rows[0].cross(&rows[1]),
+    ])
+}
+
+/// The determinant, from an adjugate that is already there.
+pub fn determinant_with<T: Scalar>(a: &Matrix3<T>, adjugate: &Matrix3<T>) -> T {
+    (0..3).map(|k| a[(0, k)] * adjugate[(k, 0)]).sum()
+}
+
+/// x E
+pub fn isotropic<T: Scalar>(x: T) -> Matrix3<T> {
+    Matrix3::from_diagonal_element(x)
+}
+
+/// m((r,r)E - r⊗r), what a point mass at r adds to an inertia tensor.
+pub fn point_mass<T: Scalar>(m: T, r: &Vector3<T>) -> Matrix3<T> {
+    (isotropic(r.dot(r)) - r * r.transpose()) * m
+}
+
+/// The determinant of A restricted to the plane across γ: (γ, adj(A)γ)/γ².
+pub fn across<T: Scalar>(a: &Matrix3<T>, gamma: &Vector3<T>) -> T {
+    gamma.dot(&(adjugate(a) * gamma)) / gamma.dot(gamma)
+}

@@ -1,0 +1,135 @@
+//! Mechanical systems, each written once over any [`Scalar`](crate::scalar::Scalar).
+
+mod body;
+pub mod calculus;
+mod chart;
+mod draws;
+mod flat_base;
+mod linear;
+mod model;
+mod quantity;
+mod recipe;
+mod rubber;
+mod rubber_measure;
+mod rubber_names;
+
+pub use body::{Polynomial, Shape};
+pub use chart::{Chart, GivenChart, Step};
+pub use draws::draw_state;
+pub use flat_base::FlatBase;
+pub use model::{
+    Configuration, Entry, LevelEquation, LevelFunction, Meaning, Model, Origin, Parameter, Phase,
+    Reach, Variable, Vocabulary, components,
+};
+pub use quantity::{Features, Quantity, of_flat_base, of_rubber};
+pub use recipe::{Draw, Range, Recipe};
+pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
+
+use crate::formula::{Formula, Value};
+use crate::scalar::Scalar;
+
+/// The equations of motion of a case.
+#[derive(Clone, Debug)]
+pub enum System {
+    /// A body rolling without slipping or spinning on a plane or a sphere.
+    Rubber(Box<Rubber>),
+    /// A body with a flat part on a sphere.
+    FlatBase(Box<FlatBase>),
+    /// The user's own field: the rate of each state variable.
+    Field(Vec<Formula>),
+}
+
+impl System {
+    /// The time derivatives of the state's components, in order.
+    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        match self {
+            System::Rubber(body) => body.field(phase),
+            System::FlatBase(body) => body.field(phase),
+            System::Field(rates) => {
+                rates.iter().flat_map(|rate| phase.evaluate(rate).components()).collect()
+            }
+        }
+    }
+
+    /// ½(ω,Ĩω) + U, for the systems that are bodies.
+    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) => Some(body.energy(phase)),
+            System::FlatBase(body) => Some(body.energy(phase)),
+            System::Field(_) => None,
+        }
+    }
+
+    /// Zero everywhere exactly when a density of the configuration alone exists.
+    pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) => Some(body.criterion(&phase.configuration)),
+            System::FlatBase(body) => Some(body.criterion(phase)),
+            System::Field(_) => None,
+        }
+    }
+
+    /// The square of what the criterion is small against: |a|² for a rubber body, the squares of
+    /// both terms for a flat base.
+    pub fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        match self {
+            System::Rubber(body) => {
+                let unit = body.inertial_normal(&phase.configuration);
+                unit.dot(&unit)
+            }
+            System::FlatBase(body) => {
+                let [a, b] = body.criterion_terms(phase);
+                a * a + b * b
+            }
+            System::Field(_) => T::zero(),
+        }
+    }
+
+    /// Are the level functions integrals in all of phase space by construction?
+    ///
+    /// True for a body whose r is homogeneous of degree 0: then Γγ = γ and γ' is across γ.
+    pub fn conserves_level(&self) -> bool {
+        match self {
+            System::Rubber(body) => !matches!(body.shape, Shape::Contact(_)),
+            System::FlatBase(_) => true,
+            System::Field(_) => false,
+        }
+    }
+
+    /// The tangential χ with div v = (χ,ω) on the level.
+    pub fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        match self {
+            System::Rubber(body) => Some(body.chi(&phase.configuration).into()),
+            System::FlatBase(_) | System::Field(_) => None,
+        }
+    }
+
+    /// Is ω' homogeneous and quadratic in ω? Then the criterion excludes every density that is
+    /// analytic near ω = 0; with a potential or a gyrostat only those of the configuration alone.
+    pub fn is_free(&self) -> bool {
+        match self {
+            System::Rubber(body) => body.potential.is_none() && body.gyrostat.is_none(),
+            System::FlatBase(body) => body.gyrostat.is_none(),
+            System::Field(_) => false,
+        }
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        match self {
+            System::Rubber(body) => body.quantity(quantity, phase),
+            System::FlatBase(body) => body.quantity(quantity, phase),
+            System::Field(_) => Value::Scalar(T::zero()),
+        }
+    }
+
+    fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        match self {
+            System::Rubber(body) => body.configuration_quantity(quantity, at),
+            System::FlatBase(_) | System::Field(_) => Value::Scalar(T::zero()),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The names a system defines by itself, as the papers use them.
+
+use super::model::Reach;
+use crate::formula::Type;
+
+/// A quantity computed from the state and the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// `r`: from the mass centre to the point of contact, r = -∇h.
+    Contact,
+    /// `r'`, `ṙ`: its rate in the body, r' = (∂r/∂γ)γ'.
+    ContactRate,
+    /// `h`: the support function.
+    Support,
+    /// `∂r`: the matrix ∂r/∂γ = -Hess h.
+    Slope,
+    /// `Ĩ`: the inertia tensor at the point of contact, I + m r²E - m r⊗r.
+    InertiaAtContact,
+    /// `J`: I + m(R² + c²)E - m c⊗c, for a ball of radius R with mass centre displaced by c.
+    BallInertia,
+    /// `𝒥`: J + 2mR(γ,c)E, which agrees with Ĩ across γ.
+    ScriptInertia,
+    /// `κ`: 1/(1 + kR).
+    Kappa,
+    /// `Γ`: E - k ∂r/∂γ.
+    Gamma,
+    /// `D_T`: det of Γ across γ, (1 + kR₁)(1 + kR₂).
+    GammaDeterminant,
+    /// `U`: the potential.
+    Potential,
+    /// `energy`: ½(ω,Ĩω) + U.
+    Energy,
+    /// `ω'`.
+    AngularAcceleration,
+    /// `γ'`.
+    NormalRate,
+    /// `λ0`: the multiplier of (ω,γ) = 0.
+    Multiplier,
+    /// `z`: the cosine γ₃/|γ| of the angle to the axis of a body of revolution.
+    AxisCosine,
+    /// `p`: a profile's support function on the unit sphere, p(z).
+    Profile,
+    /// `p'`
+    ProfileRate,
+    /// `f1`: r = (f1 γ₁, f1 γ₂, f2), f1 = z p' - p.
+    ProfileF1,
+    /// `f2`: -(z p + (1 - z²) p').
+    ProfileF2,
+    /// `f1'`: z p''.
+    ProfileF1Rate,
+    /// `f2'`: f1 - (1 - z²) p''.
+    ProfileF2Rate,
+    /// `g1`: I₁z² + I₃(1 - z²) + m p².
+    ProfileG1,
+    /// `g1'`: dg1/dz.
+    ProfileG1Rate,
+    /// `g2`: I₁ + m r².
+    ProfileG2,
+}
+
+/// What decides whether a quantity is there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Features {
+    /// The parameter R, a scalar.
+    pub radius: bool,
+    /// The parameter c, a vector.
+    pub displacement: bool,
+    /// A curved base.
+    pub curvature: bool,
+    /// A potential.
+    pub potential: bool,
+    /// The body is given by its profile.
+    pub profile: bool,
+}
+
+/// The quantities of a rubber body: name, meaning, kind, reach.
+pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+    use Quantity::*;
+    use Reach::{Configuration, Parameters, Phase};
+    use Type::{Matrix, Scalar, Vector};
+    let mut all = vec![
+        ("r", Contact, Vector, Phase),
+        ("r'", ContactRate, Vector, Phase),
+        ("ṙ", ContactRate, Vector, Phase),
+        ("h", Support, Scalar, Configuration),
+        ("∂r", Slope, Matrix, Phase),
+        ("Ĩ", InertiaAtContact, Matrix, Phase),
+        ("energy", Energy, Scalar, Phase),
+        ("ω'", AngularAcceleration, Vector, Phase),
+        ("γ'", NormalRate, Vector, Phase),
+        ("λ0", Multiplier, Scalar, Phase),
+    ];
+    if features.radius {
+        all.push(("J", BallInertia, Matrix, Parameters));
+    }
+    if features.radius && features.displacement {
+        all.push(("𝒥", ScriptInertia, Matrix, Configuration));
+    }
+    if features.potential {
+        all.push(("U", Potential, Scalar, Configuration));
+    }
+    if features.curvature {
+        all.push(("Γ", Gamma, Matrix, Phase));
+        all.push(("D_T", GammaDeterminant, Scalar, Phase));
+        if features.radius {
+            all.push(("κ", Kappa, Scalar, Parameters));
+        }
+    }
+    if features.profile {
+        all.extend([
+            ("z", AxisCosine, Scalar, Configuration),
+            ("p", Profile, Scalar, Phase),
+            ("p'", ProfileRate, Scalar, Phase),
+            ("f1", ProfileF1, Scalar, Phase),
+            ("f2", ProfileF2, Scalar, Phase),
+            ("f1'", ProfileF1Rate, Scalar, Phase),
+            ("f2'", ProfileF2Rate, Scalar, Phase),
+            ("g1", ProfileG1, Scalar, Phase),
+            ("g1'", ProfileG1Rate, Scalar, Phase),
+            ("g2", ProfileG2, Scalar, Phase),
+        ]);
+    }
+    all
+}
+
+/// The quantities of a body with a flat part on a sphere.
+pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
+    use Quantity::*;
+    vec![
+        ("r", Contact, Type::Vector, Reach::Phase),
+        ("ω", AngularAcceleration, Type::Vector, Reach::Phase),
+        ("Ĩ", InertiaAtContact, Type::Matrix, Reach::Phase),
+        ("energy", Energy, Type::Scalar, Reach::Phase),
+    ]
+}

@@ -1,0 +1,92 @@
+//! When a rubber body has an invariant measure: the divergence as a covector on the sphere.
+//!
+//! With a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ), ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, 1/K = R₁R₂ and s = 1 - k²/K, on |γ| = 1 and modulo γ
+//!
+//! ```text
+//! div v = (χ,ω) on the level,   Γᵀ(γ×χ) = -∇ln ρ₀ + w,   w = (s/D_T) Γᵀa
+//! ```
+//!
+//! so that ρ = Nρ₀ is invariant exactly when d ln N = -(w,dγ), and some N exists on the sphere
+//! exactly when (γ, rot w) = 0. On the plane w = a. Neither U nor a gyrostat enters.
+//! Borisov, Mamaev, Bizyaev 2013, (2.1)-(2.6) and (2.20), (2.21).
+
+use nalgebra::Vector3;
+use num_dual::Dual;
+
+use super::body::axis;
+use super::linear::{across, adjugate, determinant_with};
+use super::model::Configuration;
+use super::rubber::{NORMAL, Rubber, normal};
+use crate::scalar::Scalar;
+
+impl Rubber {
+    /// w = (s/D_T) Γᵀa, the covector whose rotation about γ decides; w = a on the plane.
+    fn criterion_covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+        let unit = self.inertial_normal(at);
+        let Some(k) = self.curvature_at(at) else { return unit };
+        let gamma = normal(at);
+        let (_, slope) = self.shape.contact(at);
+        let big_gamma = self.gamma_matrix(&slope, k);
+        let twist = T::one() - k * k * across(&slope, &gamma);
+        (big_gamma.transpose() * unit) * (twist / across(&big_gamma, &gamma))
+    }
+
+    /// (γ, rot w): zero on the whole sphere exactly when a density ρ(γ) exists; (2.5), (2.21).
+    pub fn criterion<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let gamma = normal(at);
+        let slopes = [0, 1, 2]
+            .map(|j| self.criterion_covector(&at.lift(NORMAL, axis(j))).map(|x: Dual<T>| x.eps));
+        [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
+            .into_iter()
+            .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
+            .sum()
+    }
+
+    /// a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ)
+    pub fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+        let gamma = normal(at);
+        let (r, _) = self.shape.contact(at);
+        let along = adjugate(&self.inertia_at(at, &r)) * gamma;
+        along.map(|x| x / gamma.dot(&along))
+    }
+
+    /// The tangential χ with div v = (χ,ω) on the level; γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where
+    /// ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
+    pub fn chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+        let gamma = normal(at);
+        let drift = Vector3::from_fn(|j, _| {
+            let volume = self.reference_density(&at.lift(NORMAL, axis(j)));
+            volume.eps / volume.re
+        });
+        let covector = self.criterion_covector(at) - drift;
+        let turned = match self.curvature_at(at) {
+            None => covector,
+            Some(k) => {
+                let big_gamma = self.gamma_matrix(&self.shape.contact(at).1, k);
+                let adjugate = adjugate(&big_gamma);
+                let determinant = determinant_with(&big_gamma, &adjugate);
+                (adjugate.transpose() * covector).map(|x| x / determinant)
+            }
+        };
+        turned.cross(&gamma)
+    }
+
+    /// ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T
+    pub fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let gamma = normal(at);
+        let (r, slope) = self.shape.contact(at);
+        let volume = gamma.dot(&(adjugate(&self.inertia_at(at, &r)) * gamma));
+        match self.curvature_at(at) {
+            None => volume,
+            Some(k) => volume * across(&self.gamma_matrix(&slope, k), &gamma),
+        }
+    }
+
+    /// R₁ + R₂ and R₁R₂, the principal radii of the body at the contact.
+    pub fn radii<T: Scalar>(&self, at: &Configuration<'_, T>) -> (T, T) {
+        let gamma = normal(at);
+        let (_, slope) = self.shape.contact(at);
+        let along = gamma.dot(&(slope * gamma)) / gamma.dot(&gamma);
+        (along - slope.trace(), across(&slope, &gamma))
+    }
+}

@@ -1,0 +1,93 @@
+//! Exact rational arithmetic, one lane: the reference for every other domain, and the way a
+//! sampled state is printed so that it can be typed in again.
+
+use num_bigint::BigInt;
+use num_traits::Signed;
+
+use super::rational::Rational;
+use super::{Domain, Function, Operation};
+
+/// Past this size a number is given up: it would be of no use to a reader, and slow.
+const MAX_BITS: u64 = 1 << 16;
+
+/// The domain of exact rationals. A lane is `None` where the result is not rational, or too long.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+impl Domain for Exact {
+    type Block = Option<Rational>;
+
+    fn constant(&self, value: &Rational) -> Option<Rational> {
+        Some(value.clone())
+    }
+
+    fn values(&self, values: &[Rational]) -> Option<Rational> {
+        values.first().cloned()
+    }
+
+    fn unary(&self, function: Function, x: &Option<Rational>, out: &mut Option<Rational>) {
+        *out = x.as_ref().and_then(|x| match function {
+            Function::Neg => Some(-x),
+            Function::Recip => x.recip(),
+            Function::Sqrt => square_root(x),
+            Function::Abs => Some(x.abs()),
+            Function::Exp | Function::Sin | Function::Atan if x.is_zero() => {
+                Some(Rational::from(i64::from(function == Function::Exp)))
+            }
+            Function::Cos if x.is_zero() => Some(Rational::from(1)),
+            Function::Ln if x.is_one() => Some(Rational::from(0)),
+            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => None,
+        });
+    }
+
+    fn binary(
+        &self,
+        operation: Operation,
+        x: &Option<Rational>,
+        y: &Option<Rational>,
+        out: &mut Option<Rational>,
+    ) {
+        *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| match operation {
+            Operation::Add => Some(x + y),
+            Operation::Sub => Some(x - y),
+            Operation::Mul => Some(x * y),
+            Operation::Pow => power(x, y),
+        });
+        if out.as_ref().is_some_and(|value| value.bits() > MAX_BITS) {
+            *out = None;
+        }
+    }
+
+    fn power(&self, x: &Option<Rational>, exponent: &Rational, out: &mut Option<Rational>) {
+        *out = x.as_ref().and_then(|x| power(x, exponent));
+    }
+}
+
+/// The root of a square of a rational, `None` for anything else.
+pub fn square_root(x: &Rational) -> Option<Rational> {
+    let (numerator, denominator) = x.parts();
+    let root = |n: &BigInt| {
+        let root = (!n.is_negative()).then(|| n.sqrt())?;
+        (&root * &root == *n).then_some(root)
+    };
+    let (above, below) = (root(numerator)?, root(denominator)?);
+    format!("{above}/{below}").parse().ok()
+}
+
+fn power(x: &Rational, exponent: &Rational) -> Option<Rational> {
+    let exponent = i32::try_from(exponent.to_integer()?).ok()?;
+    let size = x.bits().saturating_mul(u64::from(exponent.unsigned_abs()));
+    if size > MAX_BITS { None } else { x.powi(exponent) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_squares_have_roots() {
+        assert_eq!(square_root(&Rational::new(9, 16)), Some(Rational::new(3, 4)));
+        assert_eq!(square_root(&Rational::from(2)), None, "√2 is not rational");
+        assert_eq!(square_root(&Rational::from(-4)), None, "nor is √-4 real");
+    }
+}

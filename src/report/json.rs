@@ -1,0 +1,52 @@
+//! `check --json`: a stable schema for machines.
+
+use serde::Serialize;
+
+use super::{RunReport, Summary};
+use crate::verdict::ClaimReport;
+
+#[derive(Serialize)]
+struct Root<'a> {
+    seed: u64,
+    cases: Vec<CaseEntry<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<ErrorEntry<'a>>,
+    summary: Summary,
+}
+
+#[derive(Serialize)]
+struct CaseEntry<'a> {
+    path: &'a str,
+    title: &'a str,
+    source: &'a str,
+    system: &'a str,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    warnings: &'a [String],
+    claims: &'a [ClaimReport],
+}
+
+#[derive(Serialize)]
+struct ErrorEntry<'a> {
+    path: &'a str,
+    message: &'a str,
+}
+
+/// The run as pretty-printed JSON.
+pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
+    let mut root =
+        Root { seed: run.seed, cases: Vec::new(), errors: Vec::new(), summary: run.summary() };
+    for outcome in &run.outcomes {
+        match &outcome.result {
+            Ok(report) => root.cases.push(CaseEntry {
+                path: &outcome.path,
+                title: &outcome.heading.title,
+                source: &outcome.heading.source,
+                system: &outcome.heading.system,
+                warnings: &report.warnings,
+                claims: &report.claims,
+            }),
+            Err(message) => root.errors.push(ErrorEntry { path: &outcome.path, message }),
+        }
+    }
+    serde_json::to_string_pretty(&root)
+}

@@ -1,0 +1,115 @@
+//! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
+
+pub mod diagnostic;
+pub mod json;
+pub mod point;
+pub mod table;
+pub mod terminal;
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::verdict::{CaseReport, ClaimReport, Verdict};
+
+/// One file of a run.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The path as it was given or found.
+    pub path: String,
+    /// The case's title, source, system and column; empty where it could not be read.
+    pub heading: Heading,
+    /// The verdicts, or the rendered problem.
+    pub result: Result<CaseReport, String>,
+}
+
+/// What a case says about itself.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Heading {
+    /// What the case is about.
+    pub title: String,
+    /// Where it comes from.
+    pub source: String,
+    /// The kind of system.
+    pub system: String,
+    /// The table and column it belongs to.
+    pub column: Option<crate::case::Column>,
+    /// The author's notes.
+    pub notes: Vec<String>,
+}
+
+/// All files of a run.
+#[derive(Debug)]
+pub struct RunReport {
+    /// The seed of all states.
+    pub seed: u64,
+    /// One outcome a file, in the order of the paths.
+    pub outcomes: Vec<Outcome>,
+    /// How long it took.
+    pub elapsed: Duration,
+}
+
+/// Counts over a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Cases that were judged.
+    pub cases: usize,
+    /// Their claims.
+    pub claims: usize,
+    /// Claims proved.
+    pub proved: usize,
+    /// Claims confirmed.
+    pub confirmed: usize,
+    /// Claims refuted.
+    pub refuted: usize,
+    /// Claims undecided.
+    pub undecided: usize,
+    /// Verdicts that contradict what the file expects.
+    pub disagreements: usize,
+    /// Files that could not be judged.
+    pub errors: usize,
+    /// How long the run took.
+    pub seconds: f64,
+}
+
+impl RunReport {
+    /// All claims of all cases that were judged.
+    pub fn claims(&self) -> impl Iterator<Item = (&Outcome, &ClaimReport)> {
+        self.outcomes.iter().flat_map(|outcome| {
+            let claims = outcome.result.iter().flat_map(|report| &report.claims);
+            claims.map(move |claim| (outcome, claim))
+        })
+    }
+
+    /// The counts.
+    pub fn summary(&self) -> Summary {
+        let mut summary = Summary { seconds: self.elapsed.as_secs_f64(), ..Summary::default() };
+        for outcome in &self.outcomes {
+            match outcome.result {
+                Ok(_) => summary.cases += 1,
+                Err(_) => summary.errors += 1,
+            }
+        }
+        for (_, claim) in self.claims() {
+            summary.claims += 1;
+            *match claim.verdict {
+                Verdict::Proved => &mut summary.proved,
+                Verdict::Confirmed => &mut summary.confirmed,
+                Verdict::Refuted => &mut summary.refuted,
+                Verdict::Undecided => &mut summary.undecided,
+            } += 1;
+            summary.disagreements += usize::from(!claim.agrees);
+        }
+        summary
+    }
+
+    /// 0: all as expected; 1: a verdict contradicts its expectation; 2: a file could not be judged.
+    pub fn exit_code(&self) -> u8 {
+        let summary = self.summary();
+        match (summary.errors, summary.disagreements) {
+            (0, 0) => 0,
+            (0, _) => 1,
+            _ => 2,
+        }
+    }
+}

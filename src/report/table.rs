@@ -1,0 +1,151 @@
+//! The paper's tables, filled from verdicts.
+
+use std::collections::BTreeMap;
+
+use comfy_table::{Cell, ContentArrangement, Table, presets};
+use serde::Serialize;
+
+use super::RunReport;
+use crate::case::TABLE_ROWS;
+use crate::verdict::Verdict;
+
+/// One of the paper's tables with a status in each cell.
+#[derive(Debug, Serialize)]
+pub struct Regenerated {
+    table: u32,
+    columns: Vec<u32>,
+    rows: Vec<Row>,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    row: &'static str,
+    cells: Vec<Filled>,
+}
+
+/// A cell: the paper's words, and the claims that stand behind them.
+#[derive(Clone, Debug, Default, Serialize)]
+struct Filled {
+    words: Vec<String>,
+    status: Status,
+    claims: Vec<CellClaim>,
+}
+
+/// What the verdicts say of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Status {
+    /// Words only: nothing is claimed.
+    #[default]
+    Text,
+    /// Every claim came out as the paper says.
+    Agrees,
+    /// Only claims whose answer nobody knows.
+    Open,
+    /// Some verdict contradicts the paper.
+    Contradicts,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct CellClaim {
+    path: String,
+    name: String,
+    kind: &'static str,
+    expect: &'static str,
+    verdict: Verdict,
+    agrees: bool,
+}
+
+/// Collects table `number` from a run over the catalogue.
+pub fn regenerate(run: &RunReport, number: u32) -> Regenerated {
+    let mut cells: BTreeMap<(&str, u32), Filled> = BTreeMap::new();
+    let mut columns: Vec<u32> = Vec::new();
+    for outcome in &run.outcomes {
+        let Some(column) = outcome.heading.column.as_ref().filter(|c| c.table == number) else {
+            continue;
+        };
+        columns.push(column.column);
+        for (row, words) in &column.words {
+            let cell = cells.entry((row, column.column)).or_default();
+            if !cell.words.contains(words) {
+                cell.words.push(words.clone());
+            }
+        }
+        for claim in outcome.result.iter().flat_map(|report| &report.claims) {
+            let Some(row) = &claim.cell else { continue };
+            cells.entry((row, column.column)).or_default().claims.push(CellClaim {
+                path: outcome.path.clone(),
+                name: claim.name.clone(),
+                kind: claim.kind,
+                expect: claim.expect,
+                verdict: claim.verdict,
+                agrees: claim.agrees,
+            });
+        }
+    }
+    columns.sort_unstable();
+    columns.dedup();
+    for cell in cells.values_mut() {
+        cell.status = status(&cell.claims);
+    }
+    let row = |row: &'static str| Row {
+        row,
+        cells: columns
+            .iter()
+            .map(|column| cells.get(&(row, *column)).cloned().unwrap_or_default())
+            .collect(),
+    };
+    Regenerated { table: number, rows: TABLE_ROWS.into_iter().map(row).collect(), columns }
+}
+
+fn status(claims: &[CellClaim]) -> Status {
+    match claims {
+        [] => Status::Text,
+        _ if claims.iter().any(|claim| !claim.agrees) => Status::Contradicts,
+        _ if claims.iter().all(|claim| claim.expect == "open") => Status::Open,
+        _ => Status::Agrees,
+    }
+}
+
+impl Regenerated {
+    /// Has the catalogue no case for this table?
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// As JSON.
+    pub fn json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self)
+    }
+
+    /// As text for a terminal of this width.
+    pub fn text(&self, width: u16) -> String {
+        let mut table = Table::new();
+        table.load_style(presets::UTF8_FULL).set_content_arrangement(ContentArrangement::Dynamic);
+        table.set_width(width).force_no_tty();
+        let mut header = vec![Cell::new(format!("Table {}", self.table))];
+        header.extend(self.columns.iter().map(|column| Cell::new(column.to_string())));
+        table.set_header(header);
+        for row in &self.rows {
+            let mut cells = vec![Cell::new(row.row)];
+            cells.extend(row.cells.iter().map(|cell| Cell::new(cell.text())));
+            table.add_row(cells);
+        }
+        format!("{}\n", table.trim_fmt())
+    }
+}
+
+impl Filled {
+    fn text(&self) -> String {
+        let mut lines = self.words.clone();
+        for claim in &self.claims {
+            let mark = match (claim.agrees, claim.expect) {
+                (false, _) => "✗",
+                (true, "open") => "?",
+                (true, _) => "✓",
+            };
+            lines.push(format!("{mark} {}: {}", claim.verdict.word(), claim.name));
+        }
+        if lines.is_empty() { "–".to_string() } else { lines.join("\n") }
+    }
+}

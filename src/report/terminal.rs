@@ -1,0 +1,189 @@
+//! `check` for people: one line a claim, grouped by case, and a summary.
+
+use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
+
+use super::{Outcome, RunReport};
+use crate::verdict::{CaseReport, ClaimReport, Independence, Sign, Verdict};
+
+/// How much is shown, and whether in colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Show witnesses, notes and how each verdict came about.
+    pub verbose: bool,
+    /// Use colours.
+    pub colour: bool,
+    /// The width of the terminal.
+    pub width: u16,
+}
+
+/// All cases of a run.
+pub fn render(run: &RunReport, style: Style) -> String {
+    let mut out = String::new();
+    for outcome in &run.outcomes {
+        out.push_str(&case(outcome, style));
+        out.push('\n');
+    }
+    out.push_str(&summary(run));
+    out
+}
+
+fn case(outcome: &Outcome, style: Style) -> String {
+    let heading = &outcome.heading;
+    let report = match &outcome.result {
+        Err(problem) => return format!("{problem}\n"),
+        Ok(report) => report,
+    };
+    let mut out = format!("{}\n  {}", outcome.path, heading.title);
+    if !heading.source.is_empty() {
+        out.push_str(&format!(" — {}", heading.source));
+    }
+    out.push('\n');
+    for warning in &report.warnings {
+        out.push_str(&format!("  warning: {warning}\n"));
+    }
+    if style.verbose {
+        for note in &heading.notes {
+            out.push_str(&format!("  note: {note}\n"));
+        }
+    }
+    out.push_str(&claims(report, style));
+    out.push('\n');
+    if style.verbose {
+        out.push_str(&details(report));
+    }
+    out
+}
+
+fn claims(report: &CaseReport, style: Style) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(style.width);
+    if style.colour {
+        table.enforce_styling();
+    } else {
+        table.force_no_tty();
+    }
+    for claim in &report.claims {
+        let mark = if claim.agrees { "✓" } else { "✗" };
+        let mut verdict = Cell::new(format!("{mark} {}", claim.verdict.word()));
+        if style.colour {
+            verdict = verdict.fg(match (claim.agrees, claim.verdict) {
+                (false, _) => Color::Red,
+                (true, Verdict::Undecided) => Color::Yellow,
+                (true, _) => Color::Green,
+            });
+        }
+        let expected = match claim.expect {
+            "open" => "open".to_string(),
+            expect if claim.agrees => expect.to_string(),
+            expect => format!("expected: {expect}"),
+        };
+        table.add_row(vec![
+            Cell::new("   "),
+            verdict,
+            Cell::new(expected),
+            Cell::new(claim.kind),
+            Cell::new(&claim.name),
+            Cell::new(remark(claim)),
+            Cell::new(&claim.source),
+        ]);
+    }
+    table.trim_fmt()
+}
+
+/// What there is to say in a few words.
+fn remark(claim: &ClaimReport) -> String {
+    let evidence = &claim.evidence;
+    let mut words = Vec::new();
+    match claim.verdict {
+        Verdict::Confirmed | Verdict::Proved => {
+            words.push(evidence.holds.join("; "));
+            match evidence.independence {
+                Some(Independence::Constant) => words.push("trivial: constant there".to_string()),
+                Some(Independence::General) => words.push("a general integral".to_string()),
+                _ => {}
+            }
+            match evidence.sign {
+                Some(Sign::Changes) => words.push("changes sign: no positive measure".to_string()),
+                Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
+                _ => {}
+            }
+            if evidence.method == "ball" {
+                words.push(format!("{} states", evidence.samples));
+            }
+        }
+        Verdict::Refuted => {
+            if let Some(witness) = &evidence.witness {
+                words.push(format!("{:.2e} at state {}", witness.residual, witness.index));
+            }
+        }
+        Verdict::Undecided => {}
+    }
+    if !claim.agrees || claim.verdict == Verdict::Undecided {
+        words.extend(evidence.reason.clone());
+    }
+    words.retain(|word| !word.is_empty());
+    words.join(", ")
+}
+
+fn details(report: &CaseReport) -> String {
+    let mut out = String::new();
+    for claim in &report.claims {
+        out.push_str(&format!("    {}\n", claim.name));
+        if let Some(formula) = claim.formula.as_ref().filter(|formula| **formula != claim.name) {
+            out.push_str(&format!("      formula   {formula}\n"));
+        }
+        let evidence = &claim.evidence;
+        out.push_str(&format!(
+            "      method    {}, {} states, {} operations a state\n",
+            evidence.method, evidence.samples, evidence.operations
+        ));
+        if let (Some(residual), Some(scaled)) =
+            (evidence.max_residual, evidence.max_scaled_residual)
+        {
+            out.push_str(&format!(
+                "      residual  at most {residual:.1e}, {scaled:.3} of its error bound\n"
+            ));
+        }
+        if let Some(volume) = &evidence.volume {
+            out.push_str(&format!("      volume    {volume}\n"));
+        }
+        if let Some(witness) = &evidence.witness {
+            out.push_str(&format!(
+                "      witness   residual {:e} ± {:.1e}\n",
+                witness.residual, witness.error_bound
+            ));
+            let set = witness.parameters.iter().map(|(name, value)| format!(" --set '{name}={value}'"));
+            out.push_str(&format!(
+                "                eval …{} --state '{}'\n",
+                set.collect::<String>(),
+                witness.state
+            ));
+        }
+        if let Some(reason) = &evidence.reason {
+            out.push_str(&format!("      reason    {reason}\n"));
+        }
+        if let Some(note) = &claim.note {
+            out.push_str(&format!("      note      {note}\n"));
+        }
+    }
+    out
+}
+
+fn summary(run: &RunReport) -> String {
+    let summary = run.summary();
+    let mut line = format!(
+        "{} cases, {} claims: {} proved, {} confirmed, {} refuted, {} undecided; {} against expectation",
+        summary.cases,
+        summary.claims,
+        summary.proved,
+        summary.confirmed,
+        summary.refuted,
+        summary.undecided,
+        summary.disagreements,
+    );
+    if summary.errors > 0 {
+        line.push_str(&format!("; {} files could not be judged", summary.errors));
+    }
+    format!("{line}; {:.2} s, seed {}\n", summary.seconds, run.seed)
+}

@@ -1,0 +1,101 @@
+//! The scalar every field, body and formula is written over.
+//!
+//! [`Scalar`] is num-dual's [`DualNum`] over f64 together with the few operations a *recorded* or
+//! an *exact* scalar needs and num-dual does not offer: constants that are exact rationals, powers
+//! that keep their exponent, |x|, and a function known by its derivative alone.
+
+use num_dual::{Dual, DualNum};
+
+use crate::number::rational::Rational;
+
+/// A `Copy` number over which mechanics and formulas are evaluated: f64, the recording
+/// `Expr`, and num-dual's `Dual` of either, nested to any depth.
+pub trait Scalar: DualNum<Primitive = f64> + Copy {
+    /// The image of an exact constant.
+    fn rational(value: &Rational) -> Self;
+
+    /// `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an integer.
+    fn power(self, exponent: &Rational) -> Self;
+
+    /// `x^y` for x > 0, with derivative `x^y (y' ln x + y x'/x)`.
+    fn power_of(self, exponent: Self) -> Self;
+
+    /// `|x|`, with derivative `x x'/|x|`; not differentiable at 0.
+    fn modulus(self) -> Self;
+
+    /// A function Λ of `variable` with Λ' = `integrand`, its constant left open.
+    ///
+    /// Only the derivative is used: dΛ = integrand · d variable. The value itself is a free symbol
+    /// when recorded, and NaN at f64.
+    fn antiderivative(integrand: Self, variable: Self) -> Self;
+}
+
+impl Scalar for f64 {
+    fn rational(value: &Rational) -> Self {
+        value.to_f64().0
+    }
+
+    fn power(self, exponent: &Rational) -> Self {
+        match exponent.to_integer().and_then(|n| i32::try_from(n).ok()) {
+            Some(n) => self.powi(n),
+            None => self.powf(exponent.to_f64().0),
+        }
+    }
+
+    fn power_of(self, exponent: Self) -> Self {
+        self.powf(exponent)
+    }
+
+    fn modulus(self) -> Self {
+        self.abs()
+    }
+
+    fn antiderivative(_: Self, _: Self) -> Self {
+        f64::NAN
+    }
+}
+
+impl<T: Scalar> Scalar for Dual<T> {
+    fn rational(value: &Rational) -> Self {
+        Dual::from_re(T::rational(value))
+    }
+
+    fn power(self, exponent: &Rational) -> Self {
+        let one_less = exponent - &Rational::from(1);
+        let slope = T::rational(exponent) * self.re.power(&one_less);
+        Dual::new(self.re.power(exponent), self.eps * slope)
+    }
+
+    fn power_of(self, exponent: Self) -> Self {
+        let value = self.re.power_of(exponent.re);
+        let slope = exponent.eps * self.re.ln() + exponent.re * self.eps / self.re;
+        Dual::new(value, value * slope)
+    }
+
+    fn modulus(self) -> Self {
+        let value = self.re.modulus();
+        Dual::new(value, self.eps * self.re / value)
+    }
+
+    fn antiderivative(integrand: Self, variable: Self) -> Self {
+        Dual::new(T::antiderivative(integrand.re, variable.re), integrand.re * variable.eps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn power_rules_agree_with_calculus() {
+        let x = Dual::new(2.0, 1.0);
+        let cube_root = x.power(&Rational::new(1, 3));
+        assert!((cube_root.eps - 2f64.powf(-2.0 / 3.0) / 3.0).abs() < 1e-15, "d x^(1/3)");
+        let tower = x.power_of(x);
+        assert!((tower.eps - 4.0 * (2f64.ln() + 1.0)).abs() < 1e-14, "d x^x = x^x (ln x + 1)");
+        let minus = Dual::new(-3.0, 1.0).modulus();
+        assert_eq!((minus.re, minus.eps), (3.0, -1.0), "d |x| = sign x");
+        let unknown = Dual::<f64>::antiderivative(Dual::new(5.0, 7.0), Dual::new(1.0, 2.0));
+        assert_eq!(unknown.eps, 10.0, "dΛ = integrand · dx");
+    }
+}

@@ -1,0 +1,138 @@
+//! What is known about a claim in the end, and on what grounds.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+/// The answer to a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// True, by exact reasoning.
+    Proved,
+    /// Zero to rounding at every state that was tried.
+    Confirmed,
+    /// False: at a state the residual's enclosure excludes 0.
+    Refuted,
+    /// Neither, for the reason given.
+    Undecided,
+}
+
+impl Verdict {
+    /// The word used in reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Proved => "proved",
+            Verdict::Confirmed => "confirmed",
+            Verdict::Refuted => "refuted",
+            Verdict::Undecided => "undecided",
+        }
+    }
+}
+
+/// A state at which a claim fails, in the form in which `eval` takes it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Witness {
+    /// The number of the state under the run's seed.
+    pub index: u64,
+    /// The values of the parameters that were drawn, for `--set`.
+    pub parameters: BTreeMap<String, String>,
+    /// The state, for `--state`.
+    pub state: String,
+    /// The residual there.
+    pub residual: f64,
+    /// A bound on the residual's error; less than its magnitude.
+    pub error_bound: f64,
+}
+
+/// How an integral relates to what every case conserves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Independence {
+    /// Its gradient is independent of those of the level functions and the energy.
+    Independent,
+    /// It depends on the level functions and the energy.
+    General,
+    /// It is constant on the level: true, and says nothing.
+    Constant,
+}
+
+/// The sign of a density.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sign {
+    /// Positive at every state tried.
+    Positive,
+    /// Negative at every state tried: its negative is a measure.
+    Negative,
+    /// It changes sign at fixed parameters: invariant, but no positive measure.
+    Changes,
+}
+
+/// The grounds of a verdict.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Evidence {
+    /// `folding`: the residual became the constant 0, or another, while it was recorded.
+    /// `ball`: enclosures in f64. `ball at numerical states`: the same, where the level set has no
+    /// parametrisation.
+    pub method: &'static str,
+    /// States at which the residual was computed.
+    pub samples: usize,
+    /// The largest |residual| where the claim holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_residual: Option<f64>,
+    /// The largest |residual| over its own error bound; at most 1 where the claim holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_scaled_residual: Option<f64>,
+    /// Operations of the residual a state.
+    pub operations: usize,
+    /// The places where it was seen to hold, widest first: `everywhere`, an equation, `level`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub holds: Vec<String>,
+    /// For integrals that hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub independence: Option<Independence>,
+    /// For densities that hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sign: Option<Sign>,
+    /// What a density on a level set refers to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume: Option<String>,
+    /// Where a claim is refuted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Witness>,
+    /// Why a claim is undecided, or what its verdict leaves open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// A claim with its verdict.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClaimReport {
+    /// The claim's name in its case.
+    pub name: String,
+    /// The formula, if the claim is about one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub formula: Option<String>,
+    /// `integral`, `density`, `analytic-density` or `position-density`.
+    pub kind: &'static str,
+    /// Equation number, table, section.
+    pub source: String,
+    /// Where it is claimed.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// What the file expects.
+    pub expect: &'static str,
+    /// The answer.
+    pub verdict: Verdict,
+    /// Does the answer agree with what is expected? Always, for a claim declared open.
+    pub agrees: bool,
+    /// The row of the paper's table that this fills.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cell: Option<String>,
+    /// The author's remark.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+    /// The grounds.
+    pub evidence: Evidence,
+}

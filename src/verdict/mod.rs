@@ -1,0 +1,28 @@
+//! From residuals to verdicts: sampling on level sets, the ladder, evidence.
+//!
+//! A residual is judged against the rounding error that this very computation can make at this very
+//! state: a ball that excludes 0 refutes, with the state as witness; a claim is confirmed when the
+//! balls of all states contain 0 and are narrow against the terms that were added up. Nothing is
+//! compared with a fixed tolerance.
+
+mod evidence;
+mod judge;
+mod newton;
+mod physics;
+mod point;
+mod run;
+mod sampler;
+
+pub use evidence::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
+pub use judge::{CaseReport, JudgeError, Options, judge};
+pub use point::{Enclosed, PointReport, StateError, evaluate, read_state};
+pub use sampler::{LANES, Sampler};
+
+use crate::number::rational::Rational;
+
+/// The value that an antiderivative is given at a state, its constant being free.
+///
+/// A fixed one makes residuals reproducible; 0 would hide terms in which it is a factor.
+pub fn antiderivative_value(number: usize) -> Rational {
+    Rational::new(37 + 11 * number as i64, 100)
+}

@@ -1,0 +1,83 @@
+//! What is physically impossible but mathematically meaningful runs, with a warning.
+
+use nalgebra::{Matrix3, Vector3};
+use num_traits::One;
+
+use super::sampler::LANES;
+use crate::formula::Value;
+use crate::graph::Expr;
+use crate::mechanics::{Phase, System};
+use crate::number::ball::Balls;
+
+/// The quantities that are looked at: m, I by rows, R₁ + R₂, R₁R₂, 1 + k(R₁+R₂) + k²R₁R₂, R, c.
+pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
+    let at = &phase.configuration;
+    let named = |name: &str| at.named(name);
+    let System::Rubber(body) = &phase.model().system else { return Vec::new() };
+    let mass = at.evaluate(&body.mass).scalar();
+    let inertia = at.evaluate(&body.inertia).components();
+    let (sum, product) = body.radii(at);
+    let turning = body.curvature.as_ref().and_then(|k| at.evaluate(k).scalar());
+    let determinant = turning.map_or(Expr::one(), |k| Expr::one() + k * sum + k * k * product);
+    let mut outputs: Vec<Expr> = mass.into_iter().chain(inertia).collect();
+    outputs.extend([sum, product, determinant]);
+    if let (Some(Value::Scalar(radius)), Some(Value::Vector(offset))) = (named("R"), named("c")) {
+        outputs.extend([radius, offset.x, offset.y, offset.z]);
+    }
+    outputs
+}
+
+/// One warning for each kind of impossibility, with how often it occurred.
+pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
+    let mut counts = [0usize; KINDS.len()];
+    let mut defined = 0;
+    for lane in 0..LANES {
+        let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
+        if state.len() < 13 || state.iter().any(|x| !x.is_finite()) {
+            continue;
+        }
+        defined += 1;
+        for (count, holds) in counts.iter_mut().zip(impossibilities(&state)) {
+            *count += usize::from(holds);
+        }
+    }
+    KINDS
+        .iter()
+        .zip(counts)
+        .filter(|(_, count)| *count > 0)
+        .map(|(kind, count)| match count == defined {
+            true => kind.to_string(),
+            false => format!("{kind} (at {count} of {defined} states)"),
+        })
+        .collect()
+}
+
+const KINDS: [&str; 6] = [
+    "the mass is not positive",
+    "the inertia tensor is not positive definite",
+    "the moments of inertia violate a triangle inequality: no body has them",
+    "the body is not convex at the contact",
+    "Γ reverses orientation (det Γ < 0): the contact is of the enclosing kind",
+    "the mass centre lies outside the ball: |c| > |R|",
+];
+
+fn impossibilities(state: &[f64]) -> [bool; KINDS.len()] {
+    let inertia = Matrix3::from_row_slice(&state[1..10]);
+    let moments = ((inertia + inertia.transpose()) * 0.5).symmetric_eigenvalues();
+    let [sum, product, determinant] = [state[10], state[11], state[12]];
+    let outside = match state.get(13..17) {
+        Some([radius, x, y, z]) => Vector3::new(*x, *y, *z).norm() > radius.abs(),
+        _ => false,
+    };
+    // A moment may exceed the sum of the others by the rounding of an eigenvalue computation.
+    let slack = 1.0 + 64.0 * f64::EPSILON;
+    let largest = moments.max();
+    [
+        state[0] <= 0.0,
+        moments.min() <= 0.0,
+        moments.min() > 0.0 && largest > (moments.sum() - largest) * slack,
+        sum <= 0.0 || product <= 0.0,
+        determinant < 0.0,
+        outside,
+    ]
+}

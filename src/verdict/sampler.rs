@@ -1,0 +1,131 @@
+//! States at a place: random draws, turned into parameters and a state inside the number domain.
+
+use crate::case::Case;
+use crate::claim::Place;
+use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::mechanics::{Chart, Draw, Origin, Recipe, draw_state};
+use crate::number::Domain;
+use crate::number::ball::{Ball, Balls};
+use crate::number::exact::Exact;
+use crate::number::rational::Rational;
+
+use super::newton::Newton;
+
+/// States a run of a tape treats at once.
+pub const LANES: usize = 64;
+
+/// Makes the inputs of a case's tapes at one place.
+pub struct Sampler {
+    seed: u64,
+    draws: Vec<Draw>,
+    /// How many of the draws make the parameters.
+    parameter_draws: usize,
+    dimension: usize,
+    tape: Tape,
+    newton: Option<Newton>,
+}
+
+impl Sampler {
+    /// A sampler of states at `place`.
+    pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
+        let model = &case.model;
+        let recipes: Vec<&Recipe> = model
+            .free_parameters()
+            .filter_map(|parameter| match &parameter.origin {
+                Origin::Free(recipe) => Some(recipe),
+                _ => None,
+            })
+            .collect();
+        let mut draws: Vec<Draw> = recipes.iter().flat_map(|recipe| recipe.draws()).collect();
+        let parameter_draws = draws.len();
+        draws.extend(case.chart.draws(&case.free_draws, &place.kept));
+        let (graph, outputs) = record(draws.len(), |inputs| {
+            let (mut rest, state) = inputs.split_at(parameter_draws);
+            let mut values = Vec::new();
+            for recipe in &recipes {
+                let (own, others) = rest.split_at(recipe.draws().len());
+                rest = others;
+                values.extend(recipe.make(own).components());
+            }
+            let point = case.chart.point(model, &place.kept, &values, state);
+            values.extend(point);
+            values
+        })?;
+        let on_level = place.kept.iter().any(|kept| *kept);
+        let newton = match (&case.chart, on_level) {
+            (Chart::Numerical, true) => Some(Newton::new(model, &place.kept)?),
+            _ => None,
+        };
+        let tape = Tape::new(&graph, &outputs);
+        let dimension = model.dimension();
+        Ok(Self { seed, draws, parameter_draws, dimension, tape, newton })
+    }
+
+    /// Are the states found numerically, with an estimated rather than a proved distance from the
+    /// level?
+    pub fn is_numerical(&self) -> bool {
+        self.newton.is_some()
+    }
+
+    /// Parameters and state of the states `start..start + LANES`, as balls.
+    pub fn balls(&self, start: u64) -> Vec<Balls<LANES>> {
+        self.balls_of(|lane| {
+            let index = start + lane as u64;
+            draw_state(self.seed, index, &self.draws)
+        })
+    }
+
+    /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
+    pub fn balls_sharing_parameters(&self, sets: usize) -> Vec<Balls<LANES>> {
+        self.balls_of(|lane| {
+            let set = lane * sets / LANES;
+            let mut values = draw_state(self.seed, set as u64, &self.draws);
+            let own = draw_state(self.seed, lane as u64, &self.draws);
+            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            values
+        })
+    }
+
+    fn balls_of(&self, draws_of: impl Fn(usize) -> Vec<Rational>) -> Vec<Balls<LANES>> {
+        let lanes: Vec<Vec<Rational>> = (0..LANES).map(draws_of).collect();
+        let domain = Ball::<LANES>;
+        let inputs: Vec<Balls<LANES>> = (0..self.draws.len())
+            .map(|k| {
+                let column: Vec<Rational> = lanes.iter().map(|lane| lane[k].clone()).collect();
+                domain.values(&column)
+            })
+            .collect();
+        let mut evaluator = Evaluator::new(&self.tape, domain);
+        evaluator.run(&inputs);
+        let mut values: Vec<Balls<LANES>> = evaluator.outputs().cloned().collect();
+        if let Some(newton) = &self.newton {
+            newton.project(&mut values);
+        }
+        values
+    }
+
+    /// Parameters and state of one state, exact where they are rational.
+    pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
+        let values = draw_state(self.seed, index, &self.draws);
+        let mut evaluator = Evaluator::new(&self.tape, Exact);
+        evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
+        let state_begins = self.tape.outputs() - self.dimension;
+        evaluator
+            .outputs()
+            .enumerate()
+            .map(|(k, value)| value.clone().filter(|_| self.newton.is_none() || k < state_begins))
+            .collect()
+    }
+
+    /// The same as text, the nearest f64 standing for what is not rational.
+    pub fn printed(&self, index: u64) -> Vec<String> {
+        let start = index - index % LANES as u64;
+        let lane = (index % LANES as u64) as usize;
+        let balls = std::cell::LazyCell::new(|| self.balls(start));
+        let text = |(k, value): (usize, Option<Rational>)| match value {
+            Some(exact) => exact.to_string(),
+            None => format!("{:?}", balls[k].mid[lane]),
+        };
+        self.exact(index).into_iter().enumerate().map(text).collect()
+    }
+}
