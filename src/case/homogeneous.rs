@@ -1,7 +1,7 @@
 //! Is a typed support function homogeneous of degree 1? If not, it is meant on the unit sphere.
 
 use crate::graph::{Evaluator, Tape, record};
-use crate::mechanics::{Draw, Model, NORMAL, Origin, Phase, Range, Shape, calculus, draw_state};
+use crate::mechanics::{Draw, Draws, Model, NORMAL, Origin, Phase, Range, Shape, calculus};
 use crate::number::Domain;
 use crate::number::ball::Ball;
 
@@ -38,8 +38,9 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     .ok()?;
     let tape = Tape::new(&graph, &[defect]);
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
+    let numbers = Draws::new(&draws);
     let refuted = (0..4).any(|index| {
-        let values = draw_state(0, index, &draws);
+        let values = numbers.state(0, index);
         let inputs: Vec<_> = values.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
         evaluator.run(&inputs);
         evaluator.output(0).excludes_zero(0)

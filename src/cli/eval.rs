@@ -19,18 +19,16 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
     let shown = options.case.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
     let (text, case) = Case::read(&options.case, &settings);
-    let case =
-        case.map_err(|error| diagnostic::render(&shown, &text, &error, coloured))?;
+    let case = case.map_err(|error| diagnostic::render(&shown, &text, &error, coloured))?;
     let state = match &options.state {
         None => None,
         Some(text) => Some(
             verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
         ),
     };
-    let report = verdict::evaluate(&case, state.as_deref(), options.seed, options.index)
-        .map_err(|error| {
-            diagnostic::render_plain(&shown, &error.to_string(), error.help(), coloured)
-        })?;
+    let report = verdict::evaluate(&case, state.as_deref(), options.seed, options.index).map_err(
+        |error| diagnostic::render_plain(&shown, &error.to_string(), error.help(), coloured),
+    )?;
     let text = if options.json {
         point::json(&report).map_err(|error| format!("error: {error}"))? + "\n"
     } else {

@@ -66,7 +66,10 @@ fn collect(paths: &[PathBuf]) -> Vec<Found> {
                 folder(path, &mut files);
                 if files.len() == before {
                     let help = "a case file ends in .toml";
-                    files.push(Err((path.clone(), plain(path, "no case file in this folder", help))));
+                    files.push(Err((
+                        path.clone(),
+                        plain(path, "no case file in this folder", help),
+                    )));
                 }
             }
             Ok(_) => files.push(Ok(path.clone())),

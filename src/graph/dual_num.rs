@@ -20,19 +20,19 @@ fn whole(value: i64) -> Expr {
 
 impl Zero for Expr {
     fn zero() -> Self {
-        whole(0)
+        Expr::zero_node()
     }
     fn is_zero(&self) -> bool {
-        self.known().is_some_and(|value| value.is_zero())
+        self.is_zero_node()
     }
 }
 
 impl One for Expr {
     fn one() -> Self {
-        whole(1)
+        Expr::one_node()
     }
     fn is_one(&self) -> bool {
-        self.known().is_some_and(|value| value.is_one())
+        self.is_one_node()
     }
 }
 

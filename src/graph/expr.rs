@@ -45,7 +45,7 @@ impl Expr {
             return self.node;
         }
         graph.fail(Fault::ForeignValue);
-        graph.constant(Rational::from(0))
+        super::ZERO
     }
 
     pub(super) fn constant(value: Rational) -> Self {
@@ -66,12 +66,22 @@ impl Expr {
         })
     }
 
-    /// The constant this value was folded to.
-    pub(super) fn known(self) -> Option<Rational> {
-        with_graph(|graph| {
-            let node = self.node_in(graph);
-            graph.constant_at(node).cloned()
-        })
+    pub(super) fn zero_node() -> Self {
+        Self::made(|_| super::ZERO)
+    }
+
+    pub(super) fn one_node() -> Self {
+        Self::made(|_| super::ONE)
+    }
+
+    /// Was this value folded to 0?
+    pub(super) fn is_zero_node(self) -> bool {
+        with_graph(|graph| self.node_in(graph) == super::ZERO)
+    }
+
+    /// Was this value folded to 1?
+    pub(super) fn is_one_node(self) -> bool {
+        with_graph(|graph| self.node_in(graph) == super::ONE)
     }
 
     /// Reports an operation that needs a magnitude or an order.

@@ -54,8 +54,13 @@ pub enum Fault {
     ForeignValue,
 }
 
+/// The constant 0, the first node of every graph.
+const ZERO: NodeId = NodeId(0);
+/// The constant 1, the second.
+const ONE: NodeId = NodeId(1);
+
 /// A recorded computation.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Graph {
     session: u32,
     nodes: Vec<Node>,
@@ -68,6 +73,24 @@ pub struct Graph {
 }
 
 impl Graph {
+    /// An empty graph with its two constants in place.
+    fn begin(session: u32) -> Self {
+        let mut graph = Self {
+            session,
+            nodes: Vec::new(),
+            constants: Vec::new(),
+            node_ids: FxHashMap::default(),
+            constant_ids: FxHashMap::default(),
+            inputs: 0,
+            antiderivatives: FxHashMap::default(),
+            fault: None,
+        };
+        for value in [0, 1] {
+            graph.constant(Rational::from(value));
+        }
+        graph
+    }
+
     /// How many nodes were kept.
     pub fn len(&self) -> usize {
         self.nodes.len()
@@ -140,7 +163,7 @@ impl Graph {
 
 thread_local! {
     /// The recording under way on this thread, if any, and the number of the last one begun.
-    static RECORDING: RefCell<Graph> = RefCell::default();
+    static RECORDING: RefCell<Graph> = RefCell::new(Graph::begin(0));
     static SESSIONS: RefCell<u32> = const { RefCell::new(0) };
 }
 
@@ -153,11 +176,10 @@ pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Gra
         *last = last.wrapping_add(1).max(1);
         *last
     });
-    let fresh = Graph { session, ..Graph::default() };
-    let mut outer = Restore(Some(RECORDING.replace(fresh)));
+    let mut outer = Restore(Some(RECORDING.replace(Graph::begin(session))));
     let handles: Vec<Expr> = (0..inputs).map(|_| Expr::input()).collect();
     let result = build(&handles);
-    let mut graph = outer.finish();
+    let mut graph = outer.finish().unwrap_or_else(|| Graph::begin(session));
     match graph.fault.take() {
         Some(fault) => Err(fault),
         None => Ok((graph, result)),
@@ -168,8 +190,8 @@ pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Gra
 struct Restore(Option<Graph>);
 
 impl Restore {
-    fn finish(&mut self) -> Graph {
-        self.0.take().map(|outer| RECORDING.replace(outer)).unwrap_or_default()
+    fn finish(&mut self) -> Option<Graph> {
+        self.0.take().map(|outer| RECORDING.replace(outer))
     }
 }
 

@@ -4,7 +4,7 @@
 //! `x - x`, `x · 1/x`, `√x · √x`. Not rewritten, because it would change the real meaning:
 //! `√(x²)`, `(xᵃ)ᵇ`.
 
-use super::{Graph, Node, NodeId};
+use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
@@ -18,10 +18,6 @@ impl Graph {
     pub(super) fn constant(&mut self, value: Rational) -> NodeId {
         let index = self.intern_constant(value);
         self.intern(Node::Constant(index))
-    }
-
-    fn integer(&mut self, value: i64) -> NodeId {
-        self.constant(Rational::from(value))
     }
 
     pub(super) fn input(&mut self) -> NodeId {
@@ -38,14 +34,6 @@ impl Graph {
         }
         self.antiderivatives.insert((integrand, variable), self.inputs);
         self.input()
-    }
-
-    fn is_zero(&self, id: NodeId) -> bool {
-        self.constant_at(id).is_some_and(Rational::is_zero)
-    }
-
-    fn is_one(&self, id: NodeId) -> bool {
-        self.constant_at(id).is_some_and(Rational::is_one)
     }
 
     /// The argument of a negation.
@@ -85,14 +73,15 @@ impl Graph {
     }
 
     pub(super) fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        if let Some(folded) = self.fold(a, b, |x, y| x + y) {
-            return folded;
-        }
-        if self.is_zero(a) {
+        // Derivatives are mostly zeros: they are recognised by their place.
+        if a == ZERO {
             return b;
         }
-        if self.is_zero(b) {
+        if b == ZERO {
             return a;
+        }
+        if let Some(folded) = self.fold(a, b, |x, y| x + y) {
+            return folded;
         }
         match (self.negated(a), self.negated(b)) {
             (_, Some(y)) => self.sub(a, y),
@@ -102,17 +91,17 @@ impl Graph {
     }
 
     pub(super) fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        if let Some(folded) = self.fold(a, b, |x, y| x - y) {
-            return folded;
-        }
         if a == b {
-            return self.integer(0);
+            return ZERO;
         }
-        if self.is_zero(a) {
+        if a == ZERO {
             return self.unary(Function::Neg, b);
         }
-        if self.is_zero(b) {
+        if b == ZERO {
             return a;
+        }
+        if let Some(folded) = self.fold(a, b, |x, y| x - y) {
+            return folded;
         }
         match (self.negated(a), self.negated(b)) {
             (_, Some(y)) => self.add(a, y),
@@ -129,17 +118,17 @@ impl Graph {
     }
 
     pub(super) fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        if let Some(folded) = self.fold(a, b, |x, y| x * y) {
-            return folded;
+        if a == ZERO || b == ZERO {
+            return ZERO;
         }
-        if self.is_zero(a) || self.is_zero(b) {
-            return self.integer(0);
-        }
-        if self.is_one(a) {
+        if a == ONE {
             return b;
         }
-        if self.is_one(b) {
+        if b == ONE {
             return a;
+        }
+        if let Some(folded) = self.fold(a, b, |x, y| x * y) {
+            return folded;
         }
         match (self.negated(a), self.negated(b)) {
             (Some(x), Some(y)) => return self.mul(x, y),
@@ -160,7 +149,7 @@ impl Graph {
         if self.argument(Function::Recip, a) == Some(b)
             || self.argument(Function::Recip, b) == Some(a)
         {
-            return self.integer(1);
+            return ONE;
         }
         self.commutative(Operation::Mul, a, b)
     }
@@ -214,7 +203,7 @@ impl Graph {
     pub(super) fn pow(&mut self, base: NodeId, exponent: NodeId) -> NodeId {
         match self.constant_at(exponent).cloned() {
             Some(exponent) => self.power(base, &exponent),
-            None if self.is_one(base) => base,
+            None if base == ONE => base,
             None => self.intern(Node::Binary(Operation::Pow, base, exponent)),
         }
     }
@@ -236,7 +225,7 @@ impl Graph {
                 let root = self.unary(Function::Sqrt, base);
                 self.mul(whole, root)
             }
-            _ if self.is_one(base) => base,
+            _ if base == ONE => base,
             _ => {
                 let index = self.intern_constant(exponent.clone());
                 self.intern(Node::Power(base, index))
@@ -246,7 +235,7 @@ impl Graph {
 
     fn unrolled(&mut self, base: NodeId, exponent: u32) -> NodeId {
         match exponent {
-            0 => self.integer(1),
+            0 => ONE,
             1 => base,
             n => {
                 let half = self.unrolled(base, n / 2);

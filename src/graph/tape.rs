@@ -52,7 +52,7 @@ impl Tape {
         let mut tape = Tape {
             inputs: graph.inputs(),
             constants: Vec::new(),
-            exponents: graph.constants.clone(),
+            exponents: Vec::new(),
             instructions: Vec::new(),
             outputs: Vec::new(),
             slots: 0,
@@ -87,6 +87,9 @@ impl Tape {
                 Node::Power(a, exponent) => {
                     release(a.0 as usize, &mut slots);
                     let a = slot_of[a.0 as usize];
+                    let value = graph.constants[exponent as usize].clone();
+                    tape.exponents.push(value);
+                    let exponent = (tape.exponents.len() - 1) as u32;
                     Instruction::Power { a, exponent, out: slots.take() }
                 }
                 Node::Binary(operation, a, b) => {

@@ -6,27 +6,73 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::recipe::Draw;
 use crate::number::rational::Rational;
 
-/// The draws of state `index`: short decimals strictly inside their ranges, never 0.
+/// Random numbers for states: short decimals strictly inside their ranges, never 0.
 ///
 /// The same seed and index give the same numbers, whatever else is drawn, on every machine.
-pub fn draw_state(seed: u64, index: u64, draws: &[Draw]) -> Vec<Rational> {
-    let mut stream = ChaCha8Rng::seed_from_u64(seed);
-    stream.set_stream(index);
-    draws.iter().map(|draw| draw_one(draw, stream.next_u64())).collect()
+#[derive(Clone, Debug)]
+pub struct Draws {
+    sources: Vec<Source>,
 }
 
-fn draw_one(draw: &Draw, bits: u64) -> Rational {
-    match draw {
-        Draw::OneOf(values) => values
-            .get(scale(bits, values.len() as u64) as usize)
-            .cloned()
-            .unwrap_or_else(|| Rational::from(0)),
-        Draw::Within(range) => {
-            let width = &range.high - &range.low;
-            let (step, count) = grid(&width);
-            let value = &range.low + &(&step * &Rational::from(1 + scale(bits, count) as i64));
-            // Formulas that are wrong in general hold on coordinate planes.
-            if value.is_zero() { &value + &step } else { value }
+/// Where one number comes from.
+#[derive(Clone, Debug)]
+enum Source {
+    List(Vec<Rational>),
+    /// `low + n step` for n in 1..=count
+    Grid {
+        low: Rational,
+        step: Rational,
+        count: u64,
+    },
+}
+
+impl Draws {
+    /// Prepares one number a draw.
+    pub fn new(draws: &[Draw]) -> Self {
+        Self { sources: draws.iter().map(Source::new).collect() }
+    }
+
+    /// How many numbers a state takes.
+    pub fn len(&self) -> usize {
+        self.sources.len()
+    }
+
+    /// Is nothing drawn?
+    pub fn is_empty(&self) -> bool {
+        self.sources.is_empty()
+    }
+
+    /// The numbers of state `index`.
+    pub fn state(&self, seed: u64, index: u64) -> Vec<Rational> {
+        let mut stream = ChaCha8Rng::seed_from_u64(seed);
+        stream.set_stream(index);
+        self.sources.iter().map(|source| source.pick(stream.next_u64())).collect()
+    }
+}
+
+impl Source {
+    fn new(draw: &Draw) -> Self {
+        match draw {
+            Draw::OneOf(values) => Source::List(values.clone()),
+            Draw::Within(range) => {
+                let width = &range.high - &range.low;
+                let (step, count) = grid(&width);
+                Source::Grid { low: range.low.clone(), step, count }
+            }
+        }
+    }
+
+    fn pick(&self, bits: u64) -> Rational {
+        match self {
+            Source::List(values) => {
+                let index = scale(bits, values.len() as u64) as usize;
+                values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
+            }
+            Source::Grid { low, step, count } => {
+                let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
+                // Formulas that are wrong in general hold on coordinate planes.
+                if value.is_zero() { &value + step } else { value }
+            }
         }
     }
 }
@@ -54,28 +100,30 @@ mod tests {
     #[test]
     fn the_stream_is_frozen() {
         let draws = vec![Draw::Within(Range::between((1, 2), (2, 1))); 3];
-        let shown: Vec<String> = draw_state(7, 3, &draws).iter().map(|x| x.to_string()).collect();
+        let shown: Vec<String> =
+            Draws::new(&draws).state(7, 3).iter().map(|x| x.to_string()).collect();
         assert_eq!(shown, FROZEN, "a change here changes every witness ever printed");
     }
 
-    const FROZEN: [&str; 3] = ["0.5", "0.5", "0.5"];
+    const FROZEN: [&str; 3] = ["0.772", "0.64", "1.967"];
 
     #[test]
     fn draws_stay_inside_and_off_zero() {
         let range = Range::between((-1, 1), (1, 1));
         let draws = vec![Draw::Within(range.clone()); 2000];
-        for value in draw_state(1, 0, &draws) {
+        for value in Draws::new(&draws).state(1, 0) {
             assert!(value > range.low && value < range.high && !value.is_zero(), "{value}");
         }
         let narrow = Draw::Within(Range::between((1, 1_000_000), (2, 1_000_000)));
-        let value = draw_state(1, 0, &[narrow])[0].clone();
+        let value = Draws::new(&[narrow]).state(1, 0)[0].clone();
         assert!(value > Rational::new(1, 1_000_000) && value < Rational::new(2, 1_000_000));
     }
 
     #[test]
     fn states_differ_and_do_not_depend_on_each_other() {
         let draws = vec![Draw::Within(Range::between((0, 1), (1, 1))); 4];
-        assert_ne!(draw_state(1, 0, &draws), draw_state(1, 1, &draws));
-        assert_eq!(draw_state(1, 5, &draws)[..2], draw_state(1, 5, &draws[..2])[..]);
+        let (four, two) = (Draws::new(&draws), Draws::new(&draws[..2]));
+        assert_ne!(four.state(1, 0), four.state(1, 1), "each state has numbers of its own");
+        assert_eq!(four.state(1, 5)[..2], two.state(1, 5)[..], "further draws change nothing");
     }
 }

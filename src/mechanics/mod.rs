@@ -15,7 +15,7 @@ mod rubber_names;
 
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart, Step};
-pub use draws::draw_state;
+pub use draws::Draws;
 pub use flat_base::FlatBase;
 pub use model::{
     Configuration, Entry, LevelEquation, LevelFunction, Meaning, Model, Origin, Parameter, Phase,

@@ -70,7 +70,7 @@ pub fn square_root(x: &Rational) -> Option<Rational> {
         let root = (!n.is_negative()).then(|| n.sqrt())?;
         (&root * &root == *n).then_some(root)
     };
-    let (above, below) = (root(numerator)?, root(denominator)?);
+    let (above, below) = (root(&numerator)?, root(&denominator)?);
     format!("{above}/{below}").parse().ok()
 }
 

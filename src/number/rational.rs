@@ -2,12 +2,14 @@
 //!
 //! `0.1` is 1/10 and stays so until a number domain asks for its own image of it.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
+use num_traits::{Pow, Signed, ToPrimitive};
 
 /// Largest power of ten a literal may carry; beyond it no f64 could hold the value.
 const MAX_EXPONENT: i64 = 1000;
@@ -15,8 +17,18 @@ const MAX_EXPONENT: i64 = 1000;
 const MAX_DIGITS: usize = 4000;
 
 /// An exact rational number of any size.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Rational(BigRational);
+///
+/// Numbers of the size people type are kept in machine words: they are drawn, folded and enclosed
+/// by the thousand before the first state is reached.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Rational(Form);
+
+/// In lowest terms with a positive denominator; `Small` whenever both parts fit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Form {
+    Small(i64, i64),
+    Big(Box<BigRational>),
+}
 
 /// Why a text is not a number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,89 +50,181 @@ impl Rational {
     /// The fraction `numerator / denominator`; the denominator must not be zero.
     pub fn new(numerator: i64, denominator: i64) -> Self {
         assert!(denominator != 0, "a fraction needs a non-zero denominator");
-        Self(BigRational::new(numerator.into(), denominator.into()))
+        Self::reduced(i128::from(numerator), i128::from(denominator))
+    }
+
+    /// `n/d` in lowest terms, d ≠ 0.
+    fn reduced(n: i128, d: i128) -> Self {
+        // 128-bit division is a function call; most numbers do not need it.
+        if let (Ok(n), Ok(d)) = (i64::try_from(n), i64::try_from(d))
+            && n > i64::MIN
+            && d > i64::MIN
+        {
+            let common = n.gcd(&d) * d.signum();
+            return Self(Form::Small(n / common, d / common));
+        }
+        let common = n.gcd(&d) * d.signum();
+        match (i64::try_from(n / common), i64::try_from(d / common)) {
+            (Ok(n), Ok(d)) => Self(Form::Small(n, d)),
+            _ => Self(Form::Big(Box::new(BigRational::new(n.into(), d.into())))),
+        }
+    }
+
+    fn from_big(value: BigRational) -> Self {
+        match (value.numer().to_i64(), value.denom().to_i64()) {
+            (Some(n), Some(d)) => Self(Form::Small(n, d)),
+            _ => Self(Form::Big(Box::new(value))),
+        }
+    }
+
+    fn to_big(&self) -> BigRational {
+        match &self.0 {
+            Form::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
+            Form::Big(value) => (**value).clone(),
+        }
     }
 
     /// The exact value of a finite f64 (a dyadic rational); `None` for NaN and infinities.
     pub fn from_f64(value: f64) -> Option<Self> {
-        BigRational::from_float(value).map(Self)
+        BigRational::from_float(value).map(Self::from_big)
     }
 
     /// The nearest f64, and whether it is exactly this number.
     pub fn to_f64(&self) -> (f64, bool) {
-        let nearest = self.0.to_f64().unwrap_or(f64::NAN);
-        let exact = BigRational::from_float(nearest).is_some_and(|back| back == self.0);
-        (nearest, exact)
+        const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
+        match &self.0 {
+            // Both parts are f64s, and division rounds correctly: exact only for powers of two.
+            Form::Small(n, d) if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT => {
+                ((*n as f64) / (*d as f64), d.count_ones() == 1)
+            }
+            _ => {
+                let value = self.to_big();
+                let nearest = value.to_f64().unwrap_or(f64::NAN);
+                let exact = BigRational::from_float(nearest).is_some_and(|back| back == value);
+                (nearest, exact)
+            }
+        }
     }
 
     /// This number as a machine integer, if it is one.
     pub fn to_integer(&self) -> Option<i64> {
-        self.0.is_integer().then(|| self.0.to_integer().to_i64()).flatten()
+        match self.0 {
+            Form::Small(n, 1) => Some(n),
+            _ => None,
+        }
     }
 
     /// Numerator and denominator in lowest terms, the denominator positive.
-    pub fn parts(&self) -> (&BigInt, &BigInt) {
-        (self.0.numer(), self.0.denom())
+    pub fn parts(&self) -> (BigInt, BigInt) {
+        self.to_big().into()
     }
 
     /// Bits needed to write numerator and denominator.
     pub fn bits(&self) -> u64 {
-        self.0.numer().bits() + self.0.denom().bits()
+        let bits = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
+        match &self.0 {
+            Form::Small(n, d) => bits(*n) + bits(*d),
+            Form::Big(value) => value.numer().bits() + value.denom().bits(),
+        }
     }
 
     /// Is this 0?
     pub fn is_zero(&self) -> bool {
-        self.0.is_zero()
+        matches!(self.0, Form::Small(0, _))
     }
 
     /// Is this 1?
     pub fn is_one(&self) -> bool {
-        self.0.is_one()
+        matches!(self.0, Form::Small(1, 1))
     }
 
     /// Is this below 0?
     pub fn is_negative(&self) -> bool {
-        self.0.is_negative()
+        match &self.0 {
+            Form::Small(n, _) => *n < 0,
+            Form::Big(value) => value.is_negative(),
+        }
     }
 
     /// The absolute value.
     pub fn abs(&self) -> Self {
-        Self(self.0.abs())
+        if self.is_negative() { -self } else { self.clone() }
     }
 
     /// `1/x`, or `None` for 0.
     pub fn recip(&self) -> Option<Self> {
-        (!self.is_zero()).then(|| Self(self.0.recip()))
+        match &self.0 {
+            Form::Small(0, _) => None,
+            Form::Small(n, d) => Some(Self::reduced(i128::from(*d), i128::from(*n))),
+            Form::Big(value) => Some(Self::from_big(value.recip())),
+        }
     }
 
     /// `x^n`, or `None` for 0 to a negative power.
     pub fn powi(&self, exponent: i32) -> Option<Self> {
-        (exponent >= 0 || !self.is_zero()).then(|| Self(Pow::pow(&self.0, exponent)))
+        (exponent >= 0 || !self.is_zero())
+            .then(|| Self::from_big(Pow::pow(&self.to_big(), exponent)))
     }
 }
 
 macro_rules! operators {
-    ($($trait:ident :: $method:ident),*) => {$(
+    ($($trait:ident $method:ident $checked:expr;)*) => {$(
         impl std::ops::$trait for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                Rational(std::ops::$trait::$method(&self.0, &other.0))
+                if let (Form::Small(a, b), Form::Small(c, d)) = (&self.0, &other.0) {
+                    let [a, b, c, d] = [*a, *b, *c, *d].map(i128::from);
+                    // Products of 64-bit parts fit 127 bits; only a sum of two may overflow.
+                    if let Some((n, d)) = $checked(a, b, c, d) {
+                        return Rational::reduced(n, d);
+                    }
+                }
+                Rational::from_big(std::ops::$trait::$method(self.to_big(), other.to_big()))
             }
         }
     )*};
 }
-operators!(Add::add, Sub::sub, Mul::mul);
+
+operators! {
+    Add add |a: i128, b: i128, c: i128, d: i128| {
+        (a * d).checked_add(c * b).map(|n| (n, b * d))
+    };
+    Sub sub |a: i128, b: i128, c: i128, d: i128| {
+        (a * d).checked_sub(c * b).map(|n| (n, b * d))
+    };
+    Mul mul |a: i128, b: i128, c: i128, d: i128| Some((a * c, b * d));
+}
 
 impl std::ops::Neg for &Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
-        Rational(-&self.0)
+        match &self.0 {
+            Form::Small(n, d) => Rational::reduced(-i128::from(*n), i128::from(*d)),
+            Form::Big(value) => Rational::from_big(-&**value),
+        }
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (&self.0, &other.0) {
+            (Form::Small(a, b), Form::Small(c, d)) => {
+                (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
+            }
+            _ => self.to_big().cmp(&other.to_big()),
+        }
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
     }
 }
 
 impl From<i64> for Rational {
     fn from(value: i64) -> Self {
-        Self(BigRational::from_integer(value.into()))
+        Self(Form::Small(value, 1))
     }
 }
 
@@ -172,28 +276,24 @@ fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
     let integer: BigInt = digits.parse().map_err(|_| malformed())?;
     let shift = exponent - fraction.len() as i64;
     let scale = BigRational::from_integer(BigInt::from(10)).pow(shift as i32);
-    Ok(Rational(BigRational::from_integer(integer * sign) * scale))
+    Ok(Rational::from_big(BigRational::from_integer(integer * sign) * scale))
 }
 
 impl fmt::Display for Rational {
     /// A terminating decimal of up to six places is written as one, anything else as a fraction.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let places = (0..=6u32).find(|places| {
-            let scale = BigRational::from_integer(BigInt::from(10).pow(*places));
-            (&self.0 * scale).is_integer()
-        });
-        match places {
-            Some(0) => write!(out, "{}", self.0.numer()),
+        let value = self.to_big();
+        let scaled = |places: u32| &value * BigRational::from_integer(BigInt::from(10).pow(places));
+        match (0..=6u32).find(|places| scaled(*places).is_integer()) {
+            Some(0) => write!(out, "{}", value.numer()),
             Some(places) => {
-                let scaled = (&self.0 * BigRational::from_integer(BigInt::from(10).pow(places)))
-                    .to_integer();
-                let digits =
-                    format!("{:0>width$}", scaled.abs().to_string(), width = places as usize + 1);
+                let width = places as usize + 1;
+                let digits = format!("{:0>width$}", scaled(places).to_integer().abs().to_string());
                 let (whole, fraction) = digits.split_at(digits.len() - places as usize);
-                let sign = if scaled.is_negative() { "-" } else { "" };
+                let sign = if self.is_negative() { "-" } else { "" };
                 write!(out, "{sign}{whole}.{fraction}")
             }
-            None => write!(out, "{}/{}", self.0.numer(), self.0.denom()),
+            None => write!(out, "{}/{}", value.numer(), value.denom()),
         }
     }
 }
@@ -233,8 +333,23 @@ mod tests {
     }
 
     #[test]
+    fn small_and_large_parts_agree() {
+        let large = read("9223372036854775807");
+        let sum = &large + &large;
+        assert_eq!(sum.to_string(), "18446744073709551614", "overflow moves to big integers");
+        assert_eq!(&sum - &large, large, "and comes back");
+        assert_eq!(read("-9223372036854775808").abs().to_string(), "9223372036854775808");
+        let tiny = read("1e-30");
+        assert_eq!(&(&tiny * &read("1e30")), &Rational::from(1), "products reduce");
+        assert!(tiny > Rational::from(0) && tiny < Rational::new(1, i64::MAX), "order is exact");
+        assert_eq!(Rational::new(-6, -4), Rational::new(3, 2), "lowest terms, positive below");
+    }
+
+    #[test]
     fn rounding_to_f64_knows_when_it_is_exact() {
         assert_eq!(read("0.5").to_f64(), (0.5, true));
         assert_eq!(read("0.1").to_f64(), (0.1, false));
+        let odd = (1u64 << 53) + 1;
+        assert_eq!(read(&odd.to_string()).to_f64(), ((odd - 1) as f64, false), "ties to even");
     }
 }

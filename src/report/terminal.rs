@@ -153,7 +153,8 @@ fn details(report: &CaseReport) -> String {
                 "      witness   residual {:e} ± {:.1e}\n",
                 witness.residual, witness.error_bound
             ));
-            let set = witness.parameters.iter().map(|(name, value)| format!(" --set '{name}={value}'"));
+            let set =
+                witness.parameters.iter().map(|(name, value)| format!(" --set '{name}={value}'"));
             out.push_str(&format!(
                 "                eval …{} --state '{}'\n",
                 set.collect::<String>(),

@@ -93,10 +93,9 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
             StateError::Unknown { name: name.clone(), known: known.join(", ") }
         })?;
         let numbers: Result<Vec<Rational>, _> = list.split(',').map(|x| x.trim().parse()).collect();
-        let numbers = numbers
-            .map_err(|error: crate::number::rational::RationalError| {
-                StateError::Number(error.to_string())
-            })?;
+        let numbers = numbers.map_err(|error: crate::number::rational::RationalError| {
+            StateError::Number(error.to_string())
+        })?;
         let (expected, found) = (variables[index].len(), numbers.len());
         if expected != found {
             return Err(StateError::Length { name, expected, found });
@@ -140,10 +139,7 @@ pub fn evaluate(
             phase.field().to_vec(),
         ];
         let divergence = calculus::divergence(&phase);
-        groups.push(vec![
-            divergence,
-            divergence - calculus::level_cofactor(&phase, &level.kept),
-        ]);
+        groups.push(vec![divergence, divergence - calculus::level_cofactor(&phase, &level.kept)]);
         groups.push(model.system.chi(&phase).map_or(Vec::new(), Vec::from));
         groups.push(model.system.criterion(&phase).into_iter().collect());
         groups.push(model.system.energy(&phase).into_iter().collect());
@@ -161,9 +157,8 @@ pub fn evaluate(
     let inputs: Vec<_> =
         point.iter().cloned().chain(antiderivatives).map(|x| domain.values(&[x])).collect();
     evaluator.run(&inputs);
-    let mut values = evaluator.outputs().map(|ball| {
-        (ball.is_defined(0)).then(|| (ball.mid[0], ball.rad[0]))
-    });
+    let mut values =
+        evaluator.outputs().map(|ball| (ball.is_defined(0)).then(|| (ball.mid[0], ball.rad[0])));
     let mut groups =
         counts.iter().map(|count| values.by_ref().take(*count).collect::<Vec<Enclosed>>());
     let mut next = || groups.next().unwrap_or_default();

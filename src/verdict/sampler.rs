@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Fault, Tape, record};
-use crate::mechanics::{Chart, Draw, Origin, Recipe, draw_state};
+use crate::mechanics::{Chart, Draw, Draws, Origin, Recipe};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
@@ -17,7 +17,7 @@ pub const LANES: usize = 64;
 /// Makes the inputs of a case's tapes at one place.
 pub struct Sampler {
     seed: u64,
-    draws: Vec<Draw>,
+    draws: Draws,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
     dimension: usize,
@@ -58,6 +58,7 @@ impl Sampler {
         };
         let tape = Tape::new(&graph, &outputs);
         let dimension = model.dimension();
+        let draws = Draws::new(&draws);
         Ok(Self { seed, draws, parameter_draws, dimension, tape, newton })
     }
 
@@ -71,7 +72,7 @@ impl Sampler {
     pub fn balls(&self, start: u64) -> Vec<Balls<LANES>> {
         self.balls_of(|lane| {
             let index = start + lane as u64;
-            draw_state(self.seed, index, &self.draws)
+            self.draws.state(self.seed, index)
         })
     }
 
@@ -79,8 +80,8 @@ impl Sampler {
     pub fn balls_sharing_parameters(&self, sets: usize) -> Vec<Balls<LANES>> {
         self.balls_of(|lane| {
             let set = lane * sets / LANES;
-            let mut values = draw_state(self.seed, set as u64, &self.draws);
-            let own = draw_state(self.seed, lane as u64, &self.draws);
+            let mut values = self.draws.state(self.seed, set as u64);
+            let own = self.draws.state(self.seed, lane as u64);
             values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
             values
         })
@@ -106,7 +107,7 @@ impl Sampler {
 
     /// Parameters and state of one state, exact where they are rational.
     pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
-        let values = draw_state(self.seed, index, &self.draws);
+        let values = self.draws.state(self.seed, index);
         let mut evaluator = Evaluator::new(&self.tape, Exact);
         evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
         let state_begins = self.tape.outputs() - self.dimension;
