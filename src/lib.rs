@@ -1,4 +1,68 @@
-//! liouville
+//! liouville decides which tensor invariants a mechanical system has.
+//!
+//! A case file names a system (a rigid body rolling without slipping or spinning, or any vector
+//! field), its parameters, and claims: first integrals, invariant densities, the existence of a
+//! density. The library differentiates, and answers each claim with a [`verdict::Verdict`] and its
+//! evidence. The way of a claim is the order of the modules:
+//!
+//! ```text
+//! text ─ case ─▶ model and claims ─ record ─▶ graph ─▶ tape ─ number domains ─▶ verdict ─▶ report
+//! ```
+//!
+//! # From a case to verdicts
+//!
+//! ```
+//! use liouville::case::Case;
+//! use liouville::verdict::{Options, Verdict, judge};
+//!
+//! let case = Case::parse(
+//!     r#"
+//!     title  = "Balanced ball on a plane"
+//!     system = "rubber-plane"
+//!     [parameters]
+//!     m = "0.5..2"
+//!     R = "1..3"
+//!     I = "inertia(0.5..5)"
+//!     [body]
+//!     shape = "ball"
+//!     [[claim]]
+//!     integral = "|J*ω × γ|²"
+//!     [[claim]]
+//!     density = "(γ,J⁻¹*γ)"        # the root is missing
+//!     "#,
+//!     &[],
+//! )?;
+//! let report = judge(&case, &Options::default()).expect("the equations are regular");
+//! assert_eq!(report.claims[0].verdict, Verdict::Confirmed);
+//! assert_eq!(report.claims[1].verdict, Verdict::Refuted);
+//! # Ok::<(), liouville::case::CaseError>(())
+//! ```
+//!
+//! # Recording a computation of your own
+//!
+//! Any function generic over num-dual's `DualNum` can be recorded, differentiated and run:
+//!
+//! ```
+//! use liouville::graph::{Evaluator, Tape, record};
+//! use liouville::number::float::Float;
+//! use num_dual::{Dual, DualNum};
+//!
+//! fn energy<T: DualNum<Primitive = f64> + Copy>(x: T, v: T) -> T {
+//!     v * v / 2.0 - x.cos()
+//! }
+//!
+//! let (graph, slope) = record(2, |input| {
+//!     let x = Dual::from_re(input[0]).derivative();
+//!     energy(x, Dual::from_re(input[1])).eps
+//! })?;
+//! let tape = Tape::new(&graph, &[slope]);
+//! assert_eq!(tape.operations(), 1, "of all that was recorded, sin x is needed");
+//! let mut evaluator = Evaluator::new(&tape, Float::<1>);
+//! evaluator.run(&[[0.5], [1.0]]);
+//! assert!((evaluator.output(0)[0] - 0.5f64.sin()).abs() < 1e-16);
+//! # Ok::<(), liouville::graph::Fault>(())
+//! ```
+
 pub mod case;
 pub mod claim;
 pub mod formula;

@@ -50,8 +50,10 @@ fn formula_or(
         Some(text) => text,
         None if has(vocabulary, default, kind) => Text::made(default.to_string(), 0..0),
         None => {
-            let remedy =
-                format!("declare the {kind} `{default}` under [parameters], or give `{key}`");
+            let remedy = match vocabulary.find(default).map(|entry| entry.kind) {
+                Some(found) => format!("`{default}` is a {found}, and should be a {kind}"),
+                None => format!("declare the {kind} `{default}` in [parameters], or give `{key}`"),
+            };
             return Err(section.missing(key, &remedy));
         }
     };

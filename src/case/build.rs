@@ -17,10 +17,7 @@ use crate::mechanics::{
 const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base or field";
 
 pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
-    let document = DeTable::parse(text).map_err(|error| CaseError {
-        span: error.span(),
-        problem: Problem::Toml(error.message().to_string()),
-    })?;
+    let document = DeTable::parse(text).map_err(|error| not_toml(text, &error))?;
     if document.get_ref().is_empty() {
         return Err(CaseError::whole(Problem::Empty));
     }
@@ -58,6 +55,16 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     root.finish()?;
     let Parts { model, chart, free_draws } = parts;
     Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes })
+}
+
+fn not_toml(text: &str, error: &toml::de::Error) -> CaseError {
+    let span = error.span();
+    let at = span.as_ref().and_then(|span| text.get(span.start..)).and_then(|s| s.chars().next());
+    let help = at.filter(|c| c.is_alphabetic() && !c.is_ascii()).map(|_| {
+        "a key that is not ASCII is quoted: \"μ\" = …; or write the letter's name: mu = …"
+            .to_string()
+    });
+    CaseError { span, problem: Problem::Toml { message: error.message().to_string(), help } }
 }
 
 /// A model with the way its states are made.

@@ -23,8 +23,13 @@ pub enum Problem {
     #[error("the file has {0} bytes; a case file may have up to {1}")]
     TooLarge(u64, u64),
     /// Not TOML.
-    #[error("{0}")]
-    Toml(String),
+    #[error("{message}")]
+    Toml {
+        /// What the TOML reader says.
+        message: String,
+        /// What may help.
+        help: Option<String>,
+    },
     /// Nothing in it.
     #[error("the file is empty")]
     Empty,
@@ -67,7 +72,7 @@ pub enum Problem {
         reason: String,
     },
     /// A formula that cannot be read.
-    #[error("{0}")]
+    #[error("{}", .0.message())]
     Formula(FormulaError),
     /// A formula of another kind.
     #[error("{what} should be a {expected}, but this is a {found}")]
@@ -131,6 +136,7 @@ impl CaseError {
                 Some(remedy.clone())
             }
             Problem::Formula(error) => error.help().map(str::to_string),
+            Problem::Toml { help, .. } => help.clone(),
             Problem::Empty => Some("docs/writing-a-case.md shows the smallest case".to_string()),
             Problem::Parameter(_) => Some(
                 "write a number (1.5, \"3/7\"), a list ([1, 2, 3]), a range (\"0.5..2\"), \

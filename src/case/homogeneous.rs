@@ -1,7 +1,8 @@
 //! Is a typed support function homogeneous of degree 1? If not, it is meant on the unit sphere.
 
 use crate::graph::{Evaluator, Tape, record};
-use crate::mechanics::{Draw, Draws, Model, NORMAL, Origin, Phase, Range, Shape, calculus};
+use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::{Draw, Draws, Model, NORMAL, Origin, Phase, Range, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;
 
@@ -31,9 +32,9 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
         }
         let zero = num_traits::Zero::zero();
         let state = [[zero; 3], [inputs[gamma_at], inputs[gamma_at + 1], inputs[gamma_at + 2]]];
-        let phase = Phase::new(model, &free, &state.concat());
-        let slope = calculus::gradient(&phase, |at| at.scalar(formula));
-        calculus::dot(&slope[3 * NORMAL..], &state[1]) - phase.scalar(formula)
+        let jet = Jet::new(Phase::new(model, &free, &state.concat()));
+        let slope = jet.gradient(|at| at.scalar(formula));
+        dot(&slope[3 * NORMAL..], &state[1]) - jet.phase.scalar(formula)
     })
     .ok()?;
     let tape = Tape::new(&graph, &[defect]);

@@ -9,29 +9,27 @@ use num_dual::DualNum;
 use super::Context;
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::Phase;
-use crate::mechanics::calculus::{divergence, dot, level_cofactor};
+use crate::mechanics::calculus::{Jet, dot};
 
 /// v(ln ρ) + div v less the cofactors of the level functions.
-pub(super) fn residual(phase: &Phase<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
-    let moved = phase.lift(phase.field());
+pub(super) fn residual(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+    let moved = jet.along_field();
     let along = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
-    vec![along + divergence(phase) - level_cofactor(phase, kept)]
+    vec![along + jet.divergence() - jet.level_cofactor(kept)]
 }
 
 /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
-pub(super) fn context(phase: &Phase<'_, Expr>, formula: &Formula) -> Context {
-    let slope: Vec<Expr> = (0..phase.model().dimension())
-        .map(|index| {
-            let moved = phase.lift_along(index);
-            formula.logarithmic_derivative(&mut |symbol| moved.value(symbol))
-        })
+pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula) -> Context {
+    let slope: Vec<Expr> = jet
+        .along_axes()
+        .iter()
+        .map(|moved| formula.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
         .collect();
-    let (field, state) = (phase.field(), phase.state());
+    let (field, state) = (jet.phase.field(), jet.phase.state());
     let rate = dot(&slope, &slope) + dot(&state, &state).recip();
     Context {
         scale: Some(dot(field, field) * rate),
-        density: Some(phase.scalar(formula)),
+        density: Some(jet.phase.scalar(formula)),
         ..Context::default()
     }
 }

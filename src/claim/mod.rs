@@ -10,7 +10,8 @@ mod place;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::{Model, Phase, calculus};
+use crate::mechanics::Model;
+use crate::mechanics::calculus::{Jet, distance_from_span};
 
 pub use place::Place;
 
@@ -47,23 +48,23 @@ impl Kind {
     }
 
     /// The scalars that vanish where the claim holds.
-    pub fn residual(&self, phase: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+    pub fn residual(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
         match self {
-            Kind::Integral(formula) => integral::residual(phase, formula),
-            Kind::Density(formula) => density::residual(phase, formula, kept),
-            Kind::AnalyticDensity | Kind::PositionDensity => criterion::residual(phase),
+            Kind::Integral(formula) => integral::residual(jet, formula),
+            Kind::Density(formula) => density::residual(jet, formula, kept),
+            Kind::AnalyticDensity | Kind::PositionDensity => criterion::residual(&jet.phase),
         }
     }
 
     /// What is asked beside the residual, on a few states only.
-    pub fn context(&self, phase: &Phase<'_, Expr>, kept: &[bool]) -> Context {
+    pub fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
         let mut context = match self {
-            Kind::Integral(formula) => integral::context(phase, formula, kept),
-            Kind::Density(formula) => density::context(phase, formula),
-            Kind::AnalyticDensity | Kind::PositionDensity => criterion::context(phase),
+            Kind::Integral(formula) => integral::context(jet, formula, kept),
+            Kind::Density(formula) => density::context(jet, formula),
+            Kind::AnalyticDensity | Kind::PositionDensity => criterion::context(&jet.phase),
         };
         if let Some(formula) = self.formula() {
-            context.quadrature_defects = quadrature_defects(phase, formula, kept);
+            context.quadrature_defects = quadrature_defects(jet, formula, kept);
         }
         context
     }
@@ -106,16 +107,15 @@ pub struct Context {
 }
 
 /// |∇f|² less its part along ∇x and the level functions, for each ∫(f, x) of a formula.
-fn quadrature_defects(phase: &Phase<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     if !formula.has_antiderivative() {
         return Vec::new();
     }
-    let level = level_gradients(phase, kept);
-    let columns: Vec<_> = (0..phase.model().dimension())
-        .map(|index| {
-            let moved = phase.lift_along(index);
-            formula.antiderivatives(&mut |symbol| moved.value(symbol))
-        })
+    let level = jet.level_gradients(kept);
+    let columns: Vec<_> = jet
+        .along_axes()
+        .iter()
+        .map(|moved| formula.antiderivatives(&mut |symbol| moved.value(symbol)))
         .collect();
     let count = columns.first().map_or(0, Vec::len);
     (0..count)
@@ -124,14 +124,7 @@ fn quadrature_defects(phase: &Phase<'_, Expr>, formula: &Formula, kept: &[bool])
             let variable: Vec<Expr> = columns.iter().map(|pairs| pairs[k].1.eps).collect();
             let mut others = level.clone();
             others.push(variable);
-            calculus::distance_from_span(&integrand, &others)
+            distance_from_span(&integrand, &others)
         })
-        .collect()
-}
-
-/// The gradients of the level functions that are kept.
-fn level_gradients(phase: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Vec<Expr>> {
-    calculus::kept_functions(phase, kept)
-        .map(|function| calculus::gradient(phase, |at| at.level_function(function)))
         .collect()
 }

@@ -67,7 +67,7 @@ impl<'t, D: Domain> Evaluator<'t, D> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record;
+    use super::super::{Expr, record};
     use super::*;
     use crate::number::ball::Ball;
     use crate::number::exact::Exact;
@@ -92,6 +92,22 @@ mod tests {
         })
         .expect("records");
         assert_eq!(Tape::new(&graph, &[kept]).operations(), 1, "only the sum is computed");
+    }
+
+    #[test]
+    fn nothing_hides_a_division_by_zero() {
+        let (graph, values) = record(1, |x| {
+            let zero = x[0] - x[0];
+            let pole = zero.recip();
+            [zero * pole, pole - pole, pole * zero.sqrt(), (pole * x[0]).powi(0)]
+        })
+        .expect("records");
+        let tape = Tape::new(&graph, &values);
+        let mut ball = Evaluator::new(&tape, Ball::<1>);
+        ball.run(&[Ball::<1>.constant(&Rational::from(3))]);
+        for (index, value) in ball.outputs().enumerate() {
+            assert!(!value.is_defined(0), "expression {index} contains 1/0");
+        }
     }
 
     #[test]
@@ -120,6 +136,4 @@ mod tests {
         assert!((&mid - &reference).abs() <= rad, "the ball holds the exact value");
         assert!(enclosure.rad[2] < 1e-14, "and is narrow");
     }
-
-    use super::super::Expr;
 }

@@ -64,6 +64,8 @@ const ONE: NodeId = NodeId(1);
 pub struct Graph {
     session: u32,
     nodes: Vec<Node>,
+    /// Which nodes have no value, whatever the inputs: 1/0 and what follows from it.
+    undefined: Vec<bool>,
     constants: Vec<Rational>,
     node_ids: FxHashMap<Node, NodeId>,
     constant_ids: FxHashMap<Rational, u32>,
@@ -78,6 +80,7 @@ impl Graph {
         let mut graph = Self {
             session,
             nodes: Vec::new(),
+            undefined: Vec::new(),
             constants: Vec::new(),
             node_ids: FxHashMap::default(),
             constant_ids: FxHashMap::default(),
@@ -141,9 +144,36 @@ impl Graph {
         let next = NodeId(self.nodes.len() as u32);
         let id = *self.node_ids.entry(node).or_insert(next);
         if id == next {
+            self.undefined.push(self.has_no_value(node));
             self.nodes.push(node);
         }
         id
+    }
+
+    fn is_undefined(&self, id: NodeId) -> bool {
+        self.undefined[id.0 as usize]
+    }
+
+    /// Is this undefined, because of its arguments or of its own: 1/0, √-1, ln 0, 0^-1?
+    fn has_no_value(&self, node: Node) -> bool {
+        let negative = |a| self.constant_at(a).is_some_and(Rational::is_negative);
+        match node {
+            Node::Constant(_) | Node::Input(_) => false,
+            Node::Unary(function, a) => {
+                self.is_undefined(a)
+                    || match function {
+                        Function::Recip => a == ZERO,
+                        Function::Sqrt => negative(a),
+                        Function::Ln => a == ZERO || negative(a),
+                        _ => false,
+                    }
+            }
+            Node::Binary(_, a, b) => self.is_undefined(a) || self.is_undefined(b),
+            Node::Power(a, exponent) => {
+                let below = self.constants[exponent as usize].is_negative();
+                self.is_undefined(a) || negative(a) || (a == ZERO && below)
+            }
+        }
     }
 
     fn intern_constant(&mut self, value: Rational) -> u32 {

@@ -1,7 +1,7 @@
 //! How nodes are made: equal ones once, and with the simplifications that hold for every number.
 //!
 //! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` are one node),
-//! `x - x`, `x · 1/x`, `√x · √x`. Not rewritten, because it would change the real meaning:
+//! `x - x`, `x · 1/x`, `√x · √x`; never 0 · (1/0), which stays undefined. Not rewritten, because it would change the real meaning:
 //! `√(x²)`, `(xᵃ)ᵇ`.
 
 use super::{Graph, Node, NodeId, ONE, ZERO};
@@ -92,7 +92,7 @@ impl Graph {
 
     pub(super) fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
         if a == b {
-            return ZERO;
+            return if self.is_undefined(a) { a } else { ZERO };
         }
         if a == ZERO {
             return self.unary(Function::Neg, b);
@@ -118,8 +118,10 @@ impl Graph {
     }
 
     pub(super) fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        if a == ZERO || b == ZERO {
-            return ZERO;
+        for (zero, other) in [(a, b), (b, a)] {
+            if zero == ZERO {
+                return if self.is_undefined(other) { other } else { ZERO };
+            }
         }
         if a == ONE {
             return b;
@@ -140,6 +142,9 @@ impl Graph {
             if let Some(value) = self.constant_at(constant).cloned() {
                 return self.scaled(&value, constant, other);
             }
+        }
+        if self.is_undefined(a) || self.is_undefined(b) {
+            return self.commutative(Operation::Mul, a, b);
         }
         if a == b
             && let Some(x) = self.argument(Function::Sqrt, a)
@@ -235,8 +240,8 @@ impl Graph {
 
     fn unrolled(&mut self, base: NodeId, exponent: u32) -> NodeId {
         match exponent {
-            0 => ONE,
-            1 => base,
+            0 if !self.is_undefined(base) => ONE,
+            0 | 1 => base,
             n => {
                 let half = self.unrolled(base, n / 2);
                 let square = self.mul(half, half);

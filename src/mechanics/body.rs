@@ -72,14 +72,19 @@ impl Polynomial {
 
     /// The value at x.
     pub fn evaluate<T: Scalar>(&self, at: &Configuration<'_, T>, x: Vector3<T>) -> T {
+        let highest = self.exponents.iter().flatten().max().copied().unwrap_or(0);
+        let powers: Vec<Vec<T>> = x
+            .iter()
+            .map(|x| {
+                let next = |power: &T| Some(*power * *x);
+                std::iter::successors(Some(T::one()), next).take(highest as usize + 1).collect()
+            })
+            .collect();
         let mut sum = T::zero();
         for (offset, exponents) in self.exponents.iter().enumerate() {
-            let coefficient = at.parameter(self.first_parameter + offset).scalar();
-            let mut term = coefficient.unwrap_or_else(T::zero);
-            for (variable, exponent) in x.iter().zip(exponents) {
-                term *= variable.powi(*exponent as i32);
-            }
-            sum += term;
+            let monomial = powers.iter().zip(exponents).map(|(row, k)| row[*k as usize]);
+            let coefficient = scalar(at.parameter(self.first_parameter + offset));
+            sum += monomial.product::<T>() * coefficient;
         }
         sum
     }

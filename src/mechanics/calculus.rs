@@ -1,65 +1,101 @@
 //! Derivatives along the field and of it, all by num-dual: gradients, Lie derivatives,
 //! divergences, and what a level set takes from a divergence.
 
+use std::cell::OnceCell;
+
 use num_dual::Dual;
 
-use super::model::{LevelFunction, Phase};
+use super::model::{LevelFunction, Model, Phase};
 use crate::scalar::Scalar;
 
-/// L_v f, the derivative of f along the field.
-pub fn lie_derivative<T: Scalar>(
-    phase: &Phase<'_, T>,
-    f: impl FnOnce(&Phase<'_, Dual<T>>) -> Dual<T>,
-) -> T {
-    f(&phase.lift(phase.field())).eps
+/// A point of phase space with the points next to it, made once for all derivatives that are taken.
+pub struct Jet<'m, T> {
+    /// The point itself.
+    pub phase: Phase<'m, T>,
+    along_field: OnceCell<Phase<'m, Dual<T>>>,
+    along_axes: OnceCell<Vec<Phase<'m, Dual<T>>>>,
+    divergence: OnceCell<T>,
 }
 
-/// The partial derivatives of f by the state's components.
-pub fn gradient<T: Scalar>(
-    phase: &Phase<'_, T>,
-    f: impl Fn(&Phase<'_, Dual<T>>) -> Dual<T>,
-) -> Vec<T> {
-    (0..phase.model().dimension()).map(|index| f(&phase.lift_along(index)).eps).collect()
-}
-
-/// Σ ∂v_i/∂x_i over all components of the state.
-pub fn divergence<T: Scalar>(phase: &Phase<'_, T>) -> T {
-    (0..phase.model().dimension()).map(|index| phase.lift_along(index).field()[index].eps).sum()
-}
-
-/// Σ d(L_vF_i)(n_i) over the level functions that are kept, with dF_i(n_j) = δ_ij.
-///
-/// On a level set {F_i = c_i} with dx = dF_1∧…∧dF_k∧σ, L_v σ = (div v - this) σ. It vanishes
-/// where the F_i are integrals near the level.
-pub fn level_cofactor<T: Scalar>(phase: &Phase<'_, T>, kept: &[bool]) -> T {
-    let functions: Vec<&LevelFunction> = kept_functions(phase, kept).collect();
-    if functions.is_empty() || phase.model().system.conserves_level() {
-        return T::zero();
+impl<'m, T: Scalar> Jet<'m, T> {
+    /// The jet at a point; nothing is computed yet.
+    pub fn new(phase: Phase<'m, T>) -> Self {
+        Self {
+            phase,
+            along_field: OnceCell::new(),
+            along_axes: OnceCell::new(),
+            divergence: OnceCell::new(),
+        }
     }
-    let gradients: Vec<Vec<T>> =
-        functions.iter().map(|f| gradient(phase, |at| at.level_function(f))).collect();
-    let mut sum = T::zero();
-    for (index, function) in functions.iter().enumerate() {
-        let mut unit = vec![T::zero(); functions.len()];
-        unit[index] = T::one();
-        // n_i = Σ_l (G⁻¹)_il ∇F_l with the Gram matrix G of the gradients
-        let weights = solve_positive(gram(&gradients), unit);
-        let transversal: Vec<T> = (0..phase.model().dimension())
-            .map(|k| weights.iter().zip(&gradients).map(|(w, g)| *w * g[k]).sum())
-            .collect();
-        let moved = phase.lift(&transversal);
-        sum += lie_derivative(&moved, |at| at.level_function(function)).eps;
+
+    /// The point with the field as its derivative part.
+    pub fn along_field(&self) -> &Phase<'m, Dual<T>> {
+        self.along_field.get_or_init(|| self.phase.lift(self.phase.field()))
     }
-    sum
+
+    /// The point with a derivative part along each coordinate in turn.
+    pub fn along_axes(&self) -> &[Phase<'m, Dual<T>>] {
+        self.along_axes.get_or_init(|| {
+            (0..self.phase.model().dimension()).map(|index| self.phase.lift_along(index)).collect()
+        })
+    }
+
+    /// L_v f, the derivative of f along the field.
+    pub fn lie_derivative(&self, f: impl FnOnce(&Phase<'m, Dual<T>>) -> Dual<T>) -> T {
+        f(self.along_field()).eps
+    }
+
+    /// The partial derivatives of f by the state's components.
+    pub fn gradient(&self, f: impl Fn(&Phase<'m, Dual<T>>) -> Dual<T>) -> Vec<T> {
+        self.along_axes().iter().map(|phase| f(phase).eps).collect()
+    }
+
+    /// Σ ∂v_i/∂x_i over all components of the state.
+    pub fn divergence(&self) -> T {
+        let along = || self.along_axes().iter().enumerate();
+        *self.divergence.get_or_init(|| along().map(|(i, phase)| phase.field()[i].eps).sum())
+    }
+
+    /// Σ d(L_vF_i)(n_i) over the level functions that are kept, with dF_i(n_j) = δ_ij.
+    ///
+    /// On a level set {F_i = c_i} with dx = dF_1∧…∧dF_k∧σ, L_v σ = (div v - this) σ. It vanishes
+    /// where the F_i are integrals near the level.
+    pub fn level_cofactor(&self, kept: &[bool]) -> T {
+        let functions: Vec<&LevelFunction> = kept_functions(self.phase.model(), kept).collect();
+        if functions.is_empty() || self.phase.model().system.conserves_level() {
+            return T::zero();
+        }
+        let gradients = self.level_gradients(kept);
+        let mut sum = T::zero();
+        for (index, function) in functions.iter().enumerate() {
+            let mut unit = vec![T::zero(); functions.len()];
+            unit[index] = T::one();
+            // n_i = Σ_l (G⁻¹)_il ∇F_l with the Gram matrix G of the gradients
+            let weights = solve_positive(gram(&gradients), unit);
+            let transversal: Vec<T> = (0..self.phase.model().dimension())
+                .map(|k| weights.iter().zip(&gradients).map(|(w, g)| *w * g[k]).sum())
+                .collect();
+            let beside = self.phase.lift(&transversal);
+            sum += beside.lift(beside.field()).level_function(function).eps.eps;
+        }
+        sum
+    }
+
+    /// The gradients of the level functions that are kept.
+    pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
+        kept_functions(self.phase.model(), kept)
+            .map(|function| self.gradient(|at| at.level_function(function)))
+            .collect()
+    }
 }
 
 /// The level functions that `kept` selects.
-pub fn kept_functions<'a, T: Scalar>(
-    phase: &Phase<'a, T>,
+fn kept_functions<'a>(
+    model: &'a Model,
     kept: &'a [bool],
-) -> impl Iterator<Item = &'a LevelFunction> + use<'a, T> {
-    let level = phase.model().level.iter();
-    level.zip(kept).filter(|(_, kept)| **kept).map(|(equation, _)| &equation.function)
+) -> impl Iterator<Item = &'a LevelFunction> + use<'a> {
+    let level = model.level.iter().zip(kept);
+    level.filter(|(_, kept)| **kept).map(|(equation, _)| &equation.function)
 }
 
 /// |u|² less its part in the span of `others`: zero exactly when u depends on them.

@@ -1,4 +1,4 @@
-//! Mechanical systems, each written once over any [`Scalar`](crate::scalar::Scalar).
+//! Mechanical systems, each written once over any [`crate::scalar::Scalar`].
 
 mod body;
 pub mod calculus;

@@ -12,7 +12,7 @@
 //!
 //! The bounds are computed in f64 too: each is a sum of a few non-negative terms, so its own
 //! relative error stays below 16u, and underflow adds less than `TINY`; both are put back by
-//! [`widen`]. A lane that has no result holds NaN as its radius, and so do all that follow from it.
+//! `widen`. A lane that has no result holds NaN as its radius, and so do all that follow from it.
 //!
 //! Elementary functions come from the pure-Rust `libm`, whose sources (FreeBSD's msun) state an
 //! error below one unit in the last place; two are allowed for here.

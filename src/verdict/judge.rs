@@ -13,7 +13,8 @@ use super::sampler::{LANES, Sampler};
 use crate::case::{Case, Claim, Expect};
 use crate::claim::{Context, Kind, Place};
 use crate::graph::{Expr, Fault, Graph, record};
-use crate::mechanics::{Phase, calculus};
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::Jet;
 use crate::number::ball::Balls;
 
 /// A claim is confirmed by no fewer states of the first block than this.
@@ -114,10 +115,10 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let inputs = model.free_components() + model.dimension();
     let (graph, (recorded, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        let phase = Phase::new(model, parameters, state);
+        let jet = Jet::new(Phase::new(model, parameters, state));
         let recorded: Vec<Recorded<'_>> =
-            case.claims.iter().map(|claim| recorded(claim, &phase)).collect();
-        (recorded, Common::of(&phase))
+            case.claims.iter().map(|claim| recorded(claim, &jet)).collect();
+        (recorded, Common::of(&jet))
     })?;
     let bench = Bench { case, options, graph: &graph, inputs };
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
@@ -146,18 +147,18 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     Ok(CaseReport { claims, warnings })
 }
 
-fn recorded<'c>(claim: &'c Claim, phase: &Phase<'_, Expr>) -> Recorded<'c> {
-    let residual = |place: &Place| claim.kind.residual(phase, &place.kept);
+fn recorded<'c>(claim: &'c Claim, jet: &Jet<'_, Expr>) -> Recorded<'c> {
+    let residual = |place: &Place| claim.kind.residual(jet, &place.kept);
     let wider = match claim.kind {
         Kind::Integral(_) | Kind::Density(_) if claim.expect != Expect::Fails => {
-            claim.place.wider(phase.model())
+            claim.place.wider(jet.phase.model())
         }
         _ => Vec::new(),
     };
     Recorded {
         claim,
         residual: residual(&claim.place),
-        context: claim.kind.context(phase, &claim.place.kept),
+        context: claim.kind.context(jet, &claim.place.kept),
         wider: wider.into_iter().map(|place| (place.clone(), residual(&place))).collect(),
     }
 }
@@ -170,8 +171,9 @@ struct Common {
 }
 
 impl Common {
-    fn of(phase: &Phase<'_, Expr>) -> Self {
-        let rate = |function| calculus::lie_derivative(phase, |at| at.level_function(function));
+    fn of(jet: &Jet<'_, Expr>) -> Self {
+        let rate = |function| jet.lie_derivative(|at| at.level_function(function));
+        let phase = &jet.phase;
         Self {
             field: phase.field().to_vec(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),

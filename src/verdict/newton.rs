@@ -7,7 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::sampler::LANES;
 use crate::graph::{Evaluator, Fault, Tape, record};
-use crate::mechanics::{LevelFunction, Model, Phase, calculus};
+use crate::mechanics::calculus::Jet;
+use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 
@@ -37,11 +38,9 @@ impl Newton {
             .collect();
         let (graph, outputs) = record(parameters + dimension, |inputs| {
             let (parameters, state) = inputs.split_at(parameters);
-            let phase = Phase::new(model, parameters, state);
-            let values = functions.iter().map(|f| phase.level_function(f));
-            let slopes = functions
-                .iter()
-                .flat_map(|f| calculus::gradient(&phase, |at| at.level_function(f)));
+            let jet = Jet::new(Phase::new(model, parameters, state));
+            let values = functions.iter().map(|f| jet.phase.level_function(f));
+            let slopes = functions.iter().flat_map(|f| jet.gradient(|at| at.level_function(f)));
             values.chain(slopes).collect::<Vec<_>>()
         })?;
         let tape = Tape::new(&graph, &outputs);

@@ -6,7 +6,8 @@ use crate::case::Case;
 use crate::claim::Place;
 use crate::formula::canonical_name;
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::{Phase, calculus, components};
+use crate::mechanics::calculus::Jet;
+use crate::mechanics::{Phase, components};
 use crate::number::Domain;
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
@@ -133,19 +134,20 @@ pub fn evaluate(
     let mut counts = Vec::new();
     let (graph, outputs) = record(point.len(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
-        let phase = Phase::new(model, parameters, state);
+        let jet = Jet::new(Phase::new(model, parameters, state));
+        let phase = &jet.phase;
         let mut groups: Vec<Vec<Expr>> = vec![
             model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
             phase.field().to_vec(),
         ];
-        let divergence = calculus::divergence(&phase);
-        groups.push(vec![divergence, divergence - calculus::level_cofactor(&phase, &level.kept)]);
-        groups.push(model.system.chi(&phase).map_or(Vec::new(), Vec::from));
-        groups.push(model.system.criterion(&phase).into_iter().collect());
-        groups.push(model.system.energy(&phase).into_iter().collect());
+        let divergence = jet.divergence();
+        groups.push(vec![divergence, divergence - jet.level_cofactor(&level.kept)]);
+        groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
+        groups.push(model.system.criterion(phase).into_iter().collect());
+        groups.push(model.system.energy(phase).into_iter().collect());
         for claim in &case.claims {
             groups.push(claim.kind.formula().map(|f| phase.scalar(f)).into_iter().collect());
-            groups.push(claim.kind.residual(&phase, &claim.place.kept));
+            groups.push(claim.kind.residual(&jet, &claim.place.kept));
         }
         counts = groups.iter().map(Vec::len).collect();
         groups.concat()

@@ -1,0 +1,87 @@
+//! Every claim of every case in `cases/` is a test of its own: `cargo test -- unbalanced` runs
+//! those of the unbalanced balls.
+//!
+//! A claim passes when its verdict is what its file expects. A case is judged once, by the first
+//! of its claims that is asked for.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::{Arc, OnceLock};
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use liouville::case::Case;
+use liouville::verdict::{CaseReport, JudgeError, Options, judge};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let mut trials = Vec::new();
+    let mut claims = 0;
+    for path in files(Path::new("cases")) {
+        let (text, case) = Case::read(&path, &[]);
+        let name = path.with_extension("").display().to_string().replace('\\', "/");
+        match case {
+            Err(error) => {
+                let problem = format!("{error}\n{}", place(&text, &error.span));
+                trials.push(Trial::test(name, move || Err(Failed::from(problem))));
+            }
+            Ok(case) => {
+                let judged = Arc::new(Judged { case, report: OnceLock::new() });
+                claims += judged.case.claims.len();
+                for (index, claim) in judged.case.claims.iter().enumerate() {
+                    let judged = Arc::clone(&judged);
+                    let test = move || judged.check(index);
+                    trials.push(Trial::test(format!("{name} :: {}", claim.name), test));
+                }
+            }
+        }
+    }
+    let enough = move || match claims {
+        0..200 => Err(Failed::from(format!("the catalogue shrank to {claims} claims"))),
+        _ => Ok(()),
+    };
+    trials.push(Trial::test("the catalogue is whole", enough));
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+/// A case with its report, made when it is first needed.
+struct Judged {
+    case: Case,
+    report: OnceLock<Result<CaseReport, JudgeError>>,
+}
+
+impl Judged {
+    fn check(&self, index: usize) -> Result<(), Failed> {
+        let report = self.report.get_or_init(|| judge(&self.case, &Options::default()));
+        let report = report.as_ref().map_err(|error| Failed::from(error.to_string()))?;
+        let claim = &report.claims[index];
+        if claim.agrees {
+            return Ok(());
+        }
+        Err(Failed::from(format!(
+            "expected: {}, verdict: {}\n{:#?}",
+            claim.expect,
+            claim.verdict.word(),
+            claim.evidence
+        )))
+    }
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("the catalogue is a folder");
+    let mut entries: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    entries.sort();
+    let mut found = Vec::new();
+    for entry in entries {
+        if entry.is_dir() {
+            found.extend(files(&entry));
+        } else if entry.extension().is_some_and(|extension| extension == "toml") {
+            found.push(entry);
+        }
+    }
+    found
+}
+
+fn place(text: &str, span: &Option<std::ops::Range<usize>>) -> String {
+    let line = span.as_ref().map(|span| text[..span.start.min(text.len())].lines().count());
+    line.map_or(String::new(), |line| format!("line {line}"))
+}
