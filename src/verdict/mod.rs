@@ -5,11 +5,15 @@
 //! balls of all states contain 0 and are narrow against the terms that were added up. Nothing is
 //! compared with a fixed tolerance.
 
+mod bench;
+mod conclude;
 mod evidence;
+mod finding;
 mod judge;
 mod newton;
 mod physics;
 mod point;
+mod recorded;
 mod run;
 mod sampler;
 

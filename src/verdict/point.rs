@@ -7,7 +7,7 @@ use crate::claim::Place;
 use crate::formula::canonical_name;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Phase, components};
+use crate::mechanics::{Model, Phase, components};
 use crate::number::Domain;
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
@@ -15,13 +15,16 @@ use crate::number::rational::Rational;
 /// A number with a bound on its error; `None` where it is undefined.
 pub type Enclosed = Option<(f64, f64)>;
 
+/// A name with the components of its value.
+pub type Named = (String, Vec<String>);
+
 /// A case at one state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointReport {
     /// The free parameters with the values they had.
-    pub parameters: Vec<(String, Vec<String>)>,
+    pub parameters: Vec<Named>,
     /// The state.
-    pub state: Vec<(String, Vec<String>)>,
+    pub state: Vec<Named>,
     /// The level equations with the value of left minus right.
     pub level: Vec<(String, Enclosed)>,
     /// The time derivatives of the state's components.
@@ -178,18 +181,7 @@ pub fn evaluate(
         })
         .collect();
     let shown: Vec<String> = point.iter().map(|value| value.to_string()).collect();
-    let (mut parameters, mut rest) = (Vec::new(), shown.as_slice());
-    for parameter in model.free_parameters() {
-        let (own, others) = rest.split_at(components(parameter.kind));
-        rest = others;
-        parameters.push((parameter.name.clone(), own.to_vec()));
-    }
-    let mut state = Vec::new();
-    for variable in &model.state {
-        let (own, others) = rest.split_at(variable.len());
-        rest = others;
-        state.push((variable.name.clone(), own.to_vec()));
-    }
+    let (parameters, state) = named(model, &shown);
     Ok(PointReport {
         parameters,
         state,
@@ -202,4 +194,17 @@ pub fn evaluate(
         energy,
         claims,
     })
+}
+
+/// Values in the order of a tape's inputs, by the names of parameters and of state variables.
+pub(super) fn named(model: &Model, values: &[String]) -> (Vec<Named>, Vec<Named>) {
+    let mut rest = values;
+    let mut take = |name: &str, count: usize| {
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        (name.to_string(), own.to_vec())
+    };
+    let parameters = model.free_parameters().map(|p| take(&p.name, components(p.kind))).collect();
+    let state = model.state.iter().map(|variable| take(&variable.name, variable.len())).collect();
+    (parameters, state)
 }

@@ -1,0 +1,58 @@
+//! From what was found to what is reported.
+
+use super::evidence::{ClaimReport, Verdict};
+use super::finding::Finding;
+use super::recorded::Recorded;
+use crate::case::{Case, Expect};
+use crate::claim::Kind;
+
+/// The report on a claim: its verdict against what is expected.
+pub fn report(case: &Case, item: &Recorded<'_>, finding: Finding) -> ClaimReport {
+    let claim = item.claim;
+    let holds = finding.holds();
+    let mut verdict = finding.settled.unwrap_or(Verdict::Undecided);
+    let mut evidence = finding.evidence;
+    if !holds {
+        evidence.independence = None;
+    }
+    if verdict == Verdict::Refuted
+        && let Some(limit) = claim.kind.limit_of_refutation(&case.model)
+    {
+        verdict = Verdict::Undecided;
+        evidence.reason = Some(limit.to_string());
+    }
+    let place = claim.place.name(&case.model);
+    if holds && matches!(claim.kind, Kind::Density(_)) && place != "everywhere" {
+        let functions: Vec<&str> = case
+            .model
+            .level
+            .iter()
+            .zip(&claim.place.kept)
+            .filter(|(_, kept)| **kept)
+            .map(|(equation, _)| equation.text.as_str())
+            .collect();
+        evidence.volume = Some(format!("σ with dx = d({})∧σ", functions.join(")∧d(")));
+    }
+    let elsewhere = evidence.holds.iter().any(|name| *name != place);
+    let agrees = match claim.expect {
+        Expect::Open => true,
+        Expect::Holds => holds && !(claim.only_there && elsewhere),
+        Expect::Fails => verdict == Verdict::Refuted,
+    };
+    if holds && claim.only_there && elsewhere {
+        evidence.reason = Some("it was claimed to hold there only".to_string());
+    }
+    ClaimReport {
+        name: claim.name.clone(),
+        formula: claim.kind.formula().map(|formula| formula.text().to_string()),
+        kind: claim.kind.name(),
+        source: claim.source.clone(),
+        place,
+        expect: claim.expect.word(),
+        verdict,
+        agrees,
+        cell: claim.cell.clone(),
+        note: claim.note.clone(),
+        evidence,
+    }
+}
