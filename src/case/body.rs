@@ -138,16 +138,12 @@ fn shape(
     let contact = section.text("contact")?;
     let given = [&named, &support, &profile, &contact].into_iter().flatten().count();
     if given != 1 {
-        return Err(CaseError::at(
-            section.span.clone(),
-            Problem::Other {
-                message: format!("[body] needs exactly one of its four shapes, and has {given}"),
-                remedy:
-                    "give one of shape = \"ball\", \"ellipsoid\" or \"disk\", support = \"…\", \
+        return Err(section.complaint(Problem::Other {
+            message: format!("[body] needs exactly one of its four shapes, and has {given}"),
+            remedy: "give one of shape = \"ball\", \"ellipsoid\" or \"disk\", support = \"…\", \
                          profile = \"…\", contact = \"…\""
-                        .to_string(),
-            },
-        ));
+                .to_string(),
+        }));
     }
     let first = parameters.len();
     let read = |text: &Text, what: &str, kind| {

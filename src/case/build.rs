@@ -91,11 +91,8 @@ fn parts(
             return Err(root.missing("system", &remedy));
         }
     };
-    let body = || {
-        root.section("body")?.ok_or_else(|| {
-            root.missing("body", "add a table [body] that says what the body is like")
-        })
-    };
+    let nothing = DeTable::new();
+    let body = || root.section("body").map(|found| found.unwrap_or(root.empty("[body]", &nothing)));
     let mut level = Vec::new();
     let (system, state, chart) = match text.value.as_str() {
         "rubber-plane" | "rubber-sphere" => {

@@ -123,6 +123,7 @@ pub fn chart(
         .ok_or_else(|| section.missing("inputs", "a chart needs inputs = { u = \"-2..2\", … }"))?;
     let State { variables, draws } = state(&inputs, &mut names)?;
     let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
+    let mut abbreviations = Vec::new();
     for (key, value) in section.entries() {
         if key.get_ref() == "inputs" {
             continue;
@@ -134,8 +135,12 @@ pub fn chart(
             return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
         };
         let text = section.as_text(key.get_ref(), value)?;
-        let kind = Some(model.state[index].kind);
-        formulas[index] = Some(formula(&text, &names, &name, kind, Reach::Phase)?);
+        let kind = model.state[index].kind;
+        let read = formula(&text, &names, &name, Some(kind), Reach::Phase)?;
+        // The formulas that follow may use this variable.
+        names.add(&name, Meaning::Abbreviation(abbreviations.len()), kind, Reach::Phase);
+        abbreviations.push(read.clone());
+        formulas[index] = Some(read);
     }
     if let Some(index) = formulas.iter().position(Option::is_none) {
         let name = &model.state[index].name;
@@ -150,7 +155,7 @@ pub fn chart(
     let model = Model {
         vocabulary: names,
         state: variables,
-        abbreviations: Vec::new(),
+        abbreviations,
         level: Vec::new(),
         ..model.clone()
     };

@@ -58,6 +58,14 @@ impl<'a> Section<'a> {
         Self { name: name.to_string(), table, source, span, asked: RefCell::default() }
     }
 
+    /// A table that the file leaves out, where all its keys have defaults.
+    pub fn empty<'b>(&self, name: &str, nothing: &'b DeTable<'b>) -> Section<'b>
+    where
+        'a: 'b,
+    {
+        Section::new(name, nothing, 0..0, self.source)
+    }
+
     /// The value of a key.
     pub fn value(&self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
         self.asked.borrow_mut().push(key);
@@ -76,8 +84,12 @@ impl<'a> Section<'a> {
 
     /// The complaint that a key is missing.
     pub fn missing(&self, key: &'static str, remedy: &str) -> CaseError {
-        let problem =
-            Problem::MissingKey { key, section: self.name.clone(), remedy: remedy.to_string() };
+        let (section, remedy) = (self.name.clone(), remedy.to_string());
+        self.complaint(Problem::MissingKey { key, section, remedy })
+    }
+
+    /// A complaint about the table as a whole.
+    pub fn complaint(&self, problem: Problem) -> CaseError {
         CaseError { problem, span: (!self.span.is_empty()).then(|| self.span.clone()) }
     }
 

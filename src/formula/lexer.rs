@@ -89,6 +89,9 @@ fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
 
 /// `12`, `3.5`, `.5`, `1e-3`: how many bytes at the start of the text are one number.
 fn number_length(text: &str) -> usize {
+    if let Some(c) = text.chars().next().filter(|c| fraction(*c).is_some()) {
+        return c.len_utf8();
+    }
     let bytes = text.as_bytes();
     let digits =
         |from: usize| bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
@@ -103,6 +106,12 @@ fn number_length(text: &str) -> usize {
         length += if exponent > 0 { 1 + sign + exponent } else { 0 };
     }
     length
+}
+
+/// `½` and its like, written out.
+pub(super) fn fraction(c: char) -> Option<&'static str> {
+    let known = [('½', "1/2"), ('⅓', "1/3"), ('⅔', "2/3"), ('¼', "1/4"), ('¾', "3/4")];
+    known.into_iter().find(|(sign, _)| *sign == c).map(|(_, text)| text)
 }
 
 fn superscript_length(text: &str) -> usize {

@@ -3,7 +3,7 @@
 use super::arena::Operation;
 use super::error::{FormulaError, Span};
 use super::functions;
-use super::lexer::{Kind, superscript_number};
+use super::lexer::{Kind, fraction, superscript_number};
 use super::parser::{Parsed, Parser};
 use super::scope::{Meaning, resolve};
 use super::typing::Operand;
@@ -13,8 +13,12 @@ use crate::number::rational::Rational;
 impl Parser<'_> {
     pub(super) fn number(&mut self) -> Parsed {
         let span = self.advance();
-        let value: Rational = self
-            .text(&span)
+        let text = self.text(&span);
+        let value: Rational = text
+            .chars()
+            .next()
+            .and_then(fraction)
+            .unwrap_or(text)
             .parse()
             .map_err(|error| FormulaError::new(span.clone(), format!("{error}")))?;
         let node = self.builder.arena.push(Operation::Number(value), Type::Scalar, span.clone());

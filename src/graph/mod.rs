@@ -129,6 +129,25 @@ impl Graph {
         reached[root.0 as usize]
     }
 
+    /// How many operations these expressions take together.
+    pub fn operations(&self, exprs: &[Expr]) -> usize {
+        let mut pending: Vec<NodeId> = exprs.iter().filter_map(|expr| expr.id()).collect();
+        let mut reached = vec![false; self.nodes.len()];
+        let mut count = 0;
+        while let Some(id) = pending.pop() {
+            if std::mem::replace(&mut reached[id.0 as usize], true) {
+                continue;
+            }
+            match self.node(id) {
+                Node::Constant(_) | Node::Input(_) => continue,
+                Node::Unary(_, a) | Node::Power(a, _) => pending.push(a),
+                Node::Binary(_, a, b) => pending.extend([a, b]),
+            }
+            count += 1;
+        }
+        count
+    }
+
     fn constant_at(&self, id: NodeId) -> Option<&Rational> {
         match self.nodes[id.0 as usize] {
             Node::Constant(index) => Some(&self.constants[index as usize]),

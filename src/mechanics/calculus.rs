@@ -5,7 +5,8 @@ use std::cell::OnceCell;
 
 use num_dual::Dual;
 
-use super::model::{LevelFunction, Model, Phase};
+use super::model::{LevelFunction, Model};
+use super::phase::Phase;
 use crate::scalar::Scalar;
 
 /// A point of phase space with the points next to it, made once for all derivatives that are taken.

@@ -5,7 +5,8 @@
 
 use nalgebra::Vector3;
 
-use super::model::{Model, Phase};
+use super::model::Model;
+use super::phase::Phase;
 use super::recipe::{Draw, Range};
 use crate::formula::Formula;
 use crate::scalar::Scalar;

@@ -15,7 +15,7 @@ use num_dual::Dual;
 
 use super::body::{matrix, scalar, vector};
 use super::linear::point_mass;
-use super::model::Phase;
+use super::phase::Phase;
 use super::quantity::Quantity;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;

@@ -7,23 +7,24 @@ mod draws;
 mod flat_base;
 mod linear;
 mod model;
+mod phase;
 mod quantity;
 mod recipe;
 mod rubber;
 mod rubber_measure;
 mod rubber_names;
+mod vocabulary;
 
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart, Step};
 pub use draws::Draws;
 pub use flat_base::FlatBase;
-pub use model::{
-    Configuration, Entry, LevelEquation, LevelFunction, Meaning, Model, Origin, Parameter, Phase,
-    Reach, Variable, Vocabulary, components,
-};
+pub use model::{LevelEquation, LevelFunction, Model, Origin, Parameter, Variable, components};
+pub use phase::{Configuration, Phase};
 pub use quantity::{Features, Quantity, of_flat_base, of_rubber};
 pub use recipe::{Draw, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
+pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
 
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;

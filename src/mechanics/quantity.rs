@@ -1,6 +1,6 @@
 //! The names a system defines by itself, as the papers use them.
 
-use super::model::Reach;
+use super::vocabulary::Reach;
 use crate::formula::Type;
 
 /// A quantity computed from the state and the body.

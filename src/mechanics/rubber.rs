@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::body::{Polynomial, Shape, axis, matrix, scalar, vector};
 use super::linear::{adjugate, determinant_with, isotropic, point_mass};
-use super::model::{Configuration, Phase};
+use super::phase::{Configuration, Phase};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 

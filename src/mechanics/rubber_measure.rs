@@ -15,7 +15,7 @@ use num_dual::Dual;
 
 use super::body::axis;
 use super::linear::{across, adjugate, determinant_with};
-use super::model::Configuration;
+use super::phase::Configuration;
 use super::rubber::{NORMAL, Rubber, normal};
 use crate::scalar::Scalar;
 

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::body::{matrix, scalar, vector};
 use super::linear::{across, isotropic, point_mass};
-use super::model::{Configuration, Phase};
+use super::phase::{Configuration, Phase};
 use super::quantity::Quantity;
 use super::rubber::{Rubber, normal};
 use crate::formula::Value;

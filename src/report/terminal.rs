@@ -173,10 +173,14 @@ fn details(report: &CaseReport) -> String {
 
 fn summary(run: &RunReport) -> String {
     let summary = run.summary();
+    let count = |number: usize, noun: &str| match number {
+        1 => format!("1 {noun}"),
+        _ => format!("{number} {noun}s"),
+    };
     let mut line = format!(
-        "{} cases, {} claims: {} proved, {} confirmed, {} refuted, {} undecided; {} against expectation",
-        summary.cases,
-        summary.claims,
+        "{}, {}: {} proved, {} confirmed, {} refuted, {} undecided; {} against expectation",
+        count(summary.cases, "case"),
+        count(summary.claims, "claim"),
         summary.proved,
         summary.confirmed,
         summary.refuted,
@@ -184,7 +188,7 @@ fn summary(run: &RunReport) -> String {
         summary.disagreements,
     );
     if summary.errors > 0 {
-        line.push_str(&format!("; {} files could not be judged", summary.errors));
+        line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
     }
     format!("{line}; {:.2} s, seed {}\n", summary.seconds, run.seed)
 }

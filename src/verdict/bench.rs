@@ -78,7 +78,7 @@ impl Bench<'_> {
             let values = run.at(&sampler.balls(start));
             for ((item, finding), span) in open.iter_mut().zip(&spans) {
                 if block == 0 {
-                    finding.evidence.operations = self.run(&item.residual).operations();
+                    finding.evidence.operations = self.graph.operations(&item.residual);
                     weigh(item, span, &values, finding);
                 }
                 if finding.settled.is_none() {

@@ -32,12 +32,12 @@ pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
     let mut counts = [0usize; KINDS.len()];
     let mut defined = 0;
     for lane in 0..LANES {
-        let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
-        if state.len() < 13 || state.iter().any(|x| !x.is_finite()) {
+        let defined_here = values.iter().all(|block| block.is_defined(lane));
+        if values.len() < 13 || !defined_here {
             continue;
         }
         defined += 1;
-        for (count, holds) in counts.iter_mut().zip(impossibilities(&state)) {
+        for (count, holds) in counts.iter_mut().zip(impossibilities(values, lane)) {
             *count += usize::from(holds);
         }
     }
@@ -52,6 +52,11 @@ pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
         .collect()
 }
 
+/// Places among the outputs.
+const SUM_OF_RADII: usize = 10;
+const PRODUCT_OF_RADII: usize = 11;
+const DETERMINANT: usize = 12;
+
 const KINDS: [&str; 6] = [
     "the mass is not positive",
     "the inertia tensor is not positive definite",
@@ -61,10 +66,11 @@ const KINDS: [&str; 6] = [
     "the mass centre lies outside the ball: |c| > |R|",
 ];
 
-fn impossibilities(state: &[f64]) -> [bool; KINDS.len()] {
+fn impossibilities(values: &[&Balls<LANES>], lane: usize) -> [bool; KINDS.len()] {
+    let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
+    let below_zero = |index: usize| state[index] < 0.0 && values[index].excludes_zero(lane);
     let inertia = Matrix3::from_row_slice(&state[1..10]);
     let moments = ((inertia + inertia.transpose()) * 0.5).symmetric_eigenvalues();
-    let [sum, product, determinant] = [state[10], state[11], state[12]];
     let outside = match state.get(13..17) {
         Some([radius, x, y, z]) => Vector3::new(*x, *y, *z).norm() > radius.abs(),
         _ => false,
@@ -76,8 +82,8 @@ fn impossibilities(state: &[f64]) -> [bool; KINDS.len()] {
         state[0] <= 0.0,
         moments.min() <= 0.0,
         moments.min() > 0.0 && largest > (moments.sum() - largest) * slack,
-        sum <= 0.0 || product <= 0.0,
-        determinant < 0.0,
+        below_zero(SUM_OF_RADII) || below_zero(PRODUCT_OF_RADII),
+        below_zero(DETERMINANT),
         outside,
     ]
 }

@@ -40,11 +40,6 @@ impl Run {
         Self { tape: Tape::new(graph, outputs), antiderivatives }
     }
 
-    /// Operations a state.
-    pub fn operations(&self) -> usize {
-        self.tape.operations()
-    }
-
     /// The outputs at one block of parameters and states.
     pub fn at(&self, states: &[Balls<LANES>]) -> Values {
         let mut evaluator = Evaluator::new(&self.tape, Ball::<LANES>);

@@ -51,14 +51,17 @@ impl Sampler {
             values.extend(point);
             values
         })?;
-        let on_level = place.kept.iter().any(|kept| *kept);
-        let newton = match (&case.chart, on_level) {
-            (Chart::Numerical, true) => Some(Newton::new(model, &place.kept)?),
-            _ => None,
+        let some = place.kept.iter().any(|kept| *kept);
+        let all = place.kept.iter().all(|kept| *kept);
+        let newton = match &case.chart {
+            Chart::Rolling | Chart::Free => None,
+            // A chart of the whole level knows nothing of its equations one by one.
+            Chart::Given(_) | Chart::Solved(_) if all => None,
+            _ => some.then(|| Newton::new(model, &place.kept)).transpose()?,
         };
+        let draws = Draws::new(&draws);
         let tape = Tape::new(&graph, &outputs);
         let dimension = model.dimension();
-        let draws = Draws::new(&draws);
         Ok(Self { seed, draws, parameter_draws, dimension, tape, newton })
     }
 

@@ -27,6 +27,7 @@ fn operators_bind_as_in_the_papers() {
     is("2^-1", 0.5);
     is("2^3^2", 512.0);
     is("x^(1/2)", x.sqrt());
+    is("½*x − ¾", x / 2.0 - 0.75);
     is("x^-1/2", 1.0 / x / 2.0);
     is("m - x - y", m - x - y);
     is("m / x / y", m / x / y);

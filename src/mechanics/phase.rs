@@ -1,0 +1,230 @@
+//! Points over some scalar; everything a formula can name is computed from them, once, and only
+//! when asked for.
+//!
+//! [`Phase`] is a point of phase space, [`Configuration`] its part without velocities, where support
+//! functions and potentials live. The two are kept apart because a `Phase<T>` differentiates the
+//! body, and so needs `Configuration<Dual<T>>`, but never the reverse.
+
+use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
+
+use num_dual::Dual;
+use rustc_hash::FxHashMap;
+
+use super::model::{LevelFunction, Model, Origin};
+use super::rubber::{Motion, angular_velocity, normal};
+use super::vocabulary::Meaning;
+use crate::formula::{Formula, Symbol, Value};
+use crate::scalar::Scalar;
+
+/// A point of configuration space over the scalar T: parameters and γ.
+pub struct Configuration<'m, T> {
+    /// The case this belongs to.
+    pub model: &'m Model,
+    parameters: Rc<[Option<Value<T>>]>,
+    state: Vec<Value<T>>,
+    axis_cosine: Option<T>,
+    known: RefCell<FxHashMap<Symbol, Value<T>>>,
+}
+
+impl<'m, T: Scalar> Configuration<'m, T> {
+    fn new(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: Vec<Value<T>>) -> Self {
+        Self { model, parameters, state, axis_cosine: None, known: RefCell::default() }
+    }
+
+    /// The same point with another value of state variable `index`.
+    pub fn moved(&self, index: usize, value: Value<T>) -> Self {
+        let mut state = self.state.clone();
+        state[index] = value;
+        Self::new(self.model, Rc::clone(&self.parameters), state)
+    }
+
+    /// The same point, with `z` as the cosine that a profile is evaluated at.
+    pub fn with_axis_cosine(&self, z: T) -> Self {
+        let mut moved = Self::new(self.model, Rc::clone(&self.parameters), self.state.clone());
+        moved.axis_cosine = Some(z);
+        moved
+    }
+
+    /// `z`, by its definition γ₃/|γ| unless it was given.
+    pub fn axis_cosine(&self) -> T {
+        self.axis_cosine.unwrap_or_else(|| {
+            let gamma = normal(self);
+            gamma.z / gamma.dot(&gamma).sqrt()
+        })
+    }
+
+    /// The value of a formula that reaches no further than the configuration.
+    pub fn evaluate(&self, formula: &Formula) -> Value<T> {
+        formula.evaluate(&mut |symbol| self.value(symbol))
+    }
+
+    /// The value of state variable `index`.
+    pub fn variable(&self, index: usize) -> Value<T> {
+        self.state[index]
+    }
+
+    /// The value of parameter `index`.
+    pub fn parameter(&self, index: usize) -> Value<T> {
+        match (&self.parameters[index], &self.model.parameters[index].origin) {
+            (Some(value), _) => *value,
+            (None, Origin::Formula(formula)) => self.evaluate(formula),
+            (None, _) => unreachable!("only formulas have no value of their own"),
+        }
+    }
+
+    /// The value of a parameter by name, if it is declared.
+    pub fn named(&self, name: &str) -> Option<Value<T>> {
+        match self.model.vocabulary.find(name)?.meaning {
+            Meaning::Parameter(index) => Some(self.parameter(index)),
+            _ => None,
+        }
+    }
+
+    fn value(&self, symbol: Symbol) -> Value<T> {
+        if let Some(value) = self.known.borrow().get(&symbol) {
+            return *value;
+        }
+        let value = match self.model.vocabulary.entry(symbol).meaning {
+            Meaning::Parameter(index) => self.parameter(index),
+            Meaning::State(index) => self.variable(index),
+            Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
+            Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
+        };
+        self.known.borrow_mut().insert(symbol, value);
+        value
+    }
+
+    /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
+    pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
+        let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
+        state[index] = dual_value(self.state[index], direction);
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+
+    /// The same point with all derivative parts 0.
+    pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
+        let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+}
+
+/// A point of phase space over the scalar T.
+pub struct Phase<'m, T> {
+    /// The part without velocities.
+    pub configuration: Configuration<'m, T>,
+    known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    motion: OnceCell<Box<Motion<T>>>,
+    field: OnceCell<Vec<T>>,
+}
+
+impl<'m, T: Scalar> Phase<'m, T> {
+    /// The point with the given values of the free parameters and of the state's components.
+    pub fn new(model: &'m Model, free: &[T], state: &[T]) -> Self {
+        Self::with_parameters(model, model.assign(free), state)
+    }
+
+    fn with_parameters(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: &[T]) -> Self {
+        let mut rest = state;
+        let state = model
+            .state
+            .iter()
+            .map(|variable| {
+                let (own, others) = rest.split_at(variable.len().min(rest.len()));
+                rest = others;
+                Value::from_components(variable.kind, own)
+            })
+            .collect();
+        Self {
+            configuration: Configuration::new(model, parameters, state),
+            known: RefCell::default(),
+            motion: OnceCell::new(),
+            field: OnceCell::new(),
+        }
+    }
+
+    /// The case this belongs to.
+    pub fn model(&self) -> &'m Model {
+        self.configuration.model
+    }
+
+    /// The state's components in order.
+    pub fn state(&self) -> Vec<T> {
+        self.configuration.state.iter().flat_map(|value| value.components()).collect()
+    }
+
+    /// The value of a formula.
+    pub fn evaluate(&self, formula: &Formula) -> Value<T> {
+        formula.evaluate(&mut |symbol| self.value(symbol))
+    }
+
+    /// The value of a scalar formula.
+    pub fn scalar(&self, formula: &Formula) -> T {
+        self.evaluate(formula).scalar().unwrap_or_else(T::zero)
+    }
+
+    /// The value behind a symbol.
+    pub fn value(&self, symbol: Symbol) -> Value<T> {
+        if let Some(value) = self.known.borrow().get(&symbol) {
+            return *value;
+        }
+        let model = self.model();
+        let value = match model.vocabulary.entry(symbol).meaning {
+            Meaning::Parameter(_) | Meaning::State(_) => self.configuration.value(symbol),
+            Meaning::Abbreviation(index) => self.evaluate(&model.abbreviations[index]),
+            Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
+        };
+        self.known.borrow_mut().insert(symbol, value);
+        value
+    }
+
+    /// The vector field: the time derivatives of the state's components, in order.
+    pub fn field(&self) -> &[T] {
+        self.field.get_or_init(|| self.model().system.field(self))
+    }
+
+    /// The intermediate results of a rubber system's equations.
+    pub(super) fn motion(&self, make: impl FnOnce() -> Motion<T>) -> &Motion<T> {
+        self.motion.get_or_init(|| Box::new(make()))
+    }
+
+    /// The value of level function F.
+    pub fn level_function(&self, function: &LevelFunction) -> T {
+        match function {
+            LevelFunction::UnitNormal => {
+                let gamma = normal(&self.configuration);
+                gamma.dot(&gamma) - T::one()
+            }
+            LevelFunction::NoSpin => {
+                let gamma = normal(&self.configuration);
+                angular_velocity(&self.configuration).dot(&gamma)
+            }
+            LevelFunction::Formula(formula) => self.scalar(formula),
+        }
+    }
+
+    /// The same point with the derivative part `direction`, one entry a component of the state.
+    pub fn lift(&self, direction: &[T]) -> Phase<'m, Dual<T>> {
+        let state: Vec<_> =
+            self.state().into_iter().zip(direction).map(|(x, d)| Dual::new(x, *d)).collect();
+        let parameters = lift_parameters(&self.configuration.parameters);
+        Phase::with_parameters(self.model(), parameters, &state)
+    }
+
+    /// The same point with the derivative part along coordinate `index`.
+    pub fn lift_along(&self, index: usize) -> Phase<'m, Dual<T>> {
+        let mut direction = vec![T::zero(); self.model().dimension()];
+        direction[index] = T::one();
+        self.lift(&direction)
+    }
+}
+
+fn lift_parameters<T: Scalar>(parameters: &[Option<Value<T>>]) -> Rc<[Option<Value<Dual<T>>>]> {
+    parameters.iter().map(|value| value.map(|value| value.map(Dual::from_re))).collect()
+}
+
+fn dual_value<T: Scalar>(value: Value<T>, direction: Value<T>) -> Value<Dual<T>> {
+    let parts = value.components().into_iter().zip(direction.components());
+    let parts: Vec<_> = parts.map(|(re, eps)| Dual::new(re, eps)).collect();
+    Value::from_components(value.value_type(), &parts)
+}

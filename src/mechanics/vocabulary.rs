@@ -1,0 +1,89 @@
+//! The names of a case and what they stand for.
+
+use rustc_hash::FxHashMap;
+
+use super::quantity::Quantity;
+use crate::formula::{Formula, Scope, Symbol, Type};
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// An entry of the model's parameters.
+    Parameter(usize),
+    /// An entry of the model's state.
+    State(usize),
+    /// An entry of the model's abbreviations.
+    Abbreviation(usize),
+    /// Something the system itself defines.
+    Quantity(Quantity),
+}
+
+/// What a quantity may depend on; later ones include earlier ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reach {
+    /// Parameters only.
+    Parameters,
+    /// Parameters and the configuration γ.
+    Configuration,
+    /// The whole state.
+    Phase,
+}
+
+/// A name with its meaning.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The canonical name.
+    pub name: String,
+    /// What it stands for.
+    pub meaning: Meaning,
+    /// Scalar, vector or matrix.
+    pub kind: Type,
+    /// What it depends on.
+    pub reach: Reach,
+}
+
+/// All names of a case.
+#[derive(Clone, Debug, Default)]
+pub struct Vocabulary {
+    entries: Vec<Entry>,
+    by_name: FxHashMap<String, u32>,
+}
+
+impl Vocabulary {
+    /// Adds a name; a later entry of the same name hides the earlier one.
+    pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) {
+        self.by_name.insert(name.to_string(), self.entries.len() as u32);
+        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach });
+    }
+
+    /// The entry behind a symbol.
+    pub fn entry(&self, symbol: Symbol) -> &Entry {
+        &self.entries[symbol.0 as usize]
+    }
+
+    /// The entry of a name.
+    pub fn find(&self, name: &str) -> Option<&Entry> {
+        self.by_name.get(name).map(|index| &self.entries[*index as usize])
+    }
+
+    /// All entries with their symbols.
+    pub fn iter(&self) -> impl Iterator<Item = (Symbol, &Entry)> {
+        self.entries.iter().enumerate().map(|(index, entry)| (Symbol(index as u32), entry))
+    }
+
+    /// The farthest that any name in `formula` reaches, with that name.
+    pub fn reach(&self, formula: &Formula) -> Option<&Entry> {
+        formula.symbols().map(|symbol| self.entry(symbol)).max_by_key(|entry| entry.reach)
+    }
+}
+
+impl Scope for Vocabulary {
+    fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+        let index = *self.by_name.get(name)?;
+        Some((Symbol(index), self.entries[index as usize].kind))
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.by_name.keys().cloned().collect()
+    }
+}

@@ -1,0 +1,258 @@
+//! The program as its users meet it: commands, exit codes, JSON, wrong input.
+
+use std::fs;
+use std::path::PathBuf;
+
+use assert_cmd::Command;
+use predicates::str::contains;
+use serde_json::Value;
+
+fn liouville(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("liouville").expect("the binary is built");
+    command.args(arguments);
+    command
+}
+
+/// A scratch folder of its own for a test.
+fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).expect("a scratch folder");
+    for (file, text) in files {
+        fs::write(path.join(file), text).expect("a scratch file");
+    }
+    path
+}
+
+fn json(arguments: &[&str], code: i32) -> Value {
+    let output = liouville(arguments).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(code), "exit code of {arguments:?}");
+    serde_json::from_slice(&output.stdout).expect("JSON on standard output")
+}
+
+const GOOD: &str = r#"
+title = "balanced ball"
+system = "rubber-plane"
+[parameters]
+m = "0.5..2"
+R = "1..3"
+I = "inertia(0.5..5)"
+[body]
+shape = "ball"
+[[claim]]
+name = "F2"
+integral = "|J*ω × γ|²"
+[[claim]]
+name = "without the root"
+density = "(γ,J⁻¹*γ)"
+expect = "fails"
+"#;
+
+#[test]
+fn check_reports_in_the_documented_form() {
+    let path = folder("form", &[("good.toml", GOOD)]);
+    let report = json(&["check", "--json", path.to_str().expect("UTF-8")], 0);
+    assert_eq!(report["seed"], 1, "the seed is printed");
+    let case = &report["cases"][0];
+    assert_eq!(case["title"], "balanced ball", "with title, system and claims");
+    assert_eq!(case["system"], "rubber-plane");
+    let claim = &case["claims"][0];
+    for key in ["name", "kind", "source", "where", "expect", "verdict", "agrees", "evidence"] {
+        assert!(claim.get(key).is_some(), "a claim has `{key}`");
+    }
+    assert_eq!(claim["verdict"], "confirmed");
+    let evidence = &claim["evidence"];
+    for key in ["method", "samples", "max_residual", "max_scaled_residual"] {
+        assert!(evidence.get(key).is_some(), "evidence has `{key}`");
+    }
+    let summary = &report["summary"];
+    for key in ["cases", "claims", "proved", "confirmed", "refuted", "undecided", "disagreements"] {
+        assert!(summary[key].is_u64(), "the summary counts `{key}`");
+    }
+    assert!(summary["seconds"].is_f64(), "and tells the time");
+}
+
+#[test]
+fn a_witness_is_reproduced_by_eval() {
+    let path = folder("witness", &[("good.toml", GOOD)]).join("good.toml");
+    let path = path.to_str().expect("UTF-8");
+    let report = json(&["check", "--json", path], 0);
+    let witness = &report["cases"][0]["claims"][1]["evidence"]["witness"];
+    let mut arguments: Vec<String> = vec!["eval".into(), path.into(), "--json".into()];
+    for (name, value) in witness["parameters"].as_object().expect("parameters") {
+        arguments.push("--set".into());
+        arguments.push(format!("{name}={}", value.as_str().expect("text")));
+    }
+    arguments.push("--state".into());
+    arguments.push(witness["state"].as_str().expect("a state").into());
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let point = json(&arguments, 0);
+    let claim = &point["claims"]["without the root"];
+    let again: f64 = claim["residual"].as_str().expect("text").parse().expect("a decimal");
+    let bound: f64 = claim["residual_error"].as_str().expect("text").parse().expect("a decimal");
+    let first = witness["residual"].as_f64().expect("a number");
+    let allowed = bound + witness["error_bound"].as_f64().expect("a number");
+    assert!((again - first).abs() <= allowed, "{again} against {first}");
+    assert!(again.abs() > bound, "and it excludes zero here too");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_for_any_number_of_threads() {
+    let run = |threads: &str| {
+        let arguments = ["check", "--json", "--threads", threads, "cases/plane", "cases/flat-base"];
+        let mut report = json(&arguments, 0);
+        report["summary"]["seconds"] = Value::Null;
+        report.to_string()
+    };
+    let one = run("1");
+    assert!(one == run("2") && one == run("7"), "only the time may differ");
+}
+
+#[test]
+fn another_seed_gives_other_states_and_the_same_verdicts() {
+    let path = folder("seed", &[("good.toml", GOOD)]);
+    let path = path.to_str().expect("UTF-8");
+    let (one, two) = (
+        json(&["check", "--json", path], 0),
+        json(&["check", "--json", "--seed", "2", path], 0),
+    );
+    let witness = |report: &Value| report["cases"][0]["claims"][1]["evidence"]["witness"].clone();
+    assert_ne!(witness(&one)["state"], witness(&two)["state"], "other states");
+}
+
+#[test]
+fn a_disagreement_exits_with_1() {
+    let wrong = GOOD.replace("expect = \"fails\"", "expect = \"holds\"");
+    let path = folder("disagreement", &[("wrong.toml", &wrong)]);
+    liouville(&["check", path.to_str().expect("UTF-8")])
+        .assert()
+        .code(1)
+        .stdout(contains("expected: holds"));
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let path = folder("mixed", &[("a-bad.toml", "title = "), ("b-good.toml", GOOD)]);
+    liouville(&["check", path.to_str().expect("UTF-8")])
+        .assert()
+        .code(2)
+        .stdout(contains("balanced ball"))
+        .stdout(contains("1 file could not be judged"));
+}
+
+/// What is wrong, what the message says, and the remedy it offers.
+#[test]
+fn wrong_input_gets_a_clear_message_and_exit_code_2() {
+    let head = "title = 'x'\nsystem = 'rubber-plane'\n";
+    let body = "[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n[body]\nshape = 'ball'\n";
+    let claim = |text: &str| format!("{head}{body}[[claim]]\nintegral = '{text}'\n");
+    let field = |text: &str| format!("title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\n{text}");
+    let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
+    let cases: Vec<(&str, String, &str, &str)> = vec![
+        ("empty", String::new(), "the file is empty", "writing-a-case"),
+        ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
+        ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
+        ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "is no system", "rubber-plane"),
+        ("key", format!("titel = 'x'\n{head}{body}"), "unknown key `titel`", "did you mean `title`"),
+        ("unknown-name", claim("Jtild*ω"), "unknown name", ""),
+        ("times", claim("2*m*R(γ,ω)"), "missing `*`", "write `R*(γ,ω)`"),
+        ("kinds", claim("ω3 + γ"), "scalar", ""),
+        ("bracket", claim("((γ,ω)"), "bracket", ""),
+        ("weights", claim("(γ,γ) + ω3"), "unequal weight", "check-weights"),
+        ("vector", claim("γ"), "should be a scalar, but this is a vector", ""),
+        ("deep", claim(&deep), "nested too deeply", ""),
+        ("nan", format!("{head}{}", body.replace("m = 1", "m = nan")), "is not a number", ""),
+        ("range", format!("{head}{}", body.replace("m = 1", "m = '2..1'")), "is empty", ""),
+        (
+            "singular",
+            format!("{head}{}", body.replace("m = 1", "m = 0").replace("[1, 2, 2.5]", "[0, 0, 0]")),
+            "equations of motion are undefined",
+            "singular inertia",
+        ),
+        (
+            "unreachable",
+            field("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[level]\nequations = ['x² + y² = -1']\n"),
+            "no state on the level set",
+            "[level]",
+        ),
+        (
+            "leaves",
+            field("[field]\n\"x'\" = '1'\n\"y'\" = 'x'\n[level]\nequations = ['x² + y² = 1']\n"),
+            "the level set is not invariant",
+            "correct the equation",
+        ),
+        (
+            "criterion",
+            field("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[[claim]]\nanalytic-density = 'exists'\n"),
+            "decided by a criterion",
+            "",
+        ),
+        (
+            "rate",
+            field("[field]\n\"x'\" = 'y'\n"),
+            "has no rate for `y`",
+            "y'",
+        ),
+    ];
+    for (name, text, message, remedy) in cases {
+        let path = folder("wrong", &[(&format!("{name}.toml"), &text)]);
+        liouville(&["check", path.to_str().expect("UTF-8")])
+            .assert()
+            .code(2)
+            .stdout(contains(message))
+            .stdout(contains(remedy));
+    }
+    liouville(&["check", "no-such-folder"]).assert().code(2).stdout(contains("cannot read"));
+    let huge = format!("#{}", "x".repeat(5 << 20));
+    let path = folder("huge", &[("huge.toml", &huge)]);
+    liouville(&["check", path.to_str().expect("UTF-8")]).assert().code(2).stdout(contains("bytes"));
+}
+
+#[test]
+fn eval_refuses_what_it_does_not_understand() {
+    let path = folder("eval", &[("good.toml", GOOD)]).join("good.toml");
+    let path = path.to_str().expect("UTF-8");
+    let refused = [
+        (vec!["--set", "q=1"], "there is no parameter `q`"),
+        (vec!["--set", "m"], "not of the form name=value"),
+        (vec!["--state", "ω=[1,2]"], "has 3 components"),
+        (vec!["--state", "ω=[1,2,3]"], "no value for `γ`"),
+        (vec!["--state", "ω=[1,2,x] γ=[0,0,1]"], "is not a number"),
+        (vec!["--state", "v=[1,2,3]"], "is no state variable"),
+    ];
+    for (options, message) in refused {
+        let mut arguments = vec!["eval", path];
+        arguments.extend(&options);
+        liouville(&arguments).assert().code(2).stderr(contains(message));
+    }
+}
+
+#[test]
+fn what_is_impossible_but_meaningful_runs_with_a_warning() {
+    let text = GOOD
+        .replace("R = \"1..3\"", "R = -2\nc = [0, 3, 0]")
+        .replace("\"inertia(0.5..5)\"", "[1, 1, 5]")
+        .replace("|J*ω × γ|²", "energy")
+        .replace("without the root\"\ndensity = \"(γ,J⁻¹*γ)\"", "ω1\"\nintegral = \"ω1\"");
+    let path = folder("impossible", &[("impossible.toml", &text)]);
+    liouville(&["check", path.to_str().expect("UTF-8")])
+        .assert()
+        .code(0)
+        .stdout(contains("triangle inequality"))
+        .stdout(contains("not convex"))
+        .stdout(contains("outside the ball"));
+}
+
+#[test]
+fn both_tables_come_out_of_the_catalogue() {
+    for (number, columns) in [("1", 6), ("2", 8)] {
+        let table = json(&["table", number, "--json"], 0);
+        assert_eq!(table["columns"].as_array().map(Vec::len), Some(columns), "table {number}");
+        for row in table["rows"].as_array().expect("rows") {
+            for cell in row["cells"].as_array().expect("cells") {
+                assert_ne!(cell["status"], "contradicts", "{row}");
+            }
+        }
+        liouville(&["table", number]).assert().code(0).stdout(contains("confirmed"));
+    }
+}
