@@ -2,6 +2,9 @@
 //!
 //! All numbers are fractions with a prime denominator: generic, short and exact.
 
+// Each test binary uses a part of this.
+#![allow(dead_code)]
+
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
