@@ -112,10 +112,8 @@ fn the_same_seed_gives_the_same_bytes_for_any_number_of_threads() {
 fn another_seed_gives_other_states_and_the_same_verdicts() {
     let path = folder("seed", &[("good.toml", GOOD)]);
     let path = path.to_str().expect("UTF-8");
-    let (one, two) = (
-        json(&["check", "--json", path], 0),
-        json(&["check", "--json", "--seed", "2", path], 0),
-    );
+    let (one, two) =
+        (json(&["check", "--json", path], 0), json(&["check", "--json", "--seed", "2", path], 0));
     let witness = |report: &Value| report["cases"][0]["claims"][1]["evidence"]["witness"].clone();
     assert_ne!(witness(&one)["state"], witness(&two)["state"], "other states");
 }
@@ -153,7 +151,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
         ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
         ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "is no system", "rubber-plane"),
-        ("key", format!("titel = 'x'\n{head}{body}"), "unknown key `titel`", "did you mean `title`"),
+        (
+            "key",
+            format!("titel = 'x'\n{head}{body}"),
+            "unknown key `titel`",
+            "did you mean `title`",
+        ),
         ("unknown-name", claim("Jtild*ω"), "unknown name", ""),
         ("times", claim("2*m*R(γ,ω)"), "missing `*`", "write `R*(γ,ω)`"),
         ("kinds", claim("ω3 + γ"), "scalar", ""),
@@ -187,12 +190,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "decided by a criterion",
             "",
         ),
-        (
-            "rate",
-            field("[field]\n\"x'\" = 'y'\n"),
-            "has no rate for `y`",
-            "y'",
-        ),
+        ("rate", field("[field]\n\"x'\" = 'y'\n"), "has no rate for `y`", "y'"),
     ];
     for (name, text, message, remedy) in cases {
         let path = folder("wrong", &[(&format!("{name}.toml"), &text)]);

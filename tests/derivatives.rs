@@ -10,7 +10,8 @@ use common::{assert_meet, case, claim, claim_text, exact, rational, report};
 use liouville::case::Case;
 use liouville::formula::{Scope, Value};
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::{Phase, calculus};
+use liouville::mechanics::Phase;
+use liouville::mechanics::calculus::Jet;
 use liouville::number::Domain;
 use liouville::number::ball::Ball;
 use liouville::number::rational::Rational;
@@ -86,24 +87,25 @@ fn the_graph_records_what_num_dual_computes() {
         let [integral, density] = [0, 1].map(|i| case.claims[i].kind.formula().expect("a formula"));
         for (index, state) in states().iter().enumerate() {
             let found = report(&case, state);
-            let phase = Phase::new(&case.model, &[], &floats(state));
+            let jet = Jet::new(Phase::new(&case.model, &[], &floats(state)));
+            let phase = &jet.phase;
             let near = |direct: f64, recorded, name: &str| {
                 assert_near(direct, recorded, &format!("{} at {index}, {name}", case.title));
             };
             for (i, rate) in phase.field().iter().enumerate() {
                 near(*rate, found.field[i], &format!("v[{i}]"));
             }
-            let divergence = calculus::divergence(&phase);
+            let divergence = jet.divergence();
             near(divergence, found.divergence, "div v");
-            let cofactor = calculus::level_cofactor(&phase, &[true, true]);
+            let cofactor = jet.level_cofactor(&[true, true]);
             near(divergence - cofactor, found.level_divergence, "div v on the level");
             let system = &case.model.system;
-            for (i, chi) in system.chi(&phase).expect("χ").into_iter().enumerate() {
+            for (i, chi) in system.chi(phase).expect("χ").into_iter().enumerate() {
                 near(chi, found.chi.expect("χ")[i], &format!("χ[{i}]"));
             }
-            near(system.criterion(&phase).expect("C"), found.criterion.flatten(), "C");
-            near(system.energy(&phase).expect("E"), found.energy.flatten(), "E");
-            let rate = calculus::lie_derivative(&phase, |at| at.scalar(integral));
+            near(system.criterion(phase).expect("C"), found.criterion.flatten(), "C");
+            near(system.energy(phase).expect("E"), found.energy.flatten(), "E");
+            let rate = jet.lie_derivative(|at| at.scalar(integral));
             near(rate, claim(&found, "F").1, "L_v F");
             let value = phase.scalar(density);
             near(
@@ -143,8 +145,8 @@ fn covector<T: Scalar>(case: &Case, gamma: Vector3<T>) -> Vector3<T> {
     let chi_hat = Vector3::from_fn(|j, _| {
         let mut unit = Vector3::repeat(T::zero());
         unit[j] = T::one();
-        let phase = at(gamma.cross(&unit));
-        calculus::level_cofactor(&phase, &[true, true]) - calculus::divergence(&phase)
+        let jet = Jet::new(at(gamma.cross(&unit)));
+        jet.level_cofactor(&[true, true]) - jet.divergence()
     });
     let Some((symbol, _)) = case.model.vocabulary.lookup("Γ") else { return chi_hat };
     let Value::Matrix(turning): Value<T> = at(gamma).value(symbol) else {
@@ -200,7 +202,7 @@ fn the_criterion_of_a_flat_base_is_the_rotation_of_the_divergence() {
     let xi = |i: usize, r: [Dual<f64>; 2]| {
         let k = Dual::from_re(0.75);
         let omega = [[Dual::from_re(0.0), -k], [k, Dual::from_re(0.0)]][i];
-        calculus::divergence(&Phase::new(&case.model, &[], &[omega, r].concat()))
+        Jet::new(Phase::new(&case.model, &[], &[omega, r].concat())).divergence()
     };
     let (still, along) = (|x: f64| Dual::new(x, 0.0), |x: f64| Dual::new(x, 1.0));
     let found = report(&case, &state).criterion.flatten();

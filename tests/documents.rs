@@ -14,7 +14,8 @@ fn check_all(path: &str, at_least: usize) {
     let mut judged = 0;
     let all = blocks(&text, "toml");
     for block in all.iter().filter(|block| block.contains("title")) {
-        let case = Case::parse(block, &[]).unwrap_or_else(|error| panic!("{path}: {error}\n{block}"));
+        let case =
+            Case::parse(block, &[]).unwrap_or_else(|error| panic!("{path}: {error}\n{block}"));
         let report = judge(&case, &Options::default()).expect("it can be judged");
         for claim in &report.claims {
             assert!(claim.agrees, "{path}: {} came out {}", claim.name, claim.verdict.word());

@@ -85,10 +85,16 @@ fn of_system(system: &System) -> Vec<&Formula> {
 /// The weights under t → λt: ω and S scale as 1/t, energies as 1/t², shapes and masses not at all.
 fn time(model: &Model) -> WeightSystem {
     let mut weights = WeightSystem::new("time");
+    let curved = match &model.system {
+        System::Rubber(body) => body.curvature.is_some(),
+        System::FlatBase(_) => true,
+        System::Field(_) => false,
+    };
     for (symbol, entry) in model.vocabulary.iter() {
         let weight = match entry.meaning {
             Meaning::Parameter(_) => match entry.name.as_str() {
-                "m" | "I" | "R" | "c" | "B" | "k" | "μ" => Some(0),
+                "m" | "I" | "R" | "c" | "B" | "μ" => Some(0),
+                "k" if curved => Some(0),
                 _ => None,
             },
             Meaning::State(_) => Some(if entry.name.starts_with('ω') { -1 } else { 0 }),

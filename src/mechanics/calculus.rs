@@ -120,21 +120,42 @@ fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
 
 /// Solves A x = b for a positive definite A: elimination needs no pivots there.
 fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
-    let n = b.len();
-    for k in 0..n {
-        for i in k + 1..n {
-            let factor = a[i][k] / a[k][k];
-            for j in k..n {
-                let above = a[k][j];
-                a[i][j] -= factor * above;
+    for k in 0..b.len() {
+        let (above, below) = a.split_at_mut(k + 1);
+        let (pivot_row, pivot_value) = (&above[k], b[k]);
+        for (row, value) in below.iter_mut().zip(&mut b[k + 1..]) {
+            let factor = row[k] / pivot_row[k];
+            for (entry, pivot) in row.iter_mut().zip(pivot_row).skip(k) {
+                *entry -= factor * *pivot;
             }
-            let above = b[k];
-            b[i] -= factor * above;
+            *value -= factor * pivot_value;
         }
     }
-    for k in (0..n).rev() {
-        let known: T = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+    for k in (0..b.len()).rev() {
+        let known = dot(&a[k][k + 1..], &b[k + 1..]);
         b[k] = (b[k] - known) / a[k][k];
     }
     b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elimination_solves() {
+        let matrix = vec![vec![4.0, 1.0, 0.5], vec![1.0, 3.0, -1.0], vec![0.5, -1.0, 5.0]];
+        let solution = solve_positive(matrix.clone(), vec![1.0, 2.0, 3.0]);
+        for (row, expected) in matrix.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((dot(row, &solution) - expected).abs() < 1e-14, "A x = b");
+        }
+    }
+
+    #[test]
+    fn distance_is_zero_in_the_span_only() {
+        let plane = [vec![1.0, 2.0, 0.0], vec![0.0, 1.0, 1.0]];
+        assert!(distance_from_span(&[2.0, 5.0, 1.0], &plane).abs() < 1e-12, "2a + b is in it");
+        assert!(distance_from_span(&[0.0, 0.0, 1.0], &plane) > 0.1, "e₃ is not");
+        assert_eq!(distance_from_span(&[3.0, 4.0], &[]), 25.0, "nothing spans nothing");
+    }
 }

@@ -1,7 +1,7 @@
 //! Running a case's tapes at its places.
 
 use super::evidence::{Sign, Verdict, Witness};
-use super::finding::{Finding, MIN_STATES, fold, weigh};
+use super::finding::{Finding, Look, fold, weigh};
 use super::judge::{JudgeError, Options};
 use super::physics;
 use super::point::named;
@@ -65,29 +65,36 @@ impl Bench<'_> {
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
         for (item, finding) in &mut open {
             fold(self.graph, item, finding);
+            finding.evidence.operations = self.graph.operations(&item.residual);
         }
         let blocks = self.options.states.div_ceil(LANES as u64).max(1);
+        let mut laid_out: Option<(Run, Vec<Span>)> = None;
         for block in 0..blocks {
             let start = block * LANES as u64;
-            let mut outputs = Vec::new();
-            let spans: Vec<_> = open
-                .iter()
-                .map(|(item, _)| Span::lay_out(item, block == 0, &mut outputs))
-                .collect();
-            let run = self.run(&outputs);
+            let (run, spans) = laid_out.get_or_insert_with(|| {
+                self.lay_out(open.iter().map(|(item, _)| *item), block == 0)
+            });
             let values = run.at(&sampler.balls(start));
-            for ((item, finding), span) in open.iter_mut().zip(&spans) {
+            for ((item, finding), span) in open.iter_mut().zip(spans.iter()) {
                 if block == 0 {
-                    finding.evidence.operations = self.graph.operations(&item.residual);
                     weigh(item, span, &values, finding);
                 }
                 if finding.settled.is_none() {
                     self.examine(&sampler, start, span, &values, finding);
                 }
             }
+            if block == 0 {
+                for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.holds()) {
+                    finding.evidence.sign = self.sign(&sampler, item);
+                }
+            }
+            let before = open.len();
             open.retain(|(_, finding)| finding.settled.is_none());
             if open.is_empty() {
                 break;
+            }
+            if block == 0 || open.len() < before {
+                laid_out = None;
             }
         }
         for (item, finding) in open {
@@ -95,6 +102,17 @@ impl Bench<'_> {
             finding.evidence.sign = self.sign(&sampler, item);
         }
         Ok(())
+    }
+
+    /// One tape for the claims that are left.
+    fn lay_out<'r>(
+        &self,
+        items: impl Iterator<Item = &'r Recorded<'r>>,
+        with_context: bool,
+    ) -> (Run, Vec<Span>) {
+        let mut outputs = Vec::new();
+        let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
+        (self.run(&outputs), spans)
     }
 
     /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
@@ -188,8 +206,9 @@ impl Bench<'_> {
                 let covered = finding.evidence.holds.iter().any(|name| name == "everywhere");
                 if let (Some((_, residual)), true, false) = (residual, holds, covered) {
                     let span = outputs.len()..outputs.len() + residual.len();
-                    outputs.extend(residual.iter().copied());
-                    asked.push((finding, span));
+                    outputs.extend(residual.iter().chain(&item.context.scale).copied());
+                    let scale = item.context.scale.map(|_| span.end);
+                    asked.push((finding, span, scale));
                 }
             }
             if asked.is_empty() {
@@ -197,12 +216,9 @@ impl Bench<'_> {
             }
             let sampler = Sampler::new(self.case, place, self.options.seed)?;
             let values = self.run(&outputs).at(&sampler.balls(0));
-            for (finding, span) in asked {
-                let balls = values.range(span);
-                let defined = |lane: usize| balls.iter().all(|ball| ball.is_defined(lane));
-                let lanes: Vec<usize> = (0..LANES).filter(|lane| defined(*lane)).collect();
-                let fails = lanes.iter().any(|lane| balls.iter().any(|b| b.excludes_zero(*lane)));
-                if !fails && lanes.len() >= MIN_STATES {
+            for (finding, span, scale) in asked {
+                let scale = scale.map(|index| values.output(index));
+                if Look::at(&values.range(span), scale).is_zero() {
                     finding.evidence.holds.push(place.name(model));
                 }
             }

@@ -5,12 +5,14 @@ use super::recorded::{Recorded, Span};
 use super::run::Values;
 use super::sampler::LANES;
 use crate::graph::Graph;
+use crate::number::ball::Balls;
 
 /// A claim is confirmed by no fewer states of the first block than this.
-pub const MIN_STATES: usize = LANES / 4;
+const MIN_STATES: usize = LANES / 4;
 /// Bits of the residual's scale that its error bound must leave for a state to count: what is
 /// blurred more than this could hide a term.
 const RESOLVED_BITS: i32 = 16;
+
 /// What is known of a claim while the ladder is climbed.
 #[derive(Default)]
 pub struct Finding {
@@ -56,39 +58,56 @@ pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values, finding: &mut Fi
         return;
     }
     let residuals = values.range(span.residual.clone());
-    let defined = |lane: &usize| residuals.iter().all(|ball| ball.is_defined(*lane));
-    if (0..LANES).filter(defined).count() == 0 {
-        undecide(
-            finding,
-            format!("the residual is undefined at all {LANES} states that were drawn"),
+    let look = Look::at(&residuals, span.scale.map(|index| values.output(index)));
+    if look.defined == 0 {
+        let reason = format!("the residual is undefined at all {LANES} states that were drawn");
+        undecide(finding, reason);
+    } else if span.defects.clone().any(excluded) {
+        let reason = "the integrand of an ∫ is not a function of its variable alone";
+        undecide(finding, reason.to_string());
+    } else if !look.excludes_zero && look.resolved < MIN_STATES {
+        let (kind, resolved) = (item.claim.kind.name(), look.resolved);
+        let reason = format!(
+            "rounding hides the residual of this {kind}: only at {resolved} of {LANES} states is its \
+             error bound 2^{RESOLVED_BITS} times below the terms that are added"
         );
-        return;
+        undecide(finding, reason);
     }
-    if span.defects.clone().any(excluded) {
-        let what = "the integrand of an ∫ is not a function of its variable alone";
-        undecide(finding, what.to_string());
-        return;
+}
+
+/// What a block of states shows of a residual.
+pub struct Look {
+    /// States at which it has an enclosure.
+    defined: usize,
+    /// Those at which the enclosure is narrow against the residual's scale.
+    resolved: usize,
+    /// Does some enclosure exclude 0?
+    excludes_zero: bool,
+}
+
+impl Look {
+    /// Looks at a residual, and the square of its scale.
+    pub fn at(residuals: &[&Balls<LANES>], scale: Option<&Balls<LANES>>) -> Self {
+        let mut look = Self { defined: 0, resolved: 0, excludes_zero: false };
+        for lane in 0..LANES {
+            if !residuals.iter().all(|ball| ball.is_defined(lane)) {
+                continue;
+            }
+            let blur = scale.map_or(f64::INFINITY, |scale| {
+                let floor = (scale.mid[lane] - scale.rad[lane]).max(0.0).sqrt();
+                2f64.powi(-RESOLVED_BITS) * floor
+            });
+            let narrow = |ball: &&Balls<LANES>| ball.rad[lane] <= blur || ball.rad[lane] == 0.0;
+            look.defined += 1;
+            look.resolved += usize::from(residuals.iter().all(narrow));
+            look.excludes_zero |= residuals.iter().any(|ball| ball.excludes_zero(lane));
+        }
+        look
     }
-    let refuted = |lane: usize| residuals.iter().any(|ball| ball.excludes_zero(lane));
-    if (0..LANES).any(refuted) {
-        return;
-    }
-    let resolved = |lane: &usize| {
-        let Some(scale) = span.scale.map(|index| values.output(index)) else { return true };
-        let floor = (scale.mid[*lane] - scale.rad[*lane]).max(0.0).sqrt();
-        let blur = 2f64.powi(-RESOLVED_BITS) * floor;
-        residuals.iter().all(|ball| ball.rad[*lane] <= blur || ball.rad[*lane] == 0.0)
-    };
-    let clear = (0..LANES).filter(defined).filter(resolved).count();
-    if clear < MIN_STATES {
-        let kind = item.claim.kind.name();
-        undecide(
-            finding,
-            format!(
-                "rounding hides the residual of this {kind}: only at {clear} of {LANES} states is its \
-                 error bound 2^{RESOLVED_BITS} times below the terms that are added"
-            ),
-        );
+
+    /// Is 0 enclosed everywhere, and narrowly enough at enough states?
+    pub fn is_zero(&self) -> bool {
+        !self.excludes_zero && self.resolved >= MIN_STATES
     }
 }
 
