@@ -59,7 +59,7 @@ fn height_rate(report: &PointReport) -> Enclosed {
 }
 
 proptest! {
-    #![proptest_config(config(12))]
+    #![proptest_config(config(100))]
 
     /// (3.2), (3.4): ρ = √g₁ g₂ for every U and S, F₂ = √g₁ ω₃ for every U(γ₃).
     #[test]

@@ -15,7 +15,7 @@ use common::drawn::Drawn;
 use multipliers::{Acceleration, Moment};
 use nalgebra::{Matrix3, Vector3};
 
-const STATES: u64 = 4;
+const STATES: u64 = 16;
 
 /// γ' of a rolling body. The contact moves equally fast along both surfaces: γ/k is the way from
 /// the centre of the fixed ball to the contact, so that (γ' + ω×γ)/k = r', with r' = (∂r/∂γ)γ'.

@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use super::error::{CaseError, Problem};
 use super::section::{Section, Text, numbers};
-use crate::formula::{Formula, Scope, Type, canonical_name};
+use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name};
 use crate::graph;
 use crate::mechanics::{Draw, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
 use crate::number::rational::{Rational, RationalError};
@@ -62,8 +62,13 @@ pub fn read(
         }
     }
     for (index, text) in formulas {
-        let formula = Formula::parse(&text.value, vocabulary)
-            .map_err(|error| CaseError::at(text.locate(error.span()), Problem::Formula(error)))?;
+        let formula = Formula::parse(&text.value, vocabulary).map_err(|error| {
+            let name = &parameters[index].name;
+            match settings.iter().find(|setting| setting.name == *name) {
+                Some(setting) => refused(setting, &error),
+                None => CaseError::at(text.locate(error.span()), Problem::Formula(error)),
+            }
+        })?;
         parameters[index].kind = formula.value_type();
         parameters[index].origin = match constant(&formula) {
             Some(values) => Origin::Fixed(values),
@@ -72,6 +77,14 @@ pub fn read(
         declare(&parameters[index], index, vocabulary);
     }
     Ok(parameters)
+}
+
+/// The complaint about a value that was not in the file.
+fn refused(setting: &Setting, error: &FormulaError) -> CaseError {
+    let message = format!("--set {}={}: {}", setting.name, setting.value, error.message());
+    let constant = "give a constant: 5/4, [1,2,3], [[…],[…],[…]]";
+    let remedy = error.help().unwrap_or(constant).to_string();
+    CaseError::whole(Problem::Other { message, remedy })
 }
 
 fn declare(parameter: &Parameter, index: usize, vocabulary: &mut Vocabulary) {

@@ -59,12 +59,15 @@ const fn body(
 }
 
 const PAPER_BALL: (&str, Surface) = ("contact = \"−R*γ − c\"", Surface::Ball);
+/// An ellipsoid with another extension off |γ| = 1, for which Γ is not symmetric.
+const SKEW: (&str, Surface) =
+    ("contact = \"−B*γ*(1 + (γ,γ))/(2*√(γ,B*γ)) − c\"", Surface::Ellipsoid);
 const A_BALL: (&str, Surface) = (BALL, Surface::Ball);
 const AN_ELLIPSOID: (&str, Surface) = (ELLIPSOID, Surface::Ellipsoid);
 const A_BUMP: (&str, Surface) = (BUMP, Surface::Bump);
 
 /// Every kind of built-in rubber field.
-pub const BODIES: [Body; 16] = [
+pub const BODIES: [Body; 17] = [
     body("ball", false, &[R, C], A_BALL, Load::Nothing),
     body("ball by its contact", false, &[R, C], PAPER_BALL, Load::Nothing),
     body("ball with weight", false, &[R, C, GRAVITY], A_BALL, Load::Weight),
@@ -85,6 +88,7 @@ pub const BODIES: [Body; 16] = [
     body("ellipsoid on a ball", true, &[B, C, OUTSIDE], AN_ELLIPSOID, Load::Nothing),
     body("ellipsoid in a cavity", true, &[B, C, S, CAVITY], AN_ELLIPSOID, Load::Nothing),
     body("ellipsoid in a potential", true, &[B, C, E, OUTSIDE], AN_ELLIPSOID, Load::Potential),
+    body("ellipsoid with a skew Γ", true, &[B, C, E, OUTSIDE], SKEW, Load::Potential),
     body("bump on a ball", true, &[OUTSIDE], A_BUMP, Load::Nothing),
     body("bump with everything", true, &[S, E, CAVITY], A_BUMP, Load::Potential),
 ];
