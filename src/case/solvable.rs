@@ -6,8 +6,14 @@ use crate::graph::{Expr, record};
 use crate::mechanics::{Chart, Model, Phase, Step};
 use num_dual::Dual;
 
+/// Each further equation multiplies the work by three.
+const MAX_EQUATIONS: usize = 6;
+
 /// The order of solving, or `None` where some equation is linear in no variable that is left.
 pub fn steps(model: &Model) -> Option<Vec<Step>> {
+    if model.level.len() > MAX_EQUATIONS {
+        return None;
+    }
     let mut steps: Vec<Step> = Vec::new();
     for equation in 0..model.level.len() {
         let component = (0..model.dimension())

@@ -1,0 +1,191 @@
+//! What verdicts say beside true and false: where, how new, of which sign, and why not.
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
+
+fn claims(text: &str) -> Vec<ClaimReport> {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    judge(&case, &Options::default()).expect("it can be judged").claims
+}
+
+const BALL: &str = r#"
+title = "balanced ball"
+system = "rubber-plane"
+[parameters]
+m = "0.5..2"
+R = "1..3"
+I = "inertia(0.5..5)"
+[body]
+shape = "ball"
+"#;
+
+/// The oscillator x'' = -x, with the level set that the text describes.
+fn oscillator(rest: &str) -> String {
+    format!(
+        "title = 'oscillator'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n{rest}"
+    )
+}
+
+#[test]
+fn trivial_and_general_integrals_are_told_apart() {
+    let text = format!(
+        "{BALL}[[claim]]\nintegral = '(γ,γ)'\n[[claim]]\nintegral = 'energy²'\n\
+         [[claim]]\nintegral = '|J*ω × γ|²'\n[[claim]]\nintegral = '|J*ω × γ|² + energy'\n"
+    );
+    let found: Vec<_> = claims(&text).iter().map(|claim| claim.evidence.independence).collect();
+    let expected = [
+        Independence::Constant,
+        Independence::General,
+        Independence::Independent,
+        Independence::Independent,
+    ];
+    assert_eq!(found, expected.map(Some));
+}
+
+#[test]
+fn the_place_where_a_claim_holds_is_found() {
+    let text = format!(
+        "{BALL}[[claim]]\nintegral = '(γ,γ)'\n[[claim]]\nintegral = 'energy'\n\
+         [[claim]]\nintegral = '(J*ω × γ)² + (ω,γ)*ω1'\n[[claim]]\nintegral = 'energy'\n\
+         where = 'everywhere'\nexpect = 'fails'\n[[claim]]\nintegral = 'energy'\nwhere = '(ω,γ) = 0'\n"
+    );
+    let found = claims(&text);
+    assert_eq!(found[0].evidence.holds, ["everywhere"]);
+    assert_eq!(found[1].evidence.holds, ["(ω,γ) = 0"], "any |γ|, but no spinning");
+    assert_eq!(found[2].evidence.holds, ["(ω,γ) = 0"], "a multiple of (ω,γ) does no harm there");
+    assert!(found.iter().all(|claim| claim.agrees), "all five come out as expected");
+}
+
+#[test]
+fn level_only_is_checked_off_the_level() {
+    let text = format!("{BALL}[[claim]]\nintegral = '|J*ω × γ|²'\nwhere = 'level only'\n");
+    let claim = &claims(&text)[0];
+    assert_eq!(claim.verdict, Verdict::Confirmed);
+    assert!(!claim.agrees, "it holds elsewhere too: {:?}", claim.evidence.holds);
+}
+
+#[test]
+fn a_density_that_changes_sign_is_no_positive_measure() {
+    let found = claims(&oscillator(
+        "[[claim]]\ndensity = '1'\n[[claim]]\ndensity = 'x² + y²'\n\
+         [[claim]]\ndensity = 'x² + y² − 2'\n[[claim]]\ndensity = '−(x² + y²)'\n",
+    ));
+    assert!(found.iter().all(|claim| claim.verdict != Verdict::Refuted), "all are invariant");
+    let signs: Vec<_> = found.iter().map(|claim| claim.evidence.sign).collect();
+    let expected = [Sign::Positive, Sign::Positive, Sign::Changes, Sign::Negative];
+    assert_eq!(signs, expected.map(Some));
+}
+
+#[test]
+fn a_density_on_a_level_takes_account_of_how_the_level_is_approached() {
+    // x' = x(1 - x²): x = 1 attracts, and ρ dy on it is invariant for y' = 0, whatever div v is.
+    let text = |density: &str, place: &str| {
+        format!(
+            "title = 'cycle'\n[state]\nx = '0.2..2'\ny = '-1..1'\n[field]\n\"x'\" = 'x*(1 − x²)'\n\
+             \"y'\" = 'x*0'\n[level]\nequations = ['x = 1']\n[[claim]]\ndensity = '{density}'\n\
+             where = '{place}'\n"
+        )
+    };
+    let on_level = &claims(&text("1 + y²", "level"))[0];
+    assert_ne!(on_level.verdict, Verdict::Refuted, "div v = -2 there is the rate of approach");
+    let volume = on_level.evidence.volume.as_deref();
+    assert_eq!(volume, Some("σ with dx = d(x = 1)∧σ"), "and the volume is named");
+    assert_eq!(claims(&text("1 + y²", "everywhere"))[0].verdict, Verdict::Refuted);
+}
+
+#[test]
+fn charts_solved_given_and_numerical_agree() {
+    let level = "[level]\nequations = ['(M,γ) = 1', '(γ,γ) = 1']\n";
+    let solved = "[level]\nequations = ['(M,γ) = 1']\n";
+    let given = format!(
+        "{level}[level.chart]\ninputs = {{ u = '-2..2', v = '-2..2', a = 'vector(-2..2)' }}\n\
+         \"γ\" = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'\nM = 'a + (1 − (a,γ))*γ'\n"
+    );
+    for (level, method) in [(level, "ball at numerical states"), (&given, "ball"), (solved, "ball")]
+    {
+        let text = format!(
+            "title = 'Euler–Poisson'\n[parameters]\nI = 'inertia(0.5..5)'\n[state]\nM = 'vector(-2..2)'\n\
+             \"γ\" = 'vector(-1..1)'\n[field]\n\"M'\" = 'M × I⁻¹*M'\n\"γ'\" = 'γ × I⁻¹*M'\n{level}\
+             [[claim]]\nintegral = '(M,M) + ((M,γ) − 1)*M1'\n[[claim]]\nintegral = 'M1'\nexpect = 'fails'\n\
+             [[claim]]\ndensity = '1'\n"
+        );
+        let found = claims(&text);
+        let verdicts: Vec<_> = found.iter().map(|claim| claim.verdict).collect();
+        assert_eq!(verdicts[..2], [Verdict::Confirmed, Verdict::Refuted], "{level}");
+        assert_ne!(verdicts[2], Verdict::Refuted, "{level}");
+        assert_eq!(found[0].evidence.method, method, "{level}");
+        assert_eq!(found[0].evidence.holds, [holds], "M1 spoils it elsewhere: {level}");
+    }
+}
+
+#[test]
+fn a_part_of_a_parametrised_level_is_sampled_on_that_part() {
+    let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\"x'\" = 'y'\n\
+                \"y'\" = '−x'\n\"z'\" = '(x² + y² − 1)*x'\n[level]\nequations = ['x² + y² = 1', 'z = 0']\n\
+                [level.chart]\ninputs = { t = '-2..2' }\nx = '2*t/(1 + t²)'\ny = '(1 − t²)/(1 + t²)'\nz = '0*t'\n\
+                [[claim]]\nintegral = 'z'\nwhere = 'x² + y² = 1'\n";
+    let claim = &claims(text)[0];
+    assert_eq!(claim.verdict, Verdict::Confirmed, "z is constant on the cylinder, for every z");
+    assert_eq!(claim.evidence.method, "ball at numerical states");
+}
+
+#[test]
+fn an_integrand_of_two_variables_has_no_integral() {
+    let found = claims(&oscillator(
+        "[[claim]]\nintegral = 'y² + 2*∫(x, x)'\n[[claim]]\nintegral = 'y² + 2*∫(x + y, x)'\nexpect = 'open'\n",
+    ));
+    assert_eq!(found[0].verdict, Verdict::Confirmed, "y²/2 + ∫x dx is the energy");
+    assert_eq!(found[1].verdict, Verdict::Undecided);
+    let reason = found[1].evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("not a function of its variable"), "{reason}");
+}
+
+#[test]
+fn rounding_that_hides_a_residual_is_admitted() {
+    // 10⁵⁰ (y - y) by a detour that no simplification sees: the error bound swamps L_v x = y.
+    let huge = "10^50*((x + y)² − x² − 2*x*y − y²)";
+    let found = claims(&oscillator(&format!(
+        "[[claim]]\nintegral = '(x² + y²)*(1 + {huge})'\nexpect = 'open'\n"
+    )));
+    assert_eq!(found[0].verdict, Verdict::Undecided);
+    let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("rounding hides"), "{reason}");
+}
+
+#[test]
+fn what_the_criterion_does_not_exclude_stays_open() {
+    let text = |extra: &str| {
+        format!(
+            "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nc = [0.3, 0.2, 0.1]\nI = [1, 2, 2.5]\n\
+             S = [0.1, 0.2, 0.3]\n[body]\nshape = 'ball'\n{extra}[[claim]]\nanalytic-density = 'exists'\n\
+             expect = 'open'\n[[claim]]\nposition-density = 'exists'\nexpect = 'fails'\n"
+        )
+    };
+    assert_eq!(claims(&text(""))[0].verdict, Verdict::Refuted, "free: no analytic density at all");
+    for forced in ["gyrostat = 'S'\n", "potential = 'm*γ3'\n"] {
+        let found = claims(&text(forced));
+        assert_eq!(found[0].verdict, Verdict::Undecided, "only ρ(γ) is excluded");
+        assert_eq!(found[1].verdict, Verdict::Refuted, "and that it is");
+    }
+}
+
+#[test]
+fn undefined_claims_are_undecided() {
+    let found = claims(&oscillator(
+        "[[claim]]\nintegral = '√(−1 − x²)'\nexpect = 'open'\n[[claim]]\nintegral = 'x/(y − y)'\nexpect = 'open'\n",
+    ));
+    for claim in found {
+        assert_eq!(claim.verdict, Verdict::Undecided, "{}", claim.name);
+    }
+}
+
+#[test]
+fn a_level_that_is_left_or_empty_is_an_error() {
+    let judged = |level: &str| {
+        let text = oscillator(&format!("[level]\nequations = ['{level}']\n"));
+        judge(&Case::parse(&text, &[]).expect("a case"), &Options::default())
+    };
+    assert!(matches!(judged("x = 1"), Err(JudgeError::NotInvariant { .. })), "x' = y there");
+    assert!(matches!(judged("x² + y² = −1"), Err(JudgeError::Unreachable(_))), "nobody is there");
+    assert!(judged("x² + y² = 1").is_ok(), "the circle is kept");
+}
