@@ -101,8 +101,11 @@ fn charts_solved_given_and_numerical_agree() {
         "{level}[level.chart]\ninputs = {{ u = '-2..2', v = '-2..2', a = 'vector(-2..2)' }}\n\
          \"γ\" = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'\nM = 'a + (1 − (a,γ))*γ'\n"
     );
-    for (level, method) in [(level, "ball at numerical states"), (&given, "ball"), (solved, "ball")]
-    {
+    for (level, method, holds) in [
+        (level, "ball at numerical states", "(M,γ) = 1"),
+        (&given, "ball", "(M,γ) = 1"),
+        (solved, "ball", "level"),
+    ] {
         let text = format!(
             "title = 'Euler–Poisson'\n[parameters]\nI = 'inertia(0.5..5)'\n[state]\nM = 'vector(-2..2)'\n\
              \"γ\" = 'vector(-1..1)'\n[field]\n\"M'\" = 'M × I⁻¹*M'\n\"γ'\" = 'γ × I⁻¹*M'\n{level}\
