@@ -137,6 +137,9 @@ impl CaseError {
             }
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
+            Problem::Reach { name, .. } if name == "r" => {
+                Some("the support function h is −(r,γ)".to_string())
+            }
             Problem::Empty => Some("docs/writing-a-case.md shows the smallest case".to_string()),
             Problem::Parameter(_) => Some(
                 "write a number (1.5, \"3/7\"), a list ([1, 2, 3]), a range (\"0.5..2\"), \

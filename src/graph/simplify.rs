@@ -11,8 +11,8 @@ use crate::number::{Function, Operation};
 
 /// Constants are folded exactly as long as they stay below this size.
 const MAX_CONSTANT_BITS: u64 = 1 << 12;
-/// Integer powers up to this exponent are multiplied out.
-const MAX_UNROLLED: u32 = 64;
+/// Integer powers up to this exponent are multiplied out, by squaring.
+const MAX_UNROLLED: u32 = 1 << 20;
 
 impl Graph {
     pub(super) fn constant(&mut self, value: Rational) -> NodeId {

@@ -24,6 +24,13 @@ enum Source {
         step: Rational,
         count: u64,
     },
+    /// The same over one denominator, where all parts are small: `(low + n step)/denominator`.
+    SmallGrid {
+        low: i64,
+        step: i64,
+        denominator: i64,
+        count: u64,
+    },
 }
 
 impl Draws {
@@ -57,7 +64,8 @@ impl Source {
             Draw::Within(range) => {
                 let width = &range.high - &range.low;
                 let (step, count) = grid(&width);
-                Source::Grid { low: range.low.clone(), step, count }
+                let low = range.low.clone();
+                small_grid(&low, &step, count).unwrap_or(Source::Grid { low, step, count })
             }
         }
     }
@@ -68,6 +76,11 @@ impl Source {
                 let index = scale(bits, values.len() as u64) as usize;
                 values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
             }
+            Source::SmallGrid { low, step, denominator, count } => {
+                let value = low + step * (1 + scale(bits, *count) as i64);
+                let value = if value == 0 { *step } else { value };
+                Rational::new(value, *denominator)
+            }
             Source::Grid { low, step, count } => {
                 let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
                 // Formulas that are wrong in general hold on coordinate planes.
@@ -75,6 +88,18 @@ impl Source {
             }
         }
     }
+}
+
+/// Both numbers over one denominator, if a grid of them cannot overflow.
+fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Source> {
+    const SMALL: i64 = 1 << 31;
+    let (_, below) = low.parts();
+    let (_, beside) = step.parts();
+    let denominator = i64::try_from(&below * &beside).ok().filter(|d| *d < SMALL)?;
+    let over = |x: &Rational| (x * &Rational::from(denominator)).to_integer();
+    let (low, step) = (over(low)?, over(step)?);
+    let room = low.abs() < SMALL && step < SMALL && count < SMALL as u64;
+    room.then_some(Source::SmallGrid { low, step, denominator, count })
 }
 
 /// A step of the form 10^k and how many points lie strictly inside `width`: about a thousand.

@@ -279,21 +279,28 @@ fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
     Ok(Rational::from_big(BigRational::from_integer(integer * sign) * scale))
 }
 
+/// The most decimal places a terminating decimal is written with.
+const MAX_PLACES: u32 = 6;
+
 impl fmt::Display for Rational {
     /// A terminating decimal of up to six places is written as one, anything else as a fraction.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = self.to_big();
-        let scaled = |places: u32| &value * BigRational::from_integer(BigInt::from(10).pow(places));
-        match (0..=6u32).find(|places| scaled(*places).is_integer()) {
-            Some(0) => write!(out, "{}", value.numer()),
+        let (n, d) = match &self.0 {
+            Form::Small(n, d) => (i128::from(*n), *d),
+            Form::Big(value) if value.is_integer() => return write!(out, "{}", value.numer()),
+            Form::Big(value) => return write!(out, "{}/{}", value.numer(), value.denom()),
+        };
+        // n/d = (n 10^k/d)/10^k is a decimal of k places when d divides 10^k.
+        match (0..=MAX_PLACES).find(|places| 10i64.pow(*places) % d == 0) {
+            None => write!(out, "{n}/{d}"),
+            Some(0) => write!(out, "{n}"),
             Some(places) => {
-                let width = places as usize + 1;
-                let digits = format!("{:0>width$}", scaled(places).to_integer().abs().to_string());
-                let (whole, fraction) = digits.split_at(digits.len() - places as usize);
-                let sign = if self.is_negative() { "-" } else { "" };
-                write!(out, "{sign}{whole}.{fraction}")
+                let scale = i128::from(10i64.pow(places));
+                let digits = (n.abs() * (scale / i128::from(d))) as u128;
+                let (whole, fraction) = (digits / scale as u128, digits % scale as u128);
+                let sign = if n < 0 { "-" } else { "" };
+                write!(out, "{sign}{whole}.{fraction:0>width$}", width = places as usize)
             }
-            None => write!(out, "{}/{}", value.numer(), value.denom()),
         }
     }
 }
