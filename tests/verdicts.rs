@@ -141,6 +141,10 @@ fn an_integrand_of_two_variables_has_no_integral() {
     assert_eq!(found[1].verdict, Verdict::Undecided);
     let reason = found[1].evidence.reason.as_deref().unwrap_or_default();
     assert!(reason.contains("not a function of its variable"), "{reason}");
+    let hidden = claims(&oscillator(
+        "[let]\nQ = '∫(x + y, x)'\nP = '2*Q'\n[[claim]]\nintegral = 'y² + P'\nexpect = 'open'\n",
+    ));
+    assert_eq!(hidden[0].verdict, Verdict::Undecided, "an abbreviation hides nothing");
 }
 
 #[test]

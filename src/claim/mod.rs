@@ -10,8 +10,8 @@ mod place;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, distance_from_span};
+use crate::mechanics::{Meaning, Model};
 
 pub use place::Place;
 
@@ -106,25 +106,43 @@ pub struct Context {
     pub quadrature_defects: Vec<Expr>,
 }
 
-/// |∇f|² less its part along ∇x and the level functions, for each ∫(f, x) of a formula.
+/// |∇f|² less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
 fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
-    if !formula.has_antiderivative() {
-        return Vec::new();
-    }
-    let level = jet.level_gradients(kept);
-    let columns: Vec<_> = jet
-        .along_axes()
-        .iter()
-        .map(|moved| formula.antiderivatives(&mut |symbol| moved.value(symbol)))
-        .collect();
-    let count = columns.first().map_or(0, Vec::len);
-    (0..count)
-        .map(|k| {
+    let model = jet.phase.model();
+    let mut defects = Vec::new();
+    for used in with_abbreviations(model, formula).into_iter().filter(|f| f.has_antiderivative()) {
+        let level = jet.level_gradients(kept);
+        let columns: Vec<_> = jet
+            .along_axes()
+            .iter()
+            .map(|moved| used.antiderivatives(&mut |symbol| moved.value(symbol)))
+            .collect();
+        let count = columns.first().map_or(0, Vec::len);
+        defects.extend((0..count).map(|k| {
             let integrand: Vec<Expr> = columns.iter().map(|pairs| pairs[k].0.eps).collect();
             let variable: Vec<Expr> = columns.iter().map(|pairs| pairs[k].1.eps).collect();
             let mut others = level.clone();
             others.push(variable);
             distance_from_span(&integrand, &others)
-        })
-        .collect()
+        }));
+    }
+    defects
+}
+
+/// A formula with the abbreviations it uses, and those that they use.
+fn with_abbreviations<'m>(model: &'m Model, formula: &'m Formula) -> Vec<&'m Formula> {
+    let mut met = vec![false; model.abbreviations.len()];
+    let mut all = vec![formula];
+    let mut next = 0;
+    while let Some(formula) = all.get(next).copied() {
+        next += 1;
+        for symbol in formula.symbols() {
+            if let Meaning::Abbreviation(index) = model.vocabulary.entry(symbol).meaning
+                && !std::mem::replace(&mut met[index], true)
+            {
+                all.push(&model.abbreviations[index]);
+            }
+        }
+    }
+    all
 }
