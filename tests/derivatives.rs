@@ -24,7 +24,7 @@ const TENSOR: &str = "I = [[2.5, 0.25, -0.125], [0.25, 3, 0.375], [-0.125, 0.375
 const INTEGRAL: &str = "(Ĩ*ω,ω)*(γ,Ĩ*γ) + |r|*(ω,r') + ω1³";
 
 /// Bodies of every shape: system, parameters beside m and I, lines of `[body]`.
-const BODIES: [(&str, &str, &str); 8] = [
+const BODIES: [(&str, &str, &str); 10] = [
     ("rubber-plane", "R = 1.5\nc = [0.25, -0.5, 0.125]", "shape = \"ball\""),
     (
         "rubber-plane",
@@ -36,6 +36,17 @@ const BODIES: [(&str, &str, &str); 8] = [
     ("rubber-sphere", "k = 0.375\nR = 1.5\nc = [0.25, -0.5, 0.125]", "shape = \"ball\""),
     ("rubber-sphere", "k = -0.25\nR = 1.5\nc = [0.25, -0.5, 0.125]", "contact = \"−R*γ − c\""),
     ("rubber-sphere", "k = 0.5\nB = [1, 2, 3.5]", "shape = \"ellipsoid\"\npotential = \"γ1*γ2²\""),
+    // Two extensions off |γ| = 1 for which Γ is not symmetric; the second leaves γ² = 1 behind.
+    (
+        "rubber-sphere",
+        "k = 0.5\nB = [1, 2, 3.5]\nc = [0.25, -0.5, 0.125]",
+        "contact = \"−B*γ*(1 + (γ,γ))/(2*√(γ,B*γ)) − c\"",
+    ),
+    (
+        "rubber-sphere",
+        "k = 0.375",
+        "contact = \"[(γ3²/5 − 2)*γ1, (γ3²/5 − 2)*γ2, γ3³/5 − 12*γ3/5 − 1/4]\"",
+    ),
     ("rubber-sphere", "k = 0.25", "support = \"3*|γ| + γ1*γ2*γ3/(5*|γ|²) + γ2/4\""),
 ];
 

@@ -21,8 +21,11 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use random::config;
 
+/// An equation between x and y: its name, and left minus right.
+type Equation = (&'static str, fn(Expr, Expr) -> Expr);
+
 /// Differences that vanish for every x and y > 0.
-const EQUATIONS: [(&str, fn(Expr, Expr) -> Expr); 12] = [
+const EQUATIONS: [Equation; 12] = [
     ("eˣ e^-x = 1", |x, _| x.exp() * (-x).exp() - Expr::one()),
     ("e^(x+y) = eˣ eʸ", |x, y| (x + y).exp() - x.exp() * y.exp()),
     ("ln xy = ln x + ln y", |x, y| (x * y).ln() - x.ln() - y.ln()),

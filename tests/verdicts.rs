@@ -196,3 +196,38 @@ fn a_level_that_is_left_or_empty_is_an_error() {
     assert!(matches!(judged("x² + y² = −1"), Err(JudgeError::Unreachable(_))), "nobody is there");
     assert!(judged("x² + y² = 1").is_ok(), "the circle is kept");
 }
+
+#[test]
+fn every_name_of_the_guide_is_known() {
+    let text = "title = 'names'\nsystem = 'rubber-sphere'\ncheck-weights = false\n[parameters]\nm = 1\n\
+                k = 0.2\nR = 2\nc = [0.1, 0, 0.3]\nI = [1, 2, 2.5]\n[body]\nshape = 'ball'\npotential = 'm*h'\n";
+    let names = [
+        "(r,γ)",
+        "(r',γ)",
+        "(ṙ,γ)",
+        "h",
+        "trace(Ĩ)",
+        "trace(∂r)",
+        "energy",
+        "(ω',γ)",
+        "(γ',γ)",
+        "λ0",
+        "trace(J)",
+        "trace(𝒥)",
+        "U",
+        "trace(Γ)",
+        "D_T",
+        "κ",
+        "trace(Itilde)",
+        "(omega,gamma)",
+    ];
+    for name in names {
+        let text = format!("{text}[[claim]]\nintegral = \"{name}\"\nexpect = 'open'\n");
+        claims(&text);
+    }
+    let text = "title = 'names'\nsystem = 'rubber-plane'\ncheck-weights = false\n[parameters]\nm = 1\n\
+                I = 'axisymmetric(1..2)'\n[body]\nprofile = 'arbitrary'\n";
+    for name in ["z", "p", "p'", "f1", "f2", "f1'", "f2'", "g1", "g1'", "g2"] {
+        claims(&format!("{text}[[claim]]\nintegral = \"{name}\"\nexpect = 'open'\n"));
+    }
+}

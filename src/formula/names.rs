@@ -101,8 +101,8 @@ pub(super) fn identifier_length(text: &str) -> usize {
 }
 
 fn is_letter(c: char) -> bool {
-    // the transpose sign is a letter to Unicode, but an operator to us
-    c.is_alphabetic() && c != 'ᵀ'
+    // the transpose sign is a letter to Unicode, but an operator to us; ∂ the other way round
+    (c.is_alphabetic() || c == '∂') && c != 'ᵀ'
 }
 
 fn is_combining_mark(c: char) -> bool {

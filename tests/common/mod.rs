@@ -1,7 +1,6 @@
 //! What the integration tests share: cases from text, exact numbers, enclosures.
 
-// Each test binary uses a part of this.
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test binary uses a part of this")]
 
 pub mod drawn;
 

@@ -2,8 +2,7 @@
 //!
 //! All numbers are fractions with a prime denominator: generic, short and exact.
 
-// Each test binary uses a part of this.
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test binary uses a part of this")]
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
