@@ -1,66 +1,79 @@
 //! Runs a tape over blocks of states in any number domain.
 
+use super::dispatch::{Work, with_widest_vectors};
 use super::tape::{Instruction, Tape};
 use crate::number::Domain;
+use crate::number::rational::Rational;
 
 /// A tape with the memory to run it in one domain; built once, run on many blocks.
 pub struct Evaluator<'t, D: Domain> {
     tape: &'t Tape,
     domain: D,
-    slots: Vec<Box<D::Block>>,
-    spare: Box<D::Block>,
+    slots: Vec<Box<Aligned<D::Block>>>,
+    spare: Box<Aligned<D::Block>>,
 }
+
+/// A block on a cache line's border, so that no vector straddles two lines.
+#[derive(Clone)]
+#[repr(align(64))]
+struct Aligned<B>(B);
 
 impl<'t, D: Domain> Evaluator<'t, D> {
     /// Prepares the constants of `tape` in `domain`.
     pub fn new(tape: &'t Tape, domain: D) -> Self {
-        let blank = domain.constant(&crate::number::rational::Rational::from(0));
-        let mut slots: Vec<Box<D::Block>> =
-            (0..tape.slots).map(|_| Box::new(blank.clone())).collect();
+        let blank = domain.constant(&Rational::from(0));
+        let mut slots: Vec<_> = (0..tape.slots).map(|_| Box::new(Aligned(blank.clone()))).collect();
         for (slot, value) in slots[tape.inputs..].iter_mut().zip(&tape.constants) {
-            **slot = domain.constant(value);
+            slot.0 = domain.constant(value);
         }
-        Self { tape, domain, slots, spare: Box::new(blank) }
+        Self { tape, domain, slots, spare: Box::new(Aligned(blank)) }
     }
 
     /// Computes the outputs from one block an input; inputs that are left out keep their value.
     pub fn run(&mut self, inputs: &[D::Block]) {
         for (slot, input) in self.slots.iter_mut().take(self.tape.inputs).zip(inputs) {
-            (**slot).clone_from(input);
+            slot.0.clone_from(input);
         }
-        self.execute();
+        with_widest_vectors(Execution(self));
     }
 
     /// The value of output `index` after the last run.
     pub fn output(&self, index: usize) -> &D::Block {
-        &self.slots[self.tape.outputs[index] as usize]
+        &self.slots[self.tape.outputs[index] as usize].0
     }
 
     /// All outputs of the last run.
     pub fn outputs(&self) -> impl Iterator<Item = &D::Block> {
-        self.tape.outputs.iter().map(|slot| &*self.slots[*slot as usize])
+        self.tape.outputs.iter().map(|slot| &self.slots[*slot as usize].0)
     }
+}
 
-    fn execute(&mut self) {
-        for instruction in &self.tape.instructions {
+/// The instructions of a tape, one after the other.
+struct Execution<'e, 't, D: Domain>(&'e mut Evaluator<'t, D>);
+
+impl<D: Domain> Work for Execution<'_, '_, D> {
+    #[inline(always)]
+    fn run(self) {
+        let Evaluator { tape, domain, slots, spare } = self.0;
+        for instruction in &tape.instructions {
             // The result is made beside the slots and swapped in: it may replace an argument.
-            let (slots, out) = (&self.slots, &mut *self.spare);
             let target = match *instruction {
-                Instruction::Unary { function, a, out: target } => {
-                    self.domain.unary(function, &slots[a as usize], out);
-                    target
+                Instruction::Unary { function, a, out } => {
+                    domain.unary(function, &slots[a as usize].0, &mut spare.0);
+                    out
                 }
-                Instruction::Binary { operation, a, b, out: target } => {
-                    self.domain.binary(operation, &slots[a as usize], &slots[b as usize], out);
-                    target
+                Instruction::Binary { operation, a, b, out } => {
+                    let (x, y) = (&slots[a as usize].0, &slots[b as usize].0);
+                    domain.binary(operation, x, y, &mut spare.0);
+                    out
                 }
-                Instruction::Power { a, exponent, out: target } => {
-                    let exponent = &self.tape.exponents[exponent as usize];
-                    self.domain.power(&slots[a as usize], exponent, out);
-                    target
+                Instruction::Power { a, exponent, out } => {
+                    let exponent = &tape.exponents[exponent as usize];
+                    domain.power(&slots[a as usize].0, exponent, &mut spare.0);
+                    out
                 }
             };
-            std::mem::swap(&mut self.slots[target as usize], &mut self.spare);
+            std::mem::swap(&mut slots[target as usize], spare);
         }
     }
 }
@@ -92,6 +105,33 @@ mod tests {
         })
         .expect("records");
         assert_eq!(Tape::new(&graph, &[kept]).operations(), 1, "only the sum is computed");
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let (graph, values) = record(2, |x| {
+            let quotient = (x[0] * x[1] - x[0]).recip() * (x[1].modulus() + x[0] * x[0]).sqrt();
+            [quotient, quotient.exp() * x[1] - quotient, (quotient * quotient + x[0]).ln()]
+        })
+        .expect("records");
+        let tape = Tape::new(&graph, &values);
+        let inputs: [[f64; 64]; 2] = [0.37, 1.91]
+            .map(|seed: f64| std::array::from_fn(|lane| (seed * lane as f64).sin() * 3.0));
+        let balls = inputs
+            .map(|block| Ball::<64>.values(&block.map(|x| Rational::from_f64(x).expect("finite"))));
+        let mut wide = Evaluator::new(&tape, Ball::<64>);
+        wide.run(&balls);
+        let mut plain = Evaluator::new(&tape, Ball::<64>);
+        for (slot, input) in plain.slots.iter_mut().zip(&balls) {
+            slot.0.clone_from(input);
+        }
+        Execution(&mut plain).run();
+        // The sign and payload of a NaN mean nothing.
+        let bits = |block: &[f64; 64]| block.map(|x| if x.is_nan() { 0 } else { x.to_bits() });
+        for (wide, plain) in wide.outputs().zip(plain.outputs()) {
+            assert!(bits(&wide.mid) == bits(&plain.mid), "midpoints");
+            assert!(bits(&wide.rad) == bits(&plain.rad), "radii");
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //! [`record`] runs a closure over [`Expr`] inputs and keeps every operation as a node. Equal nodes
 //! are one node, and exact simplifications are made on the way (see `simplify`).
 
+mod dispatch;
 mod dual_num;
 mod evaluate;
 mod expr;

@@ -132,6 +132,7 @@ impl<const N: usize> Domain for Ball<N> {
         }
     }
 
+    #[inline(always)]
     fn power(&self, x: &Balls<N>, exponent: &Rational, out: &mut Balls<N>) {
         let (b, rb) = enclose(exponent);
         map(x, out, |a, ra| power(a, ra, b, rb));

@@ -50,6 +50,7 @@ impl<const N: usize> Domain for Float<N> {
         }
     }
 
+    #[inline(always)]
     fn power(&self, x: &Self::Block, exponent: &Rational, out: &mut Self::Block) {
         let exponent = exponent.to_f64().0;
         map(x, out, |x| libm::pow(x, exponent));
