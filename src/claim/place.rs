@@ -20,9 +20,9 @@ impl Place {
         Self { kept: vec![false; model.level.len()] }
     }
 
-    /// The equation of this text alone, with spaces disregarded.
+    /// The equation of this text alone; spaces and the kind of minus do not matter.
     pub fn equation(model: &Model, text: &str) -> Option<Self> {
-        let plain = |text: &str| text.split_whitespace().collect::<String>().replace('ω', "w");
+        let plain = |text: &str| text.split_whitespace().collect::<String>().replace('−', "-");
         let index = model.level.iter().position(|equation| plain(&equation.text) == plain(text))?;
         let mut place = Self::everywhere(model);
         place.kept[index] = true;

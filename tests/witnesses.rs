@@ -1,0 +1,56 @@
+//! Every witness of the catalogue is what it claims to be: at that state, typed in again, the
+//! residual's enclosure excludes 0 and meets the one that was reported.
+
+use std::path::{Path, PathBuf};
+
+use liouville::case::{Case, Setting};
+use liouville::verdict::{Options, Verdict, Witness, evaluate, judge, read_state};
+
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("the catalogue is a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "toml") {
+            found.push(path);
+        }
+    }
+}
+
+/// The residual of a claim at its witness: midpoint and error bound.
+fn again(path: &Path, claim: &str, witness: &Witness) -> Option<(f64, f64)> {
+    let setting =
+        |(name, value): (&String, &String)| Setting { name: name.clone(), value: value.clone() };
+    let settings: Vec<Setting> = witness.parameters.iter().map(setting).collect();
+    let case = Case::read(path, &settings).1.expect("the witness's parameters are accepted");
+    let state = read_state(&case, &witness.state).expect("and so is its state");
+    let point = evaluate(&case, Some(&state), 1, 0).expect("it can be evaluated");
+    point.claims.iter().find(|(name, _, _)| name == claim).and_then(|(_, _, residual)| *residual)
+}
+
+#[test]
+fn all_witnesses_are_reproduced() {
+    let mut paths = Vec::new();
+    files(Path::new("cases"), &mut paths);
+    let mut reproduced = 0;
+    for path in paths {
+        let case = Case::read(&path, &[]).1.expect("a case");
+        let report = judge(&case, &Options::default()).expect("it can be judged");
+        for claim in report.claims.iter().filter(|claim| claim.verdict == Verdict::Refuted) {
+            let place = format!("{} :: {}", path.display(), claim.name);
+            let witness = claim.evidence.witness.as_ref();
+            let witness = witness.unwrap_or_else(|| panic!("{place} has no witness"));
+            let (residual, bound) = again(&path, &claim.name, witness)
+                .unwrap_or_else(|| panic!("{place} is undefined at its witness"));
+            assert!(residual.abs() > bound, "{place}: {residual:e} ± {bound:e} does not refute");
+            let apart = (residual - witness.residual).abs();
+            assert!(
+                apart <= bound + witness.error_bound,
+                "{place}: {residual:e} against {:e}",
+                witness.residual
+            );
+            reproduced += 1;
+        }
+    }
+    assert!(reproduced > 200, "only {reproduced} witnesses");
+}
