@@ -4,8 +4,8 @@
 //! whatever the function it is inlined into may use, so the same source is compiled once for each
 //! instruction set here. Nothing is contracted or reordered: every set gives the same bits.
 //!
-//! Measured gain on an AVX-512 machine, with slots on cache-line borders: 1.9 on the f64 tapes of
-//! `benches/tapes.rs`, 2.1 on balls.
+//! Measured gain on an AVX-512 machine, with slots on cache-line borders: 1.4 to 1.9 on the f64
+//! tapes of `benches/tapes.rs`, 2.1 on balls.
 
 #![allow(unsafe_code, reason = "a function with target features is called after asking for them")]
 

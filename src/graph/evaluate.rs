@@ -9,8 +9,11 @@ use crate::number::rational::Rational;
 pub struct Evaluator<'t, D: Domain> {
     tape: &'t Tape,
     domain: D,
-    slots: Vec<Box<Aligned<D::Block>>>,
-    spare: Box<Aligned<D::Block>>,
+    /// One block a slot, and one beside them for the next result.
+    blocks: Vec<Aligned<D::Block>>,
+    /// Where each slot's block is.
+    places: Vec<usize>,
+    spare: usize,
 }
 
 /// A block on a cache line's border, so that no vector straddles two lines.
@@ -21,30 +24,34 @@ struct Aligned<B>(B);
 impl<'t, D: Domain> Evaluator<'t, D> {
     /// Prepares the constants of `tape` in `domain`.
     pub fn new(tape: &'t Tape, domain: D) -> Self {
-        let blank = domain.constant(&Rational::from(0));
-        let mut slots: Vec<_> = (0..tape.slots).map(|_| Box::new(Aligned(blank.clone()))).collect();
-        for (slot, value) in slots[tape.inputs..].iter_mut().zip(&tape.constants) {
-            slot.0 = domain.constant(value);
+        let blank = Aligned(domain.constant(&Rational::from(0)));
+        let mut blocks = vec![blank; tape.slots + 1];
+        for (block, value) in blocks[tape.inputs..].iter_mut().zip(&tape.constants) {
+            block.0 = domain.constant(value);
         }
-        Self { tape, domain, slots, spare: Box::new(Aligned(blank)) }
+        Self { tape, domain, blocks, places: (0..tape.slots).collect(), spare: tape.slots }
     }
 
     /// Computes the outputs from one block an input; inputs that are left out keep their value.
     pub fn run(&mut self, inputs: &[D::Block]) {
-        for (slot, input) in self.slots.iter_mut().take(self.tape.inputs).zip(inputs) {
-            slot.0.clone_from(input);
-        }
+        self.load(inputs);
         with_widest_vectors(Execution(self));
     }
 
     /// The value of output `index` after the last run.
     pub fn output(&self, index: usize) -> &D::Block {
-        &self.slots[self.tape.outputs[index] as usize].0
+        &self.blocks[self.places[self.tape.outputs[index] as usize]].0
     }
 
     /// All outputs of the last run.
     pub fn outputs(&self) -> impl Iterator<Item = &D::Block> {
-        self.tape.outputs.iter().map(|slot| &self.slots[*slot as usize].0)
+        (0..self.tape.outputs.len()).map(|index| self.output(index))
+    }
+
+    fn load(&mut self, inputs: &[D::Block]) {
+        for (place, input) in self.places.iter().take(self.tape.inputs).zip(inputs) {
+            self.blocks[*place].0.clone_from(input);
+        }
     }
 }
 
@@ -54,28 +61,43 @@ struct Execution<'e, 't, D: Domain>(&'e mut Evaluator<'t, D>);
 impl<D: Domain> Work for Execution<'_, '_, D> {
     #[inline(always)]
     fn run(self) {
-        let Evaluator { tape, domain, slots, spare } = self.0;
+        let Evaluator { tape, domain, blocks, places, spare } = self.0;
         for instruction in &tape.instructions {
-            // The result is made beside the slots and swapped in: it may replace an argument.
+            // The result is made in the spare block, which then changes places with the target's:
+            // a result may replace an argument, and no argument is the spare block.
             let target = match *instruction {
                 Instruction::Unary { function, a, out } => {
-                    domain.unary(function, &slots[a as usize].0, &mut spare.0);
+                    let (x, result) = beside(blocks, places[a as usize], *spare);
+                    domain.unary(function, x, result);
                     out
                 }
                 Instruction::Binary { operation, a, b, out } => {
-                    let (x, y) = (&slots[a as usize].0, &slots[b as usize].0);
-                    domain.binary(operation, x, y, &mut spare.0);
+                    let (a, b) = (places[a as usize], places[b as usize]);
+                    if a == b {
+                        let (x, result) = beside(blocks, a, *spare);
+                        domain.binary(operation, x, x, result);
+                    } else if let Ok([x, y, result]) = blocks.get_disjoint_mut([a, b, *spare]) {
+                        domain.binary(operation, &x.0, &y.0, &mut result.0);
+                    }
                     out
                 }
                 Instruction::Power { a, exponent, out } => {
-                    let exponent = &tape.exponents[exponent as usize];
-                    domain.power(&slots[a as usize].0, exponent, &mut spare.0);
+                    let (x, result) = beside(blocks, places[a as usize], *spare);
+                    domain.power(x, &tape.exponents[exponent as usize], result);
                     out
                 }
             };
-            std::mem::swap(&mut slots[target as usize], spare);
+            std::mem::swap(&mut places[target as usize], spare);
         }
     }
+}
+
+/// An argument, and the block for the result beside it.
+#[inline(always)]
+fn beside<B>(blocks: &mut [Aligned<B>], argument: usize, spare: usize) -> (&B, &mut B) {
+    let (low, high) = blocks.split_at_mut(argument.max(spare));
+    let (low, high) = (&mut low[argument.min(spare)].0, &mut high[0].0);
+    if argument < spare { (low, high) } else { (high, low) }
 }
 
 #[cfg(test)]
@@ -122,9 +144,7 @@ mod tests {
         let mut wide = Evaluator::new(&tape, Ball::<64>);
         wide.run(&balls);
         let mut plain = Evaluator::new(&tape, Ball::<64>);
-        for (slot, input) in plain.slots.iter_mut().zip(&balls) {
-            slot.0.clone_from(input);
-        }
+        plain.load(&balls);
         Execution(&mut plain).run();
         // The sign and payload of a NaN mean nothing.
         let bits = |block: &[f64; 64]| block.map(|x| if x.is_nan() { 0 } else { x.to_bits() });
