@@ -2,49 +2,42 @@
 
 use crate::graph::{Evaluator, Tape, record};
 use crate::mechanics::calculus::{Jet, dot};
-use crate::mechanics::{Draw, Draws, Model, NORMAL, Origin, Phase, Range, Shape};
+use crate::mechanics::{Chart, Draws, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;
 
-/// The shape to use in place of `shape`: its extension off the sphere, if it needs one.
+/// States at which Euler's relation is looked at.
+const STATES: u64 = 4;
+
+/// The shape to use in place of `shape`: its extension off the sphere, unless h is homogeneous.
 ///
-/// Euler's relation (γ,∇h) = h is evaluated at a few states; a ball that excludes 0 proves that h
-/// is not homogeneous, and then |γ| h(γ/|γ|) is the body's support function.
+/// Euler's relation (γ,∇h) = h is evaluated at a few states on the unit sphere and off it. Where a
+/// ball excludes 0, or h is not defined off the sphere, the body's support function is
+/// |γ| h(γ/|γ|); for a homogeneous h that would be the same function.
 pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let Shape::Support(formula) = shape else { return None };
-    let mut draws = Vec::new();
-    let mut recipes = Vec::new();
-    for parameter in model.free_parameters() {
-        if let Origin::Free(recipe) = &parameter.origin {
-            recipes.push(recipe);
-            draws.extend(recipe.draws());
-        }
-    }
-    let gamma_at = draws.len();
-    draws.extend(vec![Draw::Within(Range::between((1, 5), (3, 2))); 3]);
-    let (graph, defect) = record(draws.len(), |inputs| {
-        let mut rest = inputs;
-        let mut free = Vec::new();
-        for recipe in &recipes {
-            let (own, others) = rest.split_at(recipe.draws().len());
-            rest = others;
-            free.extend(recipe.make(own).components());
-        }
-        let zero = num_traits::Zero::zero();
-        let state = [[zero; 3], [inputs[gamma_at], inputs[gamma_at + 1], inputs[gamma_at + 2]]];
-        let jet = Jet::new(Phase::new(model, &free, &state.concat()));
-        let slope = jet.gradient(|at| at.scalar(formula));
-        dot(&slope[3 * NORMAL..], &state[1]) - jet.phase.scalar(formula)
+    let mut draws = model.parameter_draws();
+    draws.extend(Chart::Rolling.draws(&[], &[false, false]));
+    let (graph, defects) = record(draws.len(), |inputs| {
+        let (free, state) = model.make_parameters(inputs);
+        let defect = |kept: [bool; 2]| {
+            let point = Chart::Rolling.point(model, &kept, &free, state);
+            let jet = Jet::new(Phase::new(model, &free, &point));
+            let slope = jet.gradient(|at| at.scalar(formula));
+            let gamma = 3 * NORMAL..3 * NORMAL + 3;
+            dot(&slope[gamma.clone()], &point[gamma]) - jet.phase.scalar(formula)
+        };
+        [defect([true, true]), defect([false, true])]
     })
     .ok()?;
-    let tape = Tape::new(&graph, &[defect]);
+    let tape = Tape::new(&graph, &defects);
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
     let numbers = Draws::new(&draws);
-    let refuted = (0..4).any(|index| {
+    let homogeneous = (0..STATES).all(|index| {
         let values = numbers.state(0, index);
         let inputs: Vec<_> = values.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
         evaluator.run(&inputs);
-        evaluator.output(0).excludes_zero(0)
+        evaluator.outputs().all(|ball| ball.is_defined(0) && !ball.excludes_zero(0))
     });
-    refuted.then(|| Shape::SupportOnSphere(formula.clone()))
+    (!homogeneous).then(|| Shape::SupportOnSphere(formula.clone()))
 }

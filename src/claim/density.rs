@@ -29,7 +29,7 @@ pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula) -> Context {
     let rate = dot(&slope, &slope) + dot(&state, &state).recip();
     Context {
         scale: Some(dot(field, field) * rate),
-        density: Some(jet.phase.scalar(formula)),
+        value: Some(jet.phase.scalar(formula)),
         ..Context::default()
     }
 }

@@ -5,7 +5,7 @@ use num_traits::Zero;
 use super::Context;
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, distance_from_span, dot};
+use crate::mechanics::calculus::{Jet, dot, rejection};
 
 /// L_vF
 pub(super) fn residual(jet: &Jet<'_, Expr>, formula: &Formula) -> Vec<Expr> {
@@ -17,16 +17,19 @@ pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> 
     let slope = jet.gradient(|at| at.scalar(formula));
     let field = jet.phase.field();
     let mut known = jet.level_gradients(kept);
-    let off_level = distance_from_span(&slope, &known);
+    let off_level = rejection(&slope, &known);
     let system = &jet.phase.model().system;
     let off_general = system.energy(&jet.phase).map(|_| {
         known.push(jet.gradient(|at| system.energy(at).unwrap_or_else(Zero::zero)));
-        distance_from_span(&slope, &known)
+        rejection(&slope, &known)
     });
+    let steepness = dot(&slope, &slope);
     Context {
-        scale: Some(dot(&slope, &slope) * dot(field, field)),
-        off_level: Some(off_level),
-        off_general,
+        scale: Some(steepness * dot(field, field)),
+        value: Some(jet.phase.scalar(formula)),
+        slope: Some(steepness),
+        off_level,
+        off_general: off_general.unwrap_or_default(),
         ..Context::default()
     }
 }

@@ -10,7 +10,7 @@ mod place;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, distance_from_span};
+use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{Meaning, Model};
 
 pub use place::Place;
@@ -63,10 +63,14 @@ impl Kind {
             Kind::Density(formula) => density::context(jet, formula),
             Kind::AnalyticDensity | Kind::PositionDensity => criterion::context(&jet.phase),
         };
-        if let Some(formula) = self.formula() {
-            context.quadrature_defects = quadrature_defects(jet, formula, kept);
-        }
+        context.quadrature_defects = self.quadrature_defects(jet, kept);
         context
+    }
+
+    /// What vanishes exactly when the integrand of each ∫ is a function of its variable there:
+    /// ∇f less its part along ∇x and the level functions.
+    pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        self.formula().map_or(Vec::new(), |formula| quadrature_defects(jet, formula, kept))
     }
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.
@@ -96,17 +100,19 @@ pub struct Context {
     /// The square of what the residual is small against; a residual is resolved when its error
     /// bound is far below the root of this.
     pub scale: Option<Expr>,
+    /// F or ρ itself: a claim about a formula that has no value is no claim.
+    pub value: Option<Expr>,
+    /// Of an integral: |∇F|².
+    pub slope: Option<Expr>,
     /// Zero exactly when the integral is constant on the level.
-    pub off_level: Option<Expr>,
+    pub off_level: Vec<Expr>,
     /// Zero exactly when the integral depends on the level functions and the energy.
-    pub off_general: Option<Expr>,
-    /// A density, whose sign tells whether it is a positive measure.
-    pub density: Option<Expr>,
+    pub off_general: Vec<Expr>,
     /// Zero exactly when the integrand of each ∫ is a function of its variable, on the level.
     pub quadrature_defects: Vec<Expr>,
 }
 
-/// |∇f|² less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
+/// ∇f less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
 fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();
@@ -118,12 +124,12 @@ fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> 
             .map(|moved| used.antiderivatives(&mut |symbol| moved.value(symbol)))
             .collect();
         let count = columns.first().map_or(0, Vec::len);
-        defects.extend((0..count).map(|k| {
+        defects.extend((0..count).flat_map(|k| {
             let integrand: Vec<Expr> = columns.iter().map(|pairs| pairs[k].0.eps).collect();
             let variable: Vec<Expr> = columns.iter().map(|pairs| pairs[k].1.eps).collect();
             let mut others = level.clone();
             others.push(variable);
-            distance_from_span(&integrand, &others)
+            rejection(&integrand, &others)
         }));
     }
     defects

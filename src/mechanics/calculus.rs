@@ -99,14 +99,12 @@ fn kept_functions<'a>(
     level.filter(|(_, kept)| **kept).map(|(equation, _)| &equation.function)
 }
 
-/// |u|² less its part in the span of `others`: zero exactly when u depends on them.
-pub fn distance_from_span<T: Scalar>(u: &[T], others: &[Vec<T>]) -> T {
-    if others.is_empty() {
-        return dot(u, u);
-    }
-    let projections: Vec<T> = others.iter().map(|other| dot(u, other)).collect();
-    let weights = solve_positive(gram(others), projections.clone());
-    dot(u, u) - dot(&projections, &weights)
+/// u less its part in the span of `others`: zero exactly when u depends on them.
+pub fn rejection<T: Scalar>(u: &[T], others: &[Vec<T>]) -> Vec<T> {
+    let projections = others.iter().map(|other| dot(u, other)).collect();
+    let weights = solve_positive(gram(others), projections);
+    let part = |k: usize| -> T { weights.iter().zip(others).map(|(w, g)| *w * g[k]).sum() };
+    u.iter().enumerate().map(|(k, x)| if others.is_empty() { *x } else { *x - part(k) }).collect()
 }
 
 /// Σ a_i b_i
@@ -152,10 +150,13 @@ mod tests {
     }
 
     #[test]
-    fn distance_is_zero_in_the_span_only() {
+    fn rejection_is_zero_in_the_span_only() {
         let plane = [vec![1.0, 2.0, 0.0], vec![0.0, 1.0, 1.0]];
-        assert!(distance_from_span(&[2.0, 5.0, 1.0], &plane).abs() < 1e-12, "2a + b is in it");
-        assert!(distance_from_span(&[0.0, 0.0, 1.0], &plane) > 0.1, "e₃ is not");
-        assert_eq!(distance_from_span(&[3.0, 4.0], &[]), 25.0, "nothing spans nothing");
+        let inside = rejection(&[2.0, 5.0, 1.0], &plane);
+        assert!(dot(&inside, &inside) < 1e-24, "2a + b is in it");
+        let outside = rejection(&[0.0, 0.0, 1.0], &plane);
+        assert!(dot(&outside, &outside) > 0.1, "e₃ is not");
+        assert!(plane.iter().all(|g| dot(g, &outside).abs() < 1e-14), "and what is left is across");
+        assert_eq!(rejection(&[3.0, 4.0], &[]), [3.0, 4.0], "nothing spans nothing");
     }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::System;
-use super::recipe::Recipe;
+use super::recipe::{Draw, Recipe};
 use super::vocabulary::Vocabulary;
 use crate::formula::{Formula, Type, Value};
 use crate::number::rational::Rational;
@@ -112,6 +112,30 @@ impl Model {
     /// The parameters that are inputs of the tape.
     pub fn free_parameters(&self) -> impl Iterator<Item = &Parameter> {
         self.parameters.iter().filter(|parameter| matches!(parameter.origin, Origin::Free(_)))
+    }
+
+    /// The draws that make the free parameters, in order.
+    pub fn parameter_draws(&self) -> Vec<Draw> {
+        self.recipes().flat_map(Recipe::draws).collect()
+    }
+
+    /// The components of the free parameters, made from as many of the draws as they need, and
+    /// the draws that are left.
+    pub fn make_parameters<'d, T: Scalar>(&self, mut draws: &'d [T]) -> (Vec<T>, &'d [T]) {
+        let mut values = Vec::new();
+        for recipe in self.recipes() {
+            let (own, others) = draws.split_at(recipe.draws().len());
+            draws = others;
+            values.extend(recipe.make(own).components());
+        }
+        (values, draws)
+    }
+
+    fn recipes(&self) -> impl Iterator<Item = &Recipe> {
+        self.parameters.iter().filter_map(|parameter| match &parameter.origin {
+            Origin::Free(recipe) => Some(recipe),
+            _ => None,
+        })
     }
 
     /// Spreads the values of the free parameters (`inputs`, in order) over all parameters.

@@ -1,7 +1,7 @@
 //! Running a case's tapes at its places.
 
 use super::evidence::{Sign, Verdict, Witness};
-use super::finding::{Finding, Look, fold, weigh};
+use super::finding::{Finding, Look, fold, undecide, weigh};
 use super::judge::{JudgeError, Options};
 use super::physics;
 use super::point::named;
@@ -9,7 +9,7 @@ use super::recorded::{Common, Recorded, Span};
 use super::run::{Run, Values};
 use super::sampler::{LANES, Sampler};
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::{Kind, Place};
 use crate::graph::{Expr, Graph};
 use crate::number::ball::Balls;
 
@@ -19,6 +19,7 @@ const PARAMETER_SETS: usize = 4;
 /// A case on the bench: its graph and how to run parts of it.
 pub struct Bench<'a> {
     pub case: &'a Case,
+    pub common: &'a Common,
     pub options: &'a Options,
     pub graph: &'a Graph,
     pub inputs: usize,
@@ -29,31 +30,79 @@ impl Bench<'_> {
         Run::new(self.graph, outputs, self.inputs)
     }
 
-    /// Checks that the field is defined and keeps the level; returns physical warnings.
-    pub fn common(&self, common: &Common) -> Result<Vec<String>, JudgeError> {
-        let level = Place::level(&self.case.model);
+    /// Checks that states are on the level, that the field is defined and keeps it; returns
+    /// physical warnings.
+    pub fn check(&self) -> Result<Vec<String>, JudgeError> {
+        let (model, common) = (&self.case.model, self.common);
+        self.check_independence()?;
+        let level = Place::level(model);
         let sampler = Sampler::new(self.case, &level, self.options.seed)?;
         let states = sampler.balls(0);
         let defined =
             |blocks: &[&Balls<LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
         let drawn: Vec<&Balls<LANES>> = states.iter().collect();
         if (0..LANES).all(|lane| !defined(&drawn, lane)) {
-            return Err(JudgeError::Unreachable(LANES as u64));
+            let found = LANES as u64;
+            return Err(match sampler.is_numerical() {
+                true => JudgeError::Unreachable(found),
+                false => JudgeError::Overflow(found),
+            });
         }
-        let outputs = [&common.field[..], &common.level_rates, &common.physics].concat();
+        let outputs =
+            [&common.field[..], &common.level, &common.level_rates, &common.physics].concat();
         let values = self.run(&outputs).at(&states);
-        let (fields, rates) = (common.field.len(), common.level_rates.len());
+        let fields = common.field.len();
+        let rates = fields + common.level.len();
+        let physics = rates + common.level_rates.len();
+        for (equation, index) in model.level.iter().zip(fields..rates) {
+            let off = values.output(index);
+            if let Some(lane) = (0..LANES).find(|lane| off.excludes_zero(*lane)) {
+                let (equation, by) = (equation.text.clone(), off.mid[lane]);
+                return Err(JudgeError::OffLevel { equation, by });
+            }
+        }
         if (0..LANES).all(|lane| !defined(&values.range(0..fields), lane)) {
             return Err(JudgeError::Singular(LANES as u64));
         }
-        for (equation, index) in self.case.model.level.iter().zip(fields..) {
+        for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
                 let (equation, rate) = (equation.text.clone(), rate.mid[lane]);
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }
-        Ok(physics::warnings(&values.range(fields + rates..outputs.len())))
+        let physics = values.range(physics..outputs.len());
+        if physics::is_asymmetric(&physics) {
+            return Err(JudgeError::AsymmetricInertia);
+        }
+        sampler.check_coverage(self.case)?;
+        Ok(physics::warnings(&physics))
+    }
+
+    /// Checks that no level equation of the user's follows from those before it.
+    fn check_independence(&self) -> Result<(), JudgeError> {
+        if self.common.dependence.is_empty() {
+            return Ok(());
+        }
+        let everywhere = Place::everywhere(&self.case.model);
+        let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
+        let values = self.run(&self.common.dependence.concat()).at(&sampler.balls(0));
+        let width = self.case.model.dimension();
+        for (index, equation) in self.case.model.level.iter().enumerate() {
+            let left = values.range(index * width..(index + 1) * width);
+            if !Look::at(&left, None).excludes_zero() {
+                return Err(JudgeError::Dependent(equation.text.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The rates of the level functions that a place keeps, where it is a part of the level: a
+    /// claim there has a meaning only if the motion stays.
+    fn rates_at(&self, place: &Place) -> Vec<Expr> {
+        let all = place.kept.iter().all(|kept| *kept);
+        let rates = self.common.level_rates.iter().zip(&place.kept);
+        rates.filter(|(_, kept)| **kept && !all).map(|(rate, _)| *rate).collect()
     }
 
     /// Settles the claims made at one place.
@@ -67,9 +116,20 @@ impl Bench<'_> {
             fold(self.graph, item, finding);
             finding.evidence.operations = self.graph.operations(&item.residual);
         }
-        let blocks = self.options.states.div_ceil(LANES as u64).max(1);
+        let rates = self.rates_at(place);
+        if !rates.is_empty() {
+            let values = self.run(&rates).at(&sampler.balls(0));
+            let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+            for (index, (equation, _)) in kept.enumerate() {
+                let rate = values.output(index);
+                if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
+                    let (equation, rate) = (equation.text.clone(), rate.mid[lane]);
+                    return Err(JudgeError::NotInvariant { equation, rate });
+                }
+            }
+        }
         let mut laid_out: Option<(Run, Vec<Span>)> = None;
-        for block in 0..blocks {
+        for block in 0..self.blocks() {
             let start = block * LANES as u64;
             let (run, spans) = laid_out.get_or_insert_with(|| {
                 self.lay_out(open.iter().map(|(item, _)| *item), block == 0)
@@ -85,7 +145,7 @@ impl Bench<'_> {
             }
             if block == 0 {
                 for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.holds()) {
-                    finding.evidence.sign = self.sign(&sampler, item);
+                    self.settle_sign(&sampler, item, finding);
                 }
             }
             let before = open.len();
@@ -99,9 +159,13 @@ impl Bench<'_> {
         }
         for (item, finding) in open {
             finding.settled = Some(Verdict::Confirmed);
-            finding.evidence.sign = self.sign(&sampler, item);
+            self.settle_sign(&sampler, item, finding);
         }
         Ok(())
+    }
+
+    fn blocks(&self) -> u64 {
+        self.options.states.div_ceil(LANES as u64).max(1)
     }
 
     /// One tape for the claims that are left.
@@ -160,28 +224,40 @@ impl Bench<'_> {
         Witness { index, parameters, state: state.join(" "), residual, error_bound }
     }
 
-    /// The sign of a density, over many states for each of a few parameter sets.
-    fn sign(&self, sampler: &Sampler, item: &Recorded<'_>) -> Option<Sign> {
-        let density = item.context.density?;
-        let states = sampler.balls_sharing_parameters(PARAMETER_SETS);
-        let values = self.run(&[density]).at(&states);
-        let ball = values.output(0);
-        let lanes_of = |set: usize| {
-            let width = LANES / PARAMETER_SETS;
-            (set * width..(set + 1) * width).filter(|lane| ball.excludes_zero(*lane))
+    /// The sign of a density that is invariant; one that is nowhere known to be non-zero is none.
+    fn settle_sign(&self, sampler: &Sampler, item: &Recorded<'_>, finding: &mut Finding) {
+        let (Kind::Density(_), Some(density)) = (&item.claim.kind, item.context.value) else {
+            return;
         };
-        let mut signs = Vec::new();
-        for set in 0..PARAMETER_SETS {
-            let positive = lanes_of(set).filter(|lane| ball.mid[*lane] > 0.0).count();
-            match (positive, lanes_of(set).count()) {
-                (_, 0) => {}
-                (positive, all) if positive == all => signs.push(Sign::Positive),
-                (0, _) => signs.push(Sign::Negative),
-                _ => return Some(Sign::Changes),
+        finding.evidence.sign = self.sign(sampler, density);
+        if finding.evidence.sign.is_none() {
+            undecide(finding, "the density is 0 at all states that were tried".to_string());
+        }
+    }
+
+    /// The sign of a density, over all states for each of a few parameter sets.
+    fn sign(&self, sampler: &Sampler, density: Expr) -> Option<Sign> {
+        let run = self.run(&[density]);
+        let mut seen = [[false; 2]; PARAMETER_SETS];
+        for block in 0..self.blocks() {
+            let states = sampler.balls_sharing_parameters(block * LANES as u64, PARAMETER_SETS);
+            let values = run.at(&states);
+            let ball = values.output(0);
+            for lane in (0..LANES).filter(|lane| ball.excludes_zero(*lane)) {
+                let set = lane * PARAMETER_SETS / LANES;
+                seen[set][usize::from(ball.mid[lane] > 0.0)] = true;
             }
         }
+        if seen.contains(&[true, true]) {
+            return Some(Sign::Changes);
+        }
         // Another sign for other parameters is one measure for each of them, up to a factor -1.
-        if signs.contains(&Sign::Positive) { Some(Sign::Positive) } else { signs.first().copied() }
+        let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
+        match (positive, negative) {
+            (true, _) => Some(Sign::Positive),
+            (false, true) => Some(Sign::Negative),
+            (false, false) => None,
+        }
     }
 
     /// Finds out in which wider places the claims hold that hold at their own.
@@ -192,23 +268,27 @@ impl Bench<'_> {
     ) -> Result<(), JudgeError> {
         let model = &self.case.model;
         let mut places: Vec<&Place> = Vec::new();
-        for place in recorded.iter().flat_map(|item| item.wider.iter().map(|(place, _)| place)) {
+        for place in recorded.iter().flat_map(|item| item.wider.iter().map(|wider| &wider.place)) {
             if !places.contains(&place) {
                 places.push(place);
             }
         }
         for place in places {
-            let mut outputs = Vec::new();
+            let mut outputs = self.rates_at(place);
+            let rates = 0..outputs.len();
+            let mut extend = |some: &[Expr]| {
+                let start = outputs.len();
+                outputs.extend_from_slice(some);
+                start..outputs.len()
+            };
             let mut asked = Vec::new();
             for (item, finding) in recorded.iter().zip(findings.iter_mut()) {
-                let residual = item.wider.iter().find(|(wider, _)| wider == place);
-                let holds = finding.holds();
+                let wider = item.wider.iter().find(|wider| wider.place == *place);
                 let covered = finding.evidence.holds.iter().any(|name| name == "everywhere");
-                if let (Some((_, residual)), true, false) = (residual, holds, covered) {
-                    let span = outputs.len()..outputs.len() + residual.len();
-                    outputs.extend(residual.iter().chain(&item.context.scale).copied());
-                    let scale = item.context.scale.map(|_| span.end);
-                    asked.push((finding, span, scale));
+                if let (Some(wider), true, false) = (wider, finding.holds(), covered) {
+                    let residual = extend(&wider.residual);
+                    let scale = extend(item.context.scale.as_slice());
+                    asked.push((finding, residual, scale, extend(&wider.defects)));
                 }
             }
             if asked.is_empty() {
@@ -216,9 +296,13 @@ impl Bench<'_> {
             }
             let sampler = Sampler::new(self.case, place, self.options.seed)?;
             let values = self.run(&outputs).at(&sampler.balls(0));
-            for (finding, span, scale) in asked {
-                let scale = scale.map(|index| values.output(index));
-                if Look::at(&values.range(span), scale).is_zero() {
+            if Look::at(&values.range(rates), None).excludes_zero() {
+                continue;
+            }
+            for (finding, residual, scale, defects) in asked {
+                let scale = values.range(scale).first().copied();
+                let sound = defects.is_empty() || Look::at(&values.range(defects), None).is_zero();
+                if sound && Look::at(&values.range(residual), scale).is_zero() {
                     finding.evidence.holds.push(place.name(model));
                 }
             }

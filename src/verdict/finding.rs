@@ -1,5 +1,7 @@
 //! What is known of a claim while the ladder is climbed.
 
+use std::ops::Range;
+
 use super::evidence::{Evidence, Independence, Verdict};
 use super::recorded::{Recorded, Span};
 use super::run::Values;
@@ -42,31 +44,42 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
     }
 }
 
-/// What the first block tells beside the residual: is it resolved, is the integral more than a
-/// general one, are the quadratures functions of their variable?
+/// What the first block tells beside the residual: does the formula have a value, are the
+/// quadratures functions of their variable, is the residual resolved, is the integral new?
 pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values, finding: &mut Finding) {
-    let excluded = |index: usize| (0..LANES).any(|lane| values.output(index).excludes_zero(lane));
-    finding.evidence.independence = span.off_level.map(|off_level| {
-        let general = span.off_general.map(excluded);
-        match (excluded(off_level), general) {
-            (false, _) => Independence::Constant,
-            (true, Some(false)) => Independence::General,
-            (true, _) => Independence::Independent,
-        }
-    });
+    let look = |range: &Range<usize>, scale: &Range<usize>| {
+        Look::at(&values.range(range.clone()), values.range(scale.clone()).first().copied())
+    };
+    let (kind, none) = (item.claim.kind.name(), 0..0);
+    if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
+        let reason = format!("the formula of this {kind} has no value at {LANES} states");
+        return undecide(finding, reason);
+    }
+    if !span.defects.is_empty() && !look(&span.defects, &none).is_zero() {
+        let reason = "the integrand of an ∫ is not a function of its variable alone";
+        return undecide(finding, reason.to_string());
+    }
+    if !span.off_level.is_empty() {
+        let (own, general) =
+            (look(&span.off_level, &span.slope), look(&span.off_general, &span.slope));
+        finding.evidence.independence = match (own.is_zero(), own.excludes_zero) {
+            (true, _) => Some(Independence::Constant),
+            (_, false) => None,
+            _ if span.off_general.is_empty() || general.excludes_zero => {
+                Some(Independence::Independent)
+            }
+            _ => general.is_zero().then_some(Independence::General),
+        };
+    }
     if finding.settled.is_some() {
         return;
     }
-    let residuals = values.range(span.residual.clone());
-    let look = Look::at(&residuals, span.scale.map(|index| values.output(index)));
-    if look.defined == 0 {
+    let residual = look(&span.residual, &span.scale);
+    if residual.defined == 0 {
         let reason = format!("the residual is undefined at all {LANES} states that were drawn");
         undecide(finding, reason);
-    } else if span.defects.clone().any(excluded) {
-        let reason = "the integrand of an ∫ is not a function of its variable alone";
-        undecide(finding, reason.to_string());
-    } else if !look.excludes_zero && look.resolved < MIN_STATES {
-        let (kind, resolved) = (item.claim.kind.name(), look.resolved);
+    } else if !residual.excludes_zero && residual.resolved < MIN_STATES {
+        let resolved = residual.resolved;
         let reason = format!(
             "rounding hides the residual of this {kind}: only at {resolved} of {LANES} states is its \
              error bound 2^{RESOLVED_BITS} times below the terms that are added"
@@ -109,9 +122,15 @@ impl Look {
     pub fn is_zero(&self) -> bool {
         !self.excludes_zero && self.resolved >= MIN_STATES
     }
+
+    /// Does some enclosure exclude 0?
+    pub fn excludes_zero(&self) -> bool {
+        self.excludes_zero
+    }
 }
 
-fn undecide(finding: &mut Finding, reason: String) {
+/// Settles a claim as undecided, for a reason.
+pub fn undecide(finding: &mut Finding, reason: String) {
     finding.settled = Some(Verdict::Undecided);
     finding.evidence.reason = Some(reason);
 }

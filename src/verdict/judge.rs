@@ -49,6 +49,31 @@ pub enum JudgeError {
     /// No state could be drawn.
     #[error("no state on the level set was found among {0} starts")]
     Unreachable(u64),
+    /// Numbers beyond the range of f64.
+    #[error("none of {0} states could be drawn: their numbers are beyond the range of f64")]
+    Overflow(u64),
+    /// A parametrisation that makes states off the level.
+    #[error("the chart is not on the level set: `{equation}` is off by {by:e}")]
+    OffLevel {
+        /// The equation that does not hold.
+        equation: String,
+        /// Left minus right.
+        by: f64,
+    },
+    /// A parametrisation that leaves out directions of the level.
+    #[error("the chart covers {found} of the {dimension} dimensions of the level set")]
+    PartialChart {
+        /// The rank of its derivative.
+        found: usize,
+        /// The dimension of the level.
+        dimension: usize,
+    },
+    /// Level equations that are not independent.
+    #[error("the level equation `{0}` depends on those before it")]
+    Dependent(String),
+    /// An inertia tensor that is not symmetric.
+    #[error("the inertia tensor is not symmetric")]
+    AsymmetricInertia,
     /// The field is nowhere defined.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
@@ -69,6 +94,13 @@ impl JudgeError {
     pub fn help(&self) -> &'static str {
         match self {
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
+            JudgeError::Overflow(_) => "look at the ranges of [parameters] and [state]",
+            JudgeError::OffLevel { .. } => "correct the formulas of [level.chart]",
+            JudgeError::PartialChart { .. } => {
+                "a claim would be tested on a part of the level only: give [level.chart] more inputs"
+            }
+            JudgeError::Dependent(_) => "remove the equation from [level]",
+            JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {
                 "check the equations of [level], or widen the ranges of [state]"
             }
@@ -95,9 +127,9 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
             case.claims.iter().map(|claim| Recorded::new(claim, &jet)).collect();
         (recorded, Common::of(&jet))
     })?;
-    let bench = Bench { case, options, graph: &graph, inputs };
+    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
-    let mut warnings = bench.common(&common)?;
+    let mut warnings = bench.check()?;
     let mut places: Vec<&Place> = Vec::new();
     for claim in &case.claims {
         if !places.contains(&&claim.place) {

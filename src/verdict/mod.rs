@@ -7,6 +7,7 @@
 
 mod bench;
 mod conclude;
+mod coverage;
 mod evidence;
 mod finding;
 mod judge;

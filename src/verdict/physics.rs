@@ -13,7 +13,14 @@ use crate::number::ball::Balls;
 pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let at = &phase.configuration;
     let named = |name: &str| at.named(name);
-    let System::Rubber(body) = &phase.model().system else { return Vec::new() };
+    let body = match &phase.model().system {
+        System::Rubber(body) => body,
+        System::FlatBase(body) => {
+            let mass = at.evaluate(&body.mass).scalar();
+            return mass.into_iter().chain(at.evaluate(&body.inertia).components()).collect();
+        }
+        System::Field(_) => return Vec::new(),
+    };
     let mass = at.evaluate(&body.mass).scalar();
     let inertia = at.evaluate(&body.inertia).components();
     let (sum, product) = body.radii(at);
@@ -25,6 +32,19 @@ pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
         outputs.extend([radius, offset.x, offset.y, offset.z]);
     }
     outputs
+}
+
+/// Is I different from its transpose at some state? No equation of motion is meant then.
+pub fn is_asymmetric(values: &[&Balls<LANES>]) -> bool {
+    let pairs = [(2, 4), (3, 7), (6, 8)];
+    values.len() > 9
+        && pairs.iter().any(|(above, below)| {
+            let (above, below) = (values[*above], values[*below]);
+            (0..LANES).any(|lane| {
+                let apart = (above.mid[lane] - below.mid[lane]).abs();
+                apart > (above.rad[lane] + below.rad[lane]) * (1.0 + f64::EPSILON)
+            })
+        })
 }
 
 /// One warning for each kind of impossibility, with how often it occurred.

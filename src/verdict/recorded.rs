@@ -6,15 +6,22 @@ use super::physics;
 use crate::case::{Claim, Expect};
 use crate::claim::{Context, Kind, Place};
 use crate::graph::Expr;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::System;
+use crate::mechanics::calculus::{Jet, rejection};
 
 /// A claim with everything recorded about it.
 pub struct Recorded<'c> {
     pub claim: &'c Claim,
     pub residual: Vec<Expr>,
     pub context: Context,
-    /// Wider places with the residual there.
-    pub wider: Vec<(Place, Vec<Expr>)>,
+    pub wider: Vec<Wider>,
+}
+
+/// A wider place than the claim's own, with what vanishes if the claim holds there too.
+pub struct Wider {
+    pub place: Place,
+    pub residual: Vec<Expr>,
+    pub defects: Vec<Expr>,
 }
 
 impl<'c> Recorded<'c> {
@@ -31,7 +38,14 @@ impl<'c> Recorded<'c> {
             claim,
             residual: residual(&claim.place),
             context: claim.kind.context(jet, &claim.place.kept),
-            wider: wider.into_iter().map(|place| (place.clone(), residual(&place))).collect(),
+            wider: wider
+                .into_iter()
+                .map(|place| Wider {
+                    residual: residual(&place),
+                    defects: claim.kind.quadrature_defects(jet, &place.kept),
+                    place,
+                })
+                .collect(),
         }
     }
 }
@@ -39,8 +53,13 @@ impl<'c> Recorded<'c> {
 /// What is asked of every case, whatever it claims.
 pub struct Common {
     pub field: Vec<Expr>,
+    /// The level functions, zero on the level.
+    pub level: Vec<Expr>,
+    /// Their rates along the motion.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
+    /// For each level function of the user's: its gradient less its part along those before it.
+    pub dependence: Vec<Vec<Expr>>,
 }
 
 impl Common {
@@ -48,20 +67,28 @@ impl Common {
     pub fn of(jet: &Jet<'_, Expr>) -> Self {
         let rate = |function| jet.lie_derivative(|at| at.level_function(function));
         let phase = &jet.phase;
+        let own = matches!(phase.model().system, System::Field(_));
+        let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {
             field: phase.field().to_vec(),
+            level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
             physics: physics::outputs(phase),
+            dependence: (0..gradients.len())
+                .map(|k| rejection(&gradients[k], &gradients[..k]))
+                .collect(),
         }
     }
 }
 
-/// Where a claim's outputs stand in a tape.
+/// Where a claim's outputs stand in a tape; what is not asked for is an empty range.
 pub struct Span {
     pub residual: Range<usize>,
-    pub scale: Option<usize>,
-    pub off_level: Option<usize>,
-    pub off_general: Option<usize>,
+    pub scale: Range<usize>,
+    pub value: Range<usize>,
+    pub slope: Range<usize>,
+    pub off_level: Range<usize>,
+    pub off_general: Range<usize>,
     pub defects: Range<usize>,
 }
 
@@ -74,14 +101,16 @@ impl Span {
             start..outputs.len()
         };
         let residual = extend(&item.residual);
-        let mut one = |some: Option<Expr>| {
-            let some = some.filter(|_| with_context)?;
-            Some(extend(&[some]).start)
-        };
-        let context = &item.context;
-        let (scale, off_level, off_general) =
-            (one(context.scale), one(context.off_level), one(context.off_general));
-        let defects = if with_context { &context.quadrature_defects[..] } else { &[] };
-        Self { residual, scale, off_level, off_general, defects: extend(defects) }
+        let nothing = Context::default();
+        let context = if with_context { &item.context } else { &nothing };
+        Self {
+            residual,
+            scale: extend(context.scale.as_slice()),
+            value: extend(context.value.as_slice()),
+            slope: extend(context.slope.as_slice()),
+            off_level: extend(&context.off_level),
+            off_general: extend(&context.off_general),
+            defects: extend(&context.quadrature_defects),
+        }
     }
 }

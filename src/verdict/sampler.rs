@@ -3,13 +3,14 @@
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Fault, Tape, record};
-use crate::mechanics::{Chart, Draw, Draws, Origin, Recipe};
+use crate::mechanics::{Chart, Draws};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::rational::Rational;
 
 use super::newton::Newton;
+use super::{JudgeError, coverage};
 
 /// States a run of a tape treats at once.
 pub const LANES: usize = 64;
@@ -29,24 +30,11 @@ impl Sampler {
     /// A sampler of states at `place`.
     pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
         let model = &case.model;
-        let recipes: Vec<&Recipe> = model
-            .free_parameters()
-            .filter_map(|parameter| match &parameter.origin {
-                Origin::Free(recipe) => Some(recipe),
-                _ => None,
-            })
-            .collect();
-        let mut draws: Vec<Draw> = recipes.iter().flat_map(|recipe| recipe.draws()).collect();
+        let mut draws = model.parameter_draws();
         let parameter_draws = draws.len();
         draws.extend(case.chart.draws(&case.free_draws, &place.kept));
         let (graph, outputs) = record(draws.len(), |inputs| {
-            let (mut rest, state) = inputs.split_at(parameter_draws);
-            let mut values = Vec::new();
-            for recipe in &recipes {
-                let (own, others) = rest.split_at(recipe.draws().len());
-                rest = others;
-                values.extend(recipe.make(own).components());
-            }
+            let (mut values, state) = model.make_parameters(inputs);
             let point = case.chart.point(model, &place.kept, &values, state);
             values.extend(point);
             values
@@ -79,12 +67,23 @@ impl Sampler {
         })
     }
 
+    /// Checks that a parametrisation typed by the user fills the level set.
+    pub fn check_coverage(&self, case: &Case) -> Result<(), JudgeError> {
+        let Chart::Given(_) = &case.chart else { return Ok(()) };
+        let dimension = self.dimension.saturating_sub(case.model.level.len());
+        let found = coverage::rank(case, &self.draws, self.parameter_draws, self.seed)?;
+        if found < dimension {
+            return Err(JudgeError::PartialChart { found, dimension });
+        }
+        Ok(())
+    }
+
     /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
-    pub fn balls_sharing_parameters(&self, sets: usize) -> Vec<Balls<LANES>> {
+    pub fn balls_sharing_parameters(&self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
         self.balls_of(|lane| {
             let set = lane * sets / LANES;
             let mut values = self.draws.state(self.seed, set as u64);
-            let own = self.draws.state(self.seed, lane as u64);
+            let own = self.draws.state(self.seed, start + lane as u64);
             values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
             values
         })
