@@ -120,9 +120,9 @@ fn arbitrary(
     polynomial: &Polynomial,
     settings: &[Setting],
     parameters: &mut Vec<Parameter>,
-) {
+) -> Result<(), CaseError> {
     let small = Range::between((-1, 5), (1, 5));
-    coefficients(prefix, &polynomial.exponents, &small, settings, parameters);
+    coefficients(prefix, &polynomial.exponents, &small, settings, parameters)
 }
 
 fn shape(
@@ -159,7 +159,7 @@ fn shape(
     if let Some(text) = profile {
         if text.value == "arbitrary" {
             let polynomial = Polynomial::on_interval(4, first);
-            arbitrary("p", &polynomial, settings, parameters);
+            arbitrary("p", &polynomial, settings, parameters)?;
             return Ok(Shape::ArbitraryProfile(polynomial));
         }
         return Ok(Shape::Profile(read(&text, "the profile", Type::Scalar)?));
@@ -168,7 +168,7 @@ fn shape(
     if text.value == "arbitrary" {
         // A residual contains derivatives of h up to the third on the plane, the fourth on a sphere.
         let polynomial = Polynomial::on_sphere(if curved { 4 } else { 3 }, first);
-        arbitrary("h", &polynomial, settings, parameters);
+        arbitrary("h", &polynomial, settings, parameters)?;
         return Ok(Shape::Arbitrary(polynomial));
     }
     // Whether it is homogeneous is found out when the model stands.
@@ -202,6 +202,11 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> 
             },
         ));
     }
+    if let Some(entry) = vocabulary.find("c").filter(|entry| entry.kind != Type::Vector) {
+        let message = format!("`c`, the place of the mass centre, is a {}", entry.kind);
+        let remedy = "make it a vector, c = [0, 0, 0.5], or give it another name".to_string();
+        return Err(CaseError::at(text.span.clone(), Problem::Other { message, remedy }));
+    }
     let displaced = if has(vocabulary, "c", Type::Vector) { " + (c,γ)" } else { "" };
     Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
 }
@@ -224,6 +229,6 @@ fn potential(
             return Ok(Some(Potential::Formula(read)));
         }
     };
-    arbitrary("U", &polynomial, settings, parameters);
+    arbitrary("U", &polynomial, settings, parameters)?;
     Ok(Some(Potential::Arbitrary(polynomial)))
 }

@@ -19,6 +19,9 @@ pub enum Problem {
     /// The file cannot be read.
     #[error("cannot read the file: {0}")]
     Io(std::io::Error),
+    /// A folder, a pipe, a device.
+    #[error("this is not a regular file")]
+    NotAFile,
     /// The file is larger than any case needs.
     #[error("the file has {0} bytes; a case file may have up to {1}")]
     TooLarge(u64, u64),
@@ -137,6 +140,12 @@ impl CaseError {
             }
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
+            Problem::Io(_) | Problem::NotAFile => Some(
+                "give a case file: TOML in UTF-8; docs/writing-a-case.md shows how".to_string(),
+            ),
+            Problem::WrongType { key, .. } => {
+                Some(format!("docs/writing-a-case.md shows what `{key}` takes"))
+            }
             Problem::Reach { name, .. } if name == "r" => {
                 Some("the support function h is −(r,γ)".to_string())
             }

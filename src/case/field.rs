@@ -60,6 +60,11 @@ pub fn rates(
             let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
             return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
         };
+        if rates[index].is_some() {
+            let reason = format!("the rate of `{plain}` is given twice");
+            let name = key.get_ref().to_string();
+            return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
+        }
         let text = section.as_text(key.get_ref(), value)?;
         let what = format!("the rate of {plain}");
         let kind = Some(variables[index].kind);

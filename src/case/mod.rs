@@ -116,6 +116,9 @@ impl Case {
     pub fn read(path: &Path, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
         let io = |error| CaseError::whole(Problem::Io(error));
         let size = match std::fs::metadata(path) {
+            Ok(metadata) if !metadata.is_file() => {
+                return (String::new(), Err(CaseError::whole(Problem::NotAFile)));
+            }
             Ok(metadata) => metadata.len(),
             Err(error) => return (String::new(), Err(io(error))),
         };

@@ -81,10 +81,13 @@ pub fn read(
 
 /// The complaint about a value that was not in the file.
 fn refused(setting: &Setting, error: &FormulaError) -> CaseError {
-    let message = format!("--set {}={}: {}", setting.name, setting.value, error.message());
     let constant = "give a constant: 5/4, [1,2,3], [[…],[…],[…]]";
-    let remedy = error.help().unwrap_or(constant).to_string();
-    CaseError::whole(Problem::Other { message, remedy })
+    set_to(setting, error.message(), error.help().unwrap_or(constant))
+}
+
+fn set_to(setting: &Setting, problem: &str, remedy: &str) -> CaseError {
+    let message = format!("--set {}={}: {problem}", setting.name, setting.value);
+    CaseError::whole(Problem::Other { message, remedy: remedy.to_string() })
 }
 
 fn declare(parameter: &Parameter, index: usize, vocabulary: &mut Vocabulary) {
@@ -258,15 +261,22 @@ pub fn coefficients(
     range: &Range,
     settings: &[Setting],
     parameters: &mut Vec<Parameter>,
-) {
+) -> Result<(), CaseError> {
     for [i, j, k] in exponents {
         let name = format!("{prefix}[{i},{j},{k}]");
-        let set = settings.iter().find(|setting| setting.name == name);
-        let fixed = set.and_then(|setting| setting.value.parse().ok()).map(|x| vec![x]);
-        let drawn = || Origin::Free(Recipe::Scalar(Draw::Within(range.clone())));
-        let origin = fixed.map_or_else(drawn, Origin::Fixed);
+        let origin = match settings.iter().find(|setting| setting.name == name) {
+            None => Origin::Free(Recipe::Scalar(Draw::Within(range.clone()))),
+            Some(setting) => match setting.value.trim().parse() {
+                Ok(value) => Origin::Fixed(vec![value]),
+                Err(error) => {
+                    let error: RationalError = error;
+                    return Err(set_to(setting, &error.to_string(), "give a number"));
+                }
+            },
+        };
         parameters.push(Parameter { name, kind: Type::Scalar, origin });
     }
+    Ok(())
 }
 
 /// Is this name declared as a parameter of this kind?

@@ -16,6 +16,11 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
         .iter()
         .map(|text| setting(text))
         .collect::<Result<Vec<Setting>, String>>()?;
+    for (index, setting) in settings.iter().enumerate() {
+        if settings[..index].iter().any(|earlier| earlier.name == setting.name) {
+            return Err(format!("error: --set: `{}` is given twice", setting.name));
+        }
+    }
     let shown = options.case.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
     let (text, case) = Case::read(&options.case, &settings);

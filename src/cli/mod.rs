@@ -5,7 +5,7 @@ pub mod eval;
 mod files;
 pub mod table;
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -105,8 +105,14 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
     match answer {
         Ok(answer) => {
             let mut out = anstream::stdout().lock();
-            // A reader that closes the pipe has seen enough.
-            let _ = out.write_all(answer.text.as_bytes()).and_then(|()| out.flush());
+            match out.write_all(answer.text.as_bytes()).and_then(|()| out.flush()) {
+                // A reader that closes the pipe has seen enough.
+                Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                    anstream::eprintln!("error: cannot write the answer: {error}");
+                    return ExitCode::from(2);
+                }
+                _ => {}
+            }
             ExitCode::from(answer.code)
         }
         Err(problem) => {

@@ -54,6 +54,10 @@ impl Bench<'_> {
         let fields = common.field.len();
         let rates = fields + common.level.len();
         let physics = rates + common.level_rates.len();
+        let physical = values.range(physics..outputs.len());
+        if physics::is_asymmetric(&physical) {
+            return Err(JudgeError::AsymmetricInertia);
+        }
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| off.excludes_zero(*lane)) {
@@ -71,12 +75,8 @@ impl Bench<'_> {
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }
-        let physics = values.range(physics..outputs.len());
-        if physics::is_asymmetric(&physics) {
-            return Err(JudgeError::AsymmetricInertia);
-        }
         sampler.check_coverage(self.case)?;
-        Ok(physics::warnings(&physics))
+        Ok(physics::warnings(&physical))
     }
 
     /// Checks that no level equation of the user's follows from those before it.
@@ -144,9 +144,8 @@ impl Bench<'_> {
                 }
             }
             if block == 0 {
-                for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.holds()) {
-                    self.settle_sign(&sampler, item, finding);
-                }
+                let folded = open.iter_mut().filter(|(_, finding)| finding.holds());
+                self.settle_signs(&sampler, folded.map(|(item, finding)| (*item, &mut **finding)));
             }
             let before = open.len();
             open.retain(|(_, finding)| finding.settled.is_none());
@@ -157,10 +156,10 @@ impl Bench<'_> {
                 laid_out = None;
             }
         }
-        for (item, finding) in open {
+        for (_, finding) in &mut open {
             finding.settled = Some(Verdict::Confirmed);
-            self.settle_sign(&sampler, item, finding);
         }
+        self.settle_signs(&sampler, open.into_iter());
         Ok(())
     }
 
@@ -224,39 +223,38 @@ impl Bench<'_> {
         Witness { index, parameters, state: state.join(" "), residual, error_bound }
     }
 
-    /// The sign of a density that is invariant; one that is nowhere known to be non-zero is none.
-    fn settle_sign(&self, sampler: &Sampler, item: &Recorded<'_>, finding: &mut Finding) {
-        let (Kind::Density(_), Some(density)) = (&item.claim.kind, item.context.value) else {
+    /// The signs of the densities among claims that hold, over all states for each of a few
+    /// parameter sets; a density that is nowhere known to be non-zero is none.
+    fn settle_signs<'f, 'r: 'f>(
+        &self,
+        sampler: &Sampler,
+        items: impl Iterator<Item = (&'f Recorded<'r>, &'f mut Finding)>,
+    ) {
+        let (densities, mut findings): (Vec<Expr>, Vec<&mut Finding>) = items
+            .filter(|(item, _)| matches!(item.claim.kind, Kind::Density(_)))
+            .filter_map(|(item, finding)| Some((item.context.value?, finding)))
+            .unzip();
+        if densities.is_empty() {
             return;
-        };
-        finding.evidence.sign = self.sign(sampler, density);
-        if finding.evidence.sign.is_none() {
-            undecide(finding, "the density is 0 at all states that were tried".to_string());
         }
-    }
-
-    /// The sign of a density, over all states for each of a few parameter sets.
-    fn sign(&self, sampler: &Sampler, density: Expr) -> Option<Sign> {
-        let run = self.run(&[density]);
-        let mut seen = [[false; 2]; PARAMETER_SETS];
+        let run = self.run(&densities);
+        let mut seen = vec![[[false; 2]; PARAMETER_SETS]; densities.len()];
         for block in 0..self.blocks() {
             let states = sampler.balls_sharing_parameters(block * LANES as u64, PARAMETER_SETS);
             let values = run.at(&states);
-            let ball = values.output(0);
-            for lane in (0..LANES).filter(|lane| ball.excludes_zero(*lane)) {
-                let set = lane * PARAMETER_SETS / LANES;
-                seen[set][usize::from(ball.mid[lane] > 0.0)] = true;
+            for (index, seen) in seen.iter_mut().enumerate() {
+                let ball = values.output(index);
+                for lane in (0..LANES).filter(|lane| ball.excludes_zero(*lane)) {
+                    let set = lane * PARAMETER_SETS / LANES;
+                    seen[set][usize::from(ball.mid[lane] > 0.0)] = true;
+                }
             }
         }
-        if seen.contains(&[true, true]) {
-            return Some(Sign::Changes);
-        }
-        // Another sign for other parameters is one measure for each of them, up to a factor -1.
-        let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
-        match (positive, negative) {
-            (true, _) => Some(Sign::Positive),
-            (false, true) => Some(Sign::Negative),
-            (false, false) => None,
+        for (finding, seen) in findings.iter_mut().zip(&seen) {
+            finding.evidence.sign = sign(seen);
+            if finding.evidence.sign.is_none() {
+                undecide(finding, "the density is 0 at all states that were tried".to_string());
+            }
         }
     }
 
@@ -313,6 +311,20 @@ impl Bench<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// One sign from what was seen, negative and positive, at each set of parameters.
+fn sign(seen: &[[bool; 2]]) -> Option<Sign> {
+    if seen.contains(&[true, true]) {
+        return Some(Sign::Changes);
+    }
+    // Another sign for other parameters is one measure for each of them, up to a factor -1.
+    let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
+    match (positive, negative) {
+        (true, _) => Some(Sign::Positive),
+        (false, true) => Some(Sign::Negative),
+        (false, false) => None,
     }
 }
 

@@ -57,6 +57,9 @@ pub enum StateError {
         /// Those that are.
         known: String,
     },
+    /// A variable with two values.
+    #[error("`{0}` is given twice")]
+    Twice(String),
     /// A variable without value.
     #[error("the state has no value for `{0}`")]
     Missing(String),
@@ -103,6 +106,9 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
         let (expected, found) = (variables[index].len(), numbers.len());
         if expected != found {
             return Err(StateError::Length { name, expected, found });
+        }
+        if values[index].is_some() {
+            return Err(StateError::Twice(name));
         }
         values[index] = Some(numbers);
     }
