@@ -14,6 +14,24 @@ use crate::mechanics::{
     Variable, Vocabulary, of_flat_base, of_rubber,
 };
 
+/// The keys of a case file.
+const KEYS: [&str; 14] = [
+    "title",
+    "source",
+    "note",
+    "system",
+    "check-weights",
+    "table",
+    "parameters",
+    "dimensions",
+    "body",
+    "state",
+    "field",
+    "level",
+    "let",
+    "claim",
+];
+
 const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base or field";
 
 pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
@@ -22,6 +40,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         return Err(CaseError::whole(Problem::Empty));
     }
     let root = Section::new("the file", document.get_ref(), 0..0, text);
+    root.allow(&KEYS)?;
     let title = root.required("title", "add title = \"what the case is about\"")?.value;
     let source = root.text("source")?.map_or(String::new(), |source| source.value);
     let notes = root.texts("note")?.into_iter().map(|note| note.value).collect();
@@ -52,7 +71,6 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
-    root.finish()?;
     let Parts { model, chart, free_draws } = parts;
     Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes })
 }
@@ -99,7 +117,7 @@ fn parts(
             let (section, curved) = (body()?, text.value == "rubber-sphere");
             let features = body::features(&section, curved, vocabulary);
             let state = fixed_state(&[("ω", Type::Vector), ("γ", Type::Vector)], &[]);
-            declare(vocabulary, &state, of_rubber(features), &text)?;
+            declare(root, vocabulary, &state, of_rubber(features), &text)?;
             let lets = abbreviations(root, vocabulary)?;
             let system = body::rubber(&section, curved, settings, vocabulary, &mut parameters)?;
             section.finish()?;
@@ -111,7 +129,7 @@ fn parts(
             let near = Draw::Within(Range::between((-3, 2), (3, 2)));
             let names = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
             let state = fixed_state(&names, &[near.clone(), near.clone(), near.clone(), near]);
-            declare(vocabulary, &state, of_flat_base(), &text)?;
+            declare(root, vocabulary, &state, of_flat_base(), &text)?;
             let lets = abbreviations(root, vocabulary)?;
             let system = body::flat_base(&section, vocabulary)?;
             section.finish()?;
@@ -163,16 +181,25 @@ fn rolling_level() -> Vec<LevelEquation> {
 
 /// Adds the state and the system's quantities; a parameter may hide a quantity, not a variable.
 fn declare(
+    root: &Section<'_>,
     vocabulary: &mut Vocabulary,
     state: &State,
     quantities: Vec<(&'static str, Quantity, Type, Reach)>,
     system: &Text,
 ) -> Result<(), CaseError> {
+    let given = root.section("parameters")?;
+    let place = |name: &str| {
+        let entries = given.as_ref().map(Section::entries).unwrap_or_default();
+        let named = |(key, _): &(&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
+            canonical_name(key.get_ref()).as_deref() == Some(name)
+        };
+        entries.iter().find(|entry| named(entry)).map(|(key, _)| key.span())
+    };
     for (index, variable) in state.variables.iter().enumerate() {
         if vocabulary.find(&variable.name).is_some() {
             let reason = format!("it is a state variable of {}", system.value);
             let problem = Problem::BadName { name: variable.name.clone(), reason };
-            return Err(CaseError::whole(problem));
+            return Err(CaseError { problem, span: place(&variable.name) });
         }
         let reach = if variable.name == "γ" { Reach::Configuration } else { Reach::Phase };
         vocabulary.add(&variable.name, Meaning::State(index), variable.kind, reach);

@@ -8,6 +8,9 @@ use crate::claim::{Kind, Place};
 use crate::formula::Type;
 use crate::mechanics::{Model, Reach};
 
+/// What a claim can state.
+const STATEMENTS: [&str; 4] = ["integral", "density", "analytic-density", "position-density"];
+
 /// Reads one claim; `taken` holds the names of those before it.
 pub fn read(
     section: &Section<'_>,
@@ -15,6 +18,9 @@ pub fn read(
     taken: &[Claim],
     default_source: &str,
 ) -> Result<Claim, CaseError> {
+    section.allow(
+        &[&STATEMENTS[..], &["name", "source", "where", "expect", "cell", "note"]].concat(),
+    )?;
     let kind = kind(section, model)?;
     let (place, only_there) = place(section, model)?;
     let claim = Claim {
@@ -27,7 +33,6 @@ pub fn read(
         note: section.text("note")?.map(|text| text.value),
         kind,
     };
-    section.finish()?;
     Ok(claim)
 }
 
@@ -47,16 +52,15 @@ fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
             "write \"exists\", and expect = \"fails\" where it does not",
         )),
     };
-    let keys = ["integral", "density", "analytic-density", "position-density"];
     let mut found = Vec::new();
-    for key in keys {
+    for key in STATEMENTS {
         if let Some(text) = section.text(key)? {
             found.push((key, text));
         }
     }
     let [(key, text)] = found.as_slice() else {
         let message = format!("a claim makes one statement, and this one {}", found.len());
-        let remedy = format!("give one of {}", keys.join(", "));
+        let remedy = format!("give one of {}", STATEMENTS.join(", "));
         return Err(CaseError::at(section.span.clone(), Problem::Other { message, remedy }));
     };
     let kind = match *key {

@@ -30,6 +30,7 @@ pub fn read(
 ) -> Result<Vec<Parameter>, CaseError> {
     let mut parameters: Vec<Parameter> = Vec::new();
     let mut formulas = Vec::new();
+    let mut kinds = Vec::new();
     for (key, value) in section.map(Section::entries).unwrap_or_default() {
         let name = canonical_name(key.get_ref()).ok_or_else(|| bad_name(key))?;
         if parameters.iter().any(|known| known.name == name) {
@@ -37,11 +38,10 @@ pub fn read(
             return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
         }
         let setting = settings.iter().find(|setting| setting.name == name);
-        let origin = match setting {
-            Some(setting) => set(setting, &name),
-            None => origin(&name, value)
-                .map_err(|message| CaseError::at(value.span(), Problem::Parameter(message)))?,
-        };
+        let written = origin(&name, value)
+            .map_err(|message| CaseError::at(value.span(), Problem::Parameter(message)))?;
+        kinds.push(written.kind());
+        let origin = setting.map_or(written, |setting| set(setting, &name));
         let (kind, origin) = match origin {
             Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
             Given::Drawn(recipe) => (recipe.kind(), Origin::Free(recipe)),
@@ -69,7 +69,14 @@ pub fn read(
                 None => CaseError::at(text.locate(error.span()), Problem::Formula(error)),
             }
         })?;
-        parameters[index].kind = formula.value_type();
+        let found = formula.value_type();
+        if let Some(setting) = settings.iter().find(|set| set.name == parameters[index].name)
+            && let Some(kind) = kinds[index].filter(|kind| *kind != found)
+        {
+            let problem = format!("`{}` is a {kind}, and this is a {found}", setting.name);
+            return Err(set_to(setting, &problem, "give a value of the same kind"));
+        }
+        parameters[index].kind = found;
         parameters[index].origin = match constant(&formula) {
             Some(values) => Origin::Fixed(values),
             None => Origin::Formula(formula),
@@ -123,6 +130,17 @@ pub enum Given {
     Drawn(Recipe),
     /// Anything else: to be read as a formula.
     Formula(String),
+}
+
+impl Given {
+    /// Scalar, vector or matrix, where that is known before formulas are read.
+    fn kind(&self) -> Option<Type> {
+        match self {
+            Given::Fixed(kind, _) => Some(*kind),
+            Given::Drawn(recipe) => Some(recipe.kind()),
+            Given::Formula(_) => None,
+        }
+    }
 }
 
 fn set(setting: &Setting, name: &str) -> Given {
@@ -225,10 +243,11 @@ fn described(text: &str) -> Result<Given, String> {
 fn range(low: &str, high: &str) -> Result<Range, String> {
     let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
     let range = Range { low: read(low)?, high: read(high)? };
-    if range.low < range.high {
-        Ok(range)
-    } else {
-        Err(format!("the range {}..{} is empty", range.low, range.high))
+    let (width, _) = (&range.high - &range.low).to_f64();
+    match range.low < range.high {
+        false => Err(format!("the range {}..{} is empty", range.low, range.high)),
+        true if width.is_normal() => Ok(range),
+        true => Err("this range is beyond the numbers that f64 can hold".to_string()),
     }
 }
 

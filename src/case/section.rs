@@ -68,7 +68,10 @@ impl<'a> Section<'a> {
 
     /// The value of a key.
     pub fn value(&self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
-        self.asked.borrow_mut().push(key);
+        let mut asked = self.asked.borrow_mut();
+        if !asked.contains(&key) {
+            asked.push(key);
+        }
         self.table.get(key)
     }
 
@@ -141,7 +144,11 @@ impl<'a> Section<'a> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
             DeValue::Table(table) => {
-                Ok(Some(Section::new(&format!("[{key}]"), table, value.span(), self.source)))
+                let name = match self.name.strip_prefix('[').and_then(|n| n.strip_suffix(']')) {
+                    Some(outer) => format!("[{outer}.{key}]"),
+                    None => format!("[{key}]"),
+                };
+                Ok(Some(Section::new(&name, table, value.span(), self.source)))
             }
             _ => Err(self.wrong_type(key, "a table", value.span())),
         }
@@ -185,7 +192,12 @@ impl<'a> Section<'a> {
 
     /// Complains about keys that nobody asked for.
     pub fn finish(&self) -> Result<(), CaseError> {
-        let known = self.asked.borrow();
+        self.allow(&self.asked.borrow())
+    }
+
+    /// Complains about keys that are none of these: a misspelt key is the likeliest reason for
+    /// another that is missing.
+    pub fn allow(&self, known: &[&'static str]) -> Result<(), CaseError> {
         for (key, _) in self.entries() {
             let name = key.get_ref().as_ref();
             if !known.contains(&name) {
@@ -195,7 +207,7 @@ impl<'a> Section<'a> {
                         key: name.to_string(),
                         section: self.name.clone(),
                         nearest: nearest(name, known.iter().copied()).map(str::to_string),
-                        known: known.clone(),
+                        known: known.to_vec(),
                     },
                 ));
             }

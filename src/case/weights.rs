@@ -99,10 +99,10 @@ fn time(model: &Model) -> WeightSystem {
             },
             Meaning::State(_) => Some(if entry.name.starts_with('ω') { -1 } else { 0 }),
             Meaning::Abbreviation(_) => None,
-            Meaning::Quantity(Quantity::ContactRate | Quantity::NormalRate) => Some(-1),
-            Meaning::Quantity(Quantity::AngularAcceleration) => {
-                Some(if entry.name == "ω" { -1 } else { -2 })
-            }
+            Meaning::Quantity(
+                Quantity::ContactRate | Quantity::NormalRate | Quantity::AngularVelocity,
+            ) => Some(-1),
+            Meaning::Quantity(Quantity::AngularAcceleration) => Some(-2),
             Meaning::Quantity(Quantity::Energy | Quantity::Potential | Quantity::Multiplier) => {
                 Some(-2)
             }

@@ -20,9 +20,12 @@ impl Place {
         Self { kept: vec![false; model.level.len()] }
     }
 
-    /// The equation of this text alone; spaces and the kind of minus do not matter.
+    /// The equation of this text alone; spaces and spelling do not matter.
     pub fn equation(model: &Model, text: &str) -> Option<Self> {
-        let plain = |text: &str| text.split_whitespace().collect::<String>().replace('−', "-");
+        let plain = |text: &str| {
+            let text: String = text.split_whitespace().collect();
+            text.replace('−', "-").replace("gamma", "γ").replace("omega", "ω")
+        };
         let index = model.level.iter().position(|equation| plain(&equation.text) == plain(text))?;
         let mut place = Self::everywhere(model);
         place.kept[index] = true;

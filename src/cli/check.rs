@@ -20,8 +20,8 @@ pub fn run(options: &Check) -> Result<Answer, String> {
     };
     if options.json {
         for outcome in &run.outcomes {
-            if let Err(problem) = &outcome.result {
-                anstream::eprintln!("{problem}");
+            if let Err(failure) = &outcome.result {
+                anstream::eprintln!("{}", failure.rendered);
             }
         }
     }

@@ -24,7 +24,8 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
     let shown = options.case.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
     let (text, case) = Case::read(&options.case, &settings);
-    let case = case.map_err(|error| diagnostic::render(&shown, &text, &error, coloured))?;
+    let case =
+        case.map_err(|error| diagnostic::of_case(&shown, &text, &error, coloured).rendered)?;
     let state = match &options.state {
         None => None,
         Some(text) => Some(
@@ -32,7 +33,7 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
         ),
     };
     let report = verdict::evaluate(&case, state.as_deref(), options.seed, options.index).map_err(
-        |error| diagnostic::render_plain(&shown, &error.to_string(), error.help(), coloured),
+        |error| diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered,
     )?;
     let text = if options.json {
         point::json(&report).map_err(|error| format!("error: {error}"))? + "\n"

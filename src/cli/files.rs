@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use liouville::case::Case;
-use liouville::report::{Heading, Outcome, RunReport, diagnostic};
+use liouville::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::verdict::{self, Options};
 use rayon::prelude::*;
 
@@ -54,7 +54,7 @@ fn bar(length: u64) -> ProgressBar {
     }
 }
 
-type Found = Result<PathBuf, (PathBuf, String)>;
+type Found = Result<PathBuf, (PathBuf, Failure)>;
 
 /// All case files under the paths, sorted within each folder; what cannot be read is kept as such.
 fn collect(paths: &[PathBuf]) -> Vec<Found> {
@@ -105,15 +105,15 @@ fn folder(path: &Path, files: &mut Vec<Found>) {
     }
 }
 
-fn plain(path: &Path, message: &str, help: &str) -> String {
-    diagnostic::render_plain(&path.display().to_string(), message, help, coloured())
+fn plain(path: &Path, message: &str, help: &str) -> Failure {
+    diagnostic::of_file(&path.display().to_string(), message, help, coloured())
 }
 
 fn coloured() -> bool {
     super::colour(std::io::stderr().is_terminal())
 }
 
-fn failed(path: &Path, problem: String) -> Outcome {
+fn failed(path: &Path, problem: Failure) -> Outcome {
     let path = path.display().to_string();
     Outcome { path, heading: Heading::default(), result: Err(problem) }
 }
@@ -124,7 +124,7 @@ fn judge_file(path: &Path, options: &Options) -> Outcome {
     let case = match case {
         Ok(case) => case,
         Err(error) => {
-            return failed(path, diagnostic::render(&shown, &text, &error, coloured()));
+            return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
     let result = verdict::judge(&case, options)

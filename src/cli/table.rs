@@ -7,8 +7,8 @@ use super::{Answer, Table, files, width};
 pub fn run(options: &Table) -> Result<Answer, String> {
     let run = files::judge(&options.paths, options.sampling)?;
     for outcome in &run.outcomes {
-        if let Err(problem) = &outcome.result {
-            anstream::eprintln!("{problem}");
+        if let Err(failure) = &outcome.result {
+            anstream::eprintln!("{}", failure.rendered);
         }
     }
     let table = table::regenerate(&run, options.number);

@@ -99,7 +99,7 @@ impl FlatBase {
         let constants = self.constants(phase);
         match quantity {
             Quantity::Contact => Value::Vector(Vector3::new(r1, r2, constants.height)),
-            Quantity::AngularAcceleration => Value::Vector(Vector3::new(w1, w2, T::zero())),
+            Quantity::AngularVelocity => Value::Vector(Vector3::new(w1, w2, T::zero())),
             Quantity::InertiaAtContact => Value::Matrix(constants.inertia_at([r1, r2])),
             _ => Value::Scalar(self.energy(phase)),
         }

@@ -32,6 +32,8 @@ pub enum Quantity {
     Energy,
     /// `ω'`.
     AngularAcceleration,
+    /// `ω`, where it is not a state variable itself.
+    AngularVelocity,
     /// `γ'`.
     NormalRate,
     /// `λ0`: the multiplier of (ω,γ) = 0.
@@ -128,7 +130,7 @@ pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     vec![
         ("r", Contact, Type::Vector, Reach::Phase),
-        ("ω", AngularAcceleration, Type::Vector, Reach::Phase),
+        ("ω", AngularVelocity, Type::Vector, Reach::Phase),
         ("Ĩ", InertiaAtContact, Type::Matrix, Reach::Phase),
         ("energy", Energy, Type::Scalar, Reach::Phase),
     ]

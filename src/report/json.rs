@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{RunReport, Summary};
+use super::{Failure, RunReport, Summary};
 use crate::verdict::ClaimReport;
 
 #[derive(Serialize)]
@@ -28,7 +28,8 @@ struct CaseEntry<'a> {
 #[derive(Serialize)]
 struct ErrorEntry<'a> {
     path: &'a str,
-    message: &'a str,
+    #[serde(flatten)]
+    failure: &'a Failure,
 }
 
 /// The run as pretty-printed JSON.
@@ -45,7 +46,7 @@ pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
                 warnings: &report.warnings,
                 claims: &report.claims,
             }),
-            Err(message) => root.errors.push(ErrorEntry { path: &outcome.path, message }),
+            Err(failure) => root.errors.push(ErrorEntry { path: &outcome.path, failure }),
         }
     }
     serde_json::to_string_pretty(&root)

@@ -19,8 +19,27 @@ pub struct Outcome {
     pub path: String,
     /// The case's title, source, system and column; empty where it could not be read.
     pub heading: Heading,
-    /// The verdicts, or the rendered problem.
-    pub result: Result<CaseReport, String>,
+    /// The verdicts, or why there are none.
+    pub result: Result<CaseReport, Failure>,
+}
+
+/// Why a file could not be judged.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Failure {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
+    /// The line it concerns, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// The column in characters, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<usize>,
+    /// The same with an excerpt of the file, for a terminal.
+    #[serde(skip)]
+    pub rendered: String,
 }
 
 /// What a case says about itself.

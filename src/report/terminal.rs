@@ -30,7 +30,7 @@ pub fn render(run: &RunReport, style: Style) -> String {
 fn case(outcome: &Outcome, style: Style) -> String {
     let heading = &outcome.heading;
     let report = match &outcome.result {
-        Err(problem) => return format!("{problem}\n"),
+        Err(failure) => return format!("{}\n", failure.rendered),
         Ok(report) => report,
     };
     let mut out = format!("{}\n  {}", outcome.path, heading.title);
@@ -104,22 +104,26 @@ fn remark(claim: &ClaimReport) -> String {
                 _ => {}
             }
             match evidence.sign {
-                Some(Sign::Changes) => words.push("changes sign: no positive measure".to_string()),
+                Some(Sign::Changes) => {
+                    words.push("changes sign, no positive measure: zeros or poles".to_string())
+                }
                 Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }
-            if evidence.method == "ball" {
+            if evidence.method.starts_with("ball") {
                 words.push(format!("{} states", evidence.samples));
             }
         }
         Verdict::Refuted => {
             if let Some(witness) = &evidence.witness {
                 words.push(format!("{:.2e} at state {}", witness.residual, witness.index));
+            } else {
+                words.push("at every state".to_string());
             }
         }
         Verdict::Undecided => {}
     }
-    if !claim.agrees || claim.verdict == Verdict::Undecided {
+    if claim.verdict == Verdict::Undecided || (!claim.agrees && claim.verdict != Verdict::Refuted) {
         words.extend(evidence.reason.clone());
     }
     words.retain(|word| !word.is_empty());
