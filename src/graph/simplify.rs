@@ -1,8 +1,9 @@
-//! How nodes are made: equal ones once, and with the simplifications that hold for every number.
+//! How nodes are made: equal ones once, and with simplifications that change no value.
 //!
 //! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` are one node),
-//! `x - x`, `x · 1/x`, `√x · √x`; never 0 · (1/0), which stays undefined. Not rewritten, because it would change the real meaning:
-//! `√(x²)`, `(xᵃ)ᵇ`.
+//! `x - x`, `x · 1/x`, `√x · √x`, `exp(ln x)`; never 0 · (1/0), which stays undefined. Where both
+//! sides have a value it is the same; the simpler side may have one at more points (`x · 1/x` at 0).
+//! Not rewritten, because it would change the real meaning: `√(x²)`, `(xᵃ)ᵇ`.
 
 use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::exact::square_root;

@@ -50,7 +50,7 @@ impl Rubber {
         along.map(|x| x / gamma.dot(&along))
     }
 
-    /// The tangential χ with div v = (χ,ω) on the level; γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where
+    /// The tangential χ with div v = (χ,ω) on the level, for a body (∂r/∂γ symmetric across γ); γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where
     /// ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
     pub fn chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);

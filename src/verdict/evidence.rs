@@ -65,7 +65,8 @@ pub enum Sign {
     Positive,
     /// Negative at every state tried: its negative is a measure.
     Negative,
-    /// It changes sign at fixed parameters: invariant, but no positive measure.
+    /// It changes sign at fixed parameters, so it has zeros or poles: invariant, but no positive
+    /// measure across them.
     Changes,
 }
 

@@ -1,7 +1,7 @@
 //! States on a level set that has no parametrisation: Newton's method in f64.
 //!
 //! The state found lies near the level, not on it. It is handed on as a ball whose radius is an
-//! estimate of its distance from the level, so verdicts from such states are at best *confirmed*.
+//! estimate of its distance from the level: verdicts from such states are no proofs.
 
 use nalgebra::{DMatrix, DVector};
 
