@@ -17,11 +17,13 @@ mod point;
 mod recorded;
 mod run;
 mod sampler;
+mod state;
 
 pub use evidence::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
 pub use judge::{CaseReport, JudgeError, Options, judge};
-pub use point::{Enclosed, PointReport, StateError, evaluate, read_state};
+pub use point::{Enclosed, Named, PointReport, evaluate};
 pub use sampler::{LANES, Sampler};
+pub use state::{StateError, read_state};
 
 use crate::number::rational::Rational;
 

@@ -4,7 +4,6 @@ use super::sampler::Sampler;
 use super::{JudgeError, antiderivative_value};
 use crate::case::Case;
 use crate::claim::Place;
-use crate::formula::canonical_name;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Model, Phase, components};
@@ -41,82 +40,6 @@ pub struct PointReport {
     pub energy: Option<Enclosed>,
     /// Name, value and residual of each claim.
     pub claims: Vec<(String, Enclosed, Enclosed)>,
-}
-
-/// Why a state cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum StateError {
-    /// Not of the form `name=value`.
-    #[error("`{0}` is not of the form name=value, such as ω=[3/7,0,-1/2] or x=0.5")]
-    Malformed(String),
-    /// A name that is no state variable.
-    #[error("`{name}` is no state variable; this system has {known}")]
-    Unknown {
-        /// The name.
-        name: String,
-        /// Those that are.
-        known: String,
-    },
-    /// A variable with two values.
-    #[error("`{0}` is given twice")]
-    Twice(String),
-    /// A variable without value.
-    #[error("the state has no value for `{0}`")]
-    Missing(String),
-    /// A list of another length.
-    #[error("`{name}` has {expected} components, not {found}")]
-    Length {
-        /// The variable.
-        name: String,
-        /// How many it has.
-        expected: usize,
-        /// How many were given.
-        found: usize,
-    },
-    /// Not a number.
-    #[error("{0}")]
-    Number(String),
-}
-
-/// Reads `ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]`.
-pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> {
-    let variables = &case.model.state;
-    let mut values: Vec<Option<Vec<Rational>>> = vec![None; variables.len()];
-    let mut rest = text.trim();
-    while !rest.is_empty() {
-        let (name, after) =
-            rest.split_once('=').ok_or_else(|| StateError::Malformed(rest.to_string()))?;
-        let after = after.trim_start();
-        let (list, remaining) = match after.strip_prefix('[') {
-            Some(inner) => {
-                inner.split_once(']').ok_or_else(|| StateError::Malformed(after.to_string()))?
-            }
-            None => after.split_once(char::is_whitespace).unwrap_or((after, "")),
-        };
-        rest = remaining.trim_start_matches(|c: char| c.is_whitespace() || c == ',' || c == ';');
-        let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
-        let index = variables.iter().position(|v| v.name == name).ok_or_else(|| {
-            let known: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
-            StateError::Unknown { name: name.clone(), known: known.join(", ") }
-        })?;
-        let numbers: Result<Vec<Rational>, _> = list.split(',').map(|x| x.trim().parse()).collect();
-        let numbers = numbers.map_err(|error: crate::number::rational::RationalError| {
-            StateError::Number(error.to_string())
-        })?;
-        let (expected, found) = (variables[index].len(), numbers.len());
-        if expected != found {
-            return Err(StateError::Length { name, expected, found });
-        }
-        if values[index].is_some() {
-            return Err(StateError::Twice(name));
-        }
-        values[index] = Some(numbers);
-    }
-    let mut state = Vec::new();
-    for (variable, value) in variables.iter().zip(values) {
-        state.extend(value.ok_or_else(|| StateError::Missing(variable.name.clone()))?);
-    }
-    Ok(state)
 }
 
 /// Evaluates everything at `state`, or at state `index` of the seed where it is not given; free
