@@ -59,7 +59,7 @@ pub(super) fn determinant<T: Scalar>(a: &Matrix3<T>) -> T {
 }
 
 /// The adjugate: `adj(A) A = det(A) E`.
-pub(super) fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
+pub(crate) fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| {
         // cyclic indices give the cofactor its sign
         let (r, s, p, q) = ((j + 1) % 3, (j + 2) % 3, (i + 1) % 3, (i + 2) % 3);

@@ -67,6 +67,7 @@ use num_dual::Dual;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
 pub use names::canonical_name;
 pub use scope::{Scope, Symbol};

@@ -2,17 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+pub(super) use crate::formula::adjugate;
 use crate::scalar::Scalar;
-
-/// The adjugate: A adj(A) = det(A) E.
-pub fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
-    let rows = [a.row(0).transpose(), a.row(1).transpose(), a.row(2).transpose()];
-    Matrix3::from_columns(&[
-        rows[1].cross(&rows[2]),
-        rows[2].cross(&rows[0]),
-        rows[0].cross(&rows[1]),
-    ])
-}
 
 /// The determinant, from an adjugate that is already there.
 pub fn determinant_with<T: Scalar>(a: &Matrix3<T>, adjugate: &Matrix3<T>) -> T {
