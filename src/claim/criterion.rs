@@ -9,9 +9,10 @@
 use super::Context;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
+use crate::scalar::Scalar;
 
 /// The criterion; systems without one were refused before.
-pub(super) fn residual(phase: &Phase<'_, Expr>) -> Vec<Expr> {
+pub(super) fn residual<T: Scalar>(phase: &Phase<'_, T>) -> Vec<T> {
     phase.model().system.criterion(phase).into_iter().collect()
 }
 

@@ -10,9 +10,10 @@ use super::Context;
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
+use crate::scalar::Scalar;
 
 /// v(ln ρ) + div v less the cofactors of the level functions.
-pub(super) fn residual(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+pub(super) fn residual<T: Scalar>(jet: &Jet<'_, T>, formula: &Formula, kept: &[bool]) -> Vec<T> {
     let moved = jet.along_field();
     let along = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
     vec![along + jet.divergence() - jet.level_cofactor(kept)]

@@ -6,9 +6,10 @@ use super::Context;
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot, rejection};
+use crate::scalar::Scalar;
 
 /// L_vF
-pub(super) fn residual(jet: &Jet<'_, Expr>, formula: &Formula) -> Vec<Expr> {
+pub(super) fn residual<T: Scalar>(jet: &Jet<'_, T>, formula: &Formula) -> Vec<T> {
     vec![jet.lie_derivative(|at| at.scalar(formula))]
 }
 

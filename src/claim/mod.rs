@@ -12,6 +12,7 @@ use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{Meaning, Model};
+use crate::scalar::Scalar;
 
 pub use place::Place;
 
@@ -48,7 +49,7 @@ impl Kind {
     }
 
     /// The scalars that vanish where the claim holds.
-    pub fn residual(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+    pub fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         match self {
             Kind::Integral(formula) => integral::residual(jet, formula),
             Kind::Density(formula) => density::residual(jet, formula, kept),

@@ -18,7 +18,7 @@
 //! error below one unit in the last place; two are allowed for here.
 
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{Domain, Enclosing, Function, Operation};
 
 /// Unit roundoff of f64 under rounding to nearest.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -136,6 +136,18 @@ impl<const N: usize> Domain for Ball<N> {
     fn power(&self, x: &Balls<N>, exponent: &Rational, out: &mut Balls<N>) {
         let (b, rb) = enclose(exponent);
         map(x, out, |a, ra| power(a, ra, b, rb));
+    }
+}
+
+impl<const N: usize> Enclosing for Ball<N> {
+    const LANES: usize = N;
+
+    fn enclosure(block: &Balls<N>, lane: usize) -> Option<(f64, f64)> {
+        block.is_defined(lane).then(|| (block.mid[lane], block.rad[lane]))
+    }
+
+    fn excludes_zero(block: &Balls<N>, lane: usize) -> bool {
+        block.excludes_zero(lane)
     }
 }
 

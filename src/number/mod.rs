@@ -71,3 +71,16 @@ pub trait Domain {
     /// `out = x^exponent`; x > 0 unless the exponent is an integer.
     fn power(&self, x: &Self::Block, exponent: &Rational, out: &mut Self::Block);
 }
+
+/// A domain whose values enclose the true ones, so that a value away from 0 refutes.
+pub trait Enclosing: Domain {
+    /// How many lanes a block has.
+    const LANES: usize;
+
+    /// Midpoint and radius of a lane in f64, the radius wide enough for both roundings; `None`
+    /// where the lane is undefined or unbounded.
+    fn enclosure(block: &Self::Block, lane: usize) -> Option<(f64, f64)>;
+
+    /// Is 0 outside the enclosure? Never where the lane is undefined.
+    fn excludes_zero(block: &Self::Block, lane: usize) -> bool;
+}
