@@ -7,6 +7,7 @@
 pub mod ball;
 pub mod exact;
 pub mod float;
+pub mod prime;
 pub mod rational;
 
 use rational::Rational;
