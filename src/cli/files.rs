@@ -24,7 +24,7 @@ pub fn judge(paths: &[PathBuf], sampling: Sampling) -> Result<RunReport, String>
         .num_threads(threads)
         .build()
         .map_err(|error| format!("error: cannot start threads: {error}"))?;
-    let options = Options { seed: sampling.seed, states: sampling.states };
+    let options = sampling.options();
     let bar = bar(files.len() as u64);
     let outcomes = pool.install(|| {
         files

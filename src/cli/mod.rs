@@ -9,7 +9,7 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
@@ -38,9 +38,32 @@ pub struct Sampling {
     /// How many states a claim must survive (rounded up to blocks of 64)
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub states: u64,
+    /// What a claim that holds needs: a proof, or states in floating point alone (faster). By
+    /// default a proof is tried, and a confirmation taken where there is none
+    #[arg(long, value_enum)]
+    pub trust: Option<Trust>,
     /// How many threads to use; all cores by default. Results do not depend on it
     #[arg(long)]
     pub threads: Option<usize>,
+}
+
+/// What the user insists on.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Trust {
+    Proof,
+    Float,
+}
+
+impl Sampling {
+    pub fn options(&self) -> liouville::verdict::Options {
+        use liouville::verdict::{Options, Trust as Asked};
+        let trust = match self.trust {
+            Some(Trust::Proof) => Asked::Proof,
+            Some(Trust::Float) => Asked::Float,
+            None => Asked::Best,
+        };
+        Options { seed: self.seed, states: self.states, trust }
+    }
 }
 
 #[derive(Debug, Args)]
