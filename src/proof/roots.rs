@@ -5,6 +5,8 @@
 //! b there, and √A = ±b with the sign that b has at real states. Such a b is looked for among
 //! the steps computed before, times roots: A Π A_i = b² with some of the earlier radicands A_i.
 
+use rustc_hash::FxHashMap;
+
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::rational::Rational;
@@ -83,10 +85,33 @@ pub fn standing(
     standing
 }
 
-/// A root's new value: ±c b / Π √A_i, by places of the original graph.
+/// b, the product or quotient of two values or one alone, by places of the original graph.
+#[derive(Clone, Copy)]
+struct Base {
+    value: usize,
+    /// Another place, and whether it divides.
+    beside: Option<(usize, bool)>,
+}
+
+impl Base {
+    fn places(self) -> impl Iterator<Item = usize> {
+        [Some(self.value), self.beside.map(|(place, _)| place)].into_iter().flatten()
+    }
+
+    fn from(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        let value = at(self.value)?;
+        Some(match self.beside {
+            None => value,
+            Some((place, false)) => value * at(place)?,
+            Some((place, true)) => value / at(place)?,
+        })
+    }
+}
+
+/// A root's new value: ±c b / Π √A_i.
 struct Replacement {
     place: usize,
-    value: usize,
+    base: Base,
     /// c, negative where b is.
     factor: Rational,
     over: Vec<usize>,
@@ -129,9 +154,12 @@ pub fn eliminate(
             .map(|(root, _)| root)
             .collect();
         if let Some(found) = samples.as_ref().and_then(|s| s.square(place, root, &earlier)) {
-            let (value, square, over) = found;
-            let sign = real_signs(graph, &reached, &[value], signs)?[0];
-            let proved = square_is(algebraic, root, value, &square, &over, roots, seed)?;
+            let (base, square, over) = found;
+            let places: Vec<usize> = base.places().collect();
+            let signs = real_signs(graph, &reached, &places, signs)?;
+            // An even number of negative factors.
+            let sign = signs.into_iter().try_fold(true, |sign, next| Some(sign == next?));
+            let proved = square_is(algebraic, root, base, &square, &over, roots, seed)?;
             if let (Some(positive), Some(factor), Some(certificate)) =
                 (sign, crate::number::exact::square_root(&square), proved)
             {
@@ -139,7 +167,7 @@ pub fn eliminate(
                     found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)),
                 );
                 let factor = if positive { factor } else { -&factor };
-                replacements.push(Replacement { place, value, factor, over });
+                replacements.push(Replacement { place, base, factor, over });
             }
         }
     }
@@ -149,7 +177,8 @@ pub fn eliminate(
     let (replaced, values) = record(graph.inputs(), |inputs| {
         let values = graph.replay(&reached, inputs, |place, _, values| {
             let replacement = replacements.iter().find(|r| r.place == place)?;
-            let mut value = values[replacement.value]? * Expr::rational(&replacement.factor);
+            let mut value =
+                replacement.base.from(|at| values[at])? * Expr::rational(&replacement.factor);
             for root in &replacement.over {
                 value /= values[*root]?;
             }
@@ -168,7 +197,7 @@ pub fn eliminate(
 fn square_is(
     algebraic: &Algebraic,
     root: &Root,
-    value: usize,
+    base: Base,
     square: &Rational,
     over: &[usize],
     roots: &[(Root, Standing)],
@@ -182,7 +211,7 @@ fn square_is(
         for (other, _) in roots.iter().filter(|(r, _)| r.place.is_some_and(|p| over.contains(&p))) {
             product *= at(other.radicand)?;
         }
-        let b = at(algebraic.values[value]?)?;
+        let b = base.from(|place| at(algebraic.values[place]?))?;
         let odd = algebraic.odd.iter().map(|(base, index)| Some((at(*base)?, *index)));
         Some((product - b * b * Expr::rational(square), odd.collect::<Option<Vec<_>>>()?))
     })?;
@@ -226,7 +255,8 @@ fn moduli(
     let signs = real_signs(graph, reached, &arguments, signs)?;
     let replacements = found.into_iter().zip(signs).filter_map(|((place, value), sign)| {
         let factor = Rational::from(if sign? { 1 } else { -1 });
-        Some(Replacement { place, value, factor, over: Vec::new() })
+        let base = Base { value, beside: None };
+        Some(Replacement { place, base, factor, over: Vec::new() })
     });
     Ok(replacements.collect())
 }
@@ -310,25 +340,20 @@ impl Samples {
         self.radicands.iter().find(|(sign, _)| *sign == root.sign).map(|(_, values)| values)
     }
 
-    /// An earlier place b, a square c² and earlier roots with A Π A_i = c² b² at all points.
-    ///
+    /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
+    /// points.
     fn square(
         &self,
         place: usize,
         root: &Root,
         earlier: &[&Root],
-    ) -> Option<(usize, Rational, Vec<usize>)> {
+    ) -> Option<(Base, Rational, Vec<usize>)> {
         let radicand = self.radicand(root)?;
-        let subsets = 0u32..1 << earlier.len().min(MOST_FACTORS);
-        for subset in subsets {
-            let chosen: Vec<&&Root> = earlier
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| subset >> k & 1 == 1)
-                .map(|(_, r)| r)
-                .collect();
+        let squares = Squares::of(self, place);
+        for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
+            let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
             let mut target = radicand.clone();
-            for root in &chosen {
+            for (_, root) in chosen() {
                 for ((entry, factor), m) in
                     target.iter_mut().zip(self.radicand(root)?).zip(&self.moduli)
                 {
@@ -342,19 +367,62 @@ impl Samples {
                     .zip(&self.moduli)
                     .map(|(x, m)| Some(m.mul(*x, m.rational(&square.recip()?)?)))
                     .collect();
-                let scaled = scaled?;
-                let found = (0..place).find(|b| {
-                    self.values[*b].as_ref().is_some_and(|values| {
-                        let mut all = values.iter().zip(&scaled).zip(&self.moduli);
-                        all.all(|((b, target), m)| *b != UNDEFINED && m.mul(*b, *b) == *target)
-                    })
-                });
-                if let Some(value) = found {
-                    let over = chosen.iter().filter_map(|root| root.place).collect();
-                    return Some((value, square, over));
+                if let Some(base) = squares.find(&self.moduli, &scaled?) {
+                    let over = chosen().filter_map(|(_, root)| root.place).collect();
+                    return Some((base, square, over));
                 }
             }
         }
         None
+    }
+}
+
+/// The squares of all values before a place, by what they are at the first point.
+struct Squares {
+    squares: Vec<(usize, Vec<u64>)>,
+    at_first: FxHashMap<u64, usize>,
+}
+
+impl Squares {
+    fn of(samples: &Samples, before: usize) -> Self {
+        let mut all = Self { squares: Vec::new(), at_first: FxHashMap::default() };
+        for (place, values) in samples.values.iter().enumerate().take(before) {
+            let Some(values) = values else { continue };
+            // 0 has no inverse, and is the square of nothing that is asked for.
+            if values.iter().all(|value| *value != UNDEFINED && *value != 0) {
+                let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
+                let square: Vec<u64> = square.collect();
+                if let Some(first) = square.first() {
+                    all.at_first.entry(*first).or_insert(all.squares.len());
+                    all.squares.push((place, square));
+                }
+            }
+        }
+        all
+    }
+
+    /// The place whose square this is.
+    fn place(&self, target: &[u64]) -> Option<usize> {
+        let (place, square) = &self.squares[*self.at_first.get(target.first()?)?];
+        (square == target).then_some(*place)
+    }
+
+    fn find(&self, moduli: &[Modulus], target: &[u64]) -> Option<Base> {
+        if let Some(value) = self.place(target) {
+            return Some(Base { value, beside: None });
+        }
+        let combined = |square: &[u64], over: bool| -> Vec<u64> {
+            let pairs = target.iter().zip(square).zip(moduli);
+            pairs.map(|((t, s), m)| m.mul(*t, if over { *s } else { m.inverse(*s) })).collect()
+        };
+        self.squares.iter().find_map(|(place, square)| {
+            [false, true].into_iter().find_map(|over| {
+                // The first point decides almost always.
+                let first = combined(&square[..1], over);
+                self.at_first.get(first.first()?)?;
+                let value = self.place(&combined(square, over))?;
+                Some(Base { value, beside: Some((*place, over)) })
+            })
+        })
     }
 }
