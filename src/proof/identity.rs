@@ -67,8 +67,8 @@ impl Certificate {
         // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
-            points: self.points + other.points,
-            draws: self.draws + other.draws,
+            points: self.points.min(other.points),
+            draws: self.draws.max(other.draws),
             degree: self.degree.max(other.degree),
             height: self.height.max(other.height),
             roots: self.roots.max(other.roots),

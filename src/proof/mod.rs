@@ -11,12 +11,15 @@
 //! | `bounds` | degree and height on the graph, denominators kept in factors |
 //! | `chance` | random primes and points |
 //! | `identity` | Theorem 1: the test itself |
+//! | `elimination`, `rank` | linear algebra modulo a prime |
 //! | `roots` | independent roots certified, dependent ones eliminated |
 
 mod algebraic;
 mod bounds;
 mod chance;
+mod elimination;
 mod identity;
+mod rank;
 mod relations;
 mod roots;
 mod symbols;

@@ -8,6 +8,7 @@ use crate::scalar::Scalar;
 use super::algebraic::Algebraic;
 use super::bounds::Source;
 use super::chance::Chance;
+use super::elimination::reduce;
 use super::identity::{LANES, Outcome, Trial, points};
 use super::symbols::Symbols;
 
@@ -139,30 +140,6 @@ impl<'g> Relations<'g> {
     }
 }
 
-/// Reduced row echelon form modulo p: the pivot columns, and the rows that have them.
-fn reduce(mut rows: Vec<Vec<u64>>, columns: usize, m: &Modulus) -> (Vec<usize>, Vec<Vec<u64>>) {
-    let mut pivots = Vec::new();
-    for column in 0..columns {
-        let done = pivots.len();
-        let Some(found) = (done..rows.len()).find(|row| rows[*row][column] != 0) else { continue };
-        rows.swap(done, found);
-        let inverse = m.inverse(rows[done][column]);
-        rows[done].iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
-        let pivot = rows[done].clone();
-        for row in (0..rows.len()).filter(|row| *row != done) {
-            let factor = rows[row][column];
-            if factor != 0 {
-                for (entry, pivot) in rows[row].iter_mut().zip(&pivot) {
-                    *entry = m.sub(*entry, m.mul(factor, *pivot));
-                }
-            }
-        }
-        pivots.push(column);
-    }
-    rows.truncate(pivots.len());
-    (pivots, rows)
-}
-
 /// The fraction of small parts with this image, if there is one; it is then the only one.
 fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
     // Half of Euclid's algorithm: r_i = t_i x mod p at every step.
@@ -189,15 +166,5 @@ mod tests {
             let image = modulus.rational(&value).expect("p does not divide d");
             assert_eq!(reconstruct(image, &modulus), Some(value), "{n}/{d}");
         }
-    }
-
-    #[test]
-    fn elimination_names_the_basis() {
-        let m = Chance::new(3, 0).prime(&[], &[]);
-        let n = |x: u64| m.integer(x);
-        let rows = vec![vec![n(1), n(2), n(5)], vec![n(2), n(4), n(11)], vec![n(3), n(6), n(16)]];
-        let (pivots, rows) = reduce(rows, 3, &m);
-        assert_eq!(pivots, [0, 2], "the second column is twice the first");
-        assert_eq!(rows[0][1], n(2), "twice");
     }
 }

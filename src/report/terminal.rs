@@ -110,15 +110,22 @@ fn remark(claim: &ClaimReport) -> String {
                 Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }
-            if evidence.method.starts_with("ball") {
-                words.push(format!("{} states", evidence.samples));
-            }
+            words.push(match &evidence.proof {
+                Some(proof) => format!("{}, error < 2^{:.0}", evidence.method, proof.error_log2),
+                None if evidence.samples > 0 => {
+                    format!("{}, {} states", evidence.method, evidence.samples)
+                }
+                None => evidence.method.to_string(),
+            });
         }
         Verdict::Refuted => {
             if let Some(witness) = &evidence.witness {
                 words.push(format!("{:.2e} at state {}", witness.residual, witness.index));
+                if evidence.method != "ball" {
+                    words.push(evidence.method.to_string());
+                }
             } else {
-                words.push("at every state".to_string());
+                words.push(format!("at almost every state, {}", evidence.method));
             }
         }
         Verdict::Undecided => {}
@@ -138,16 +145,13 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        out.push_str(&format!(
-            "      method    {}, {} states, {} operations a state\n",
-            evidence.method, evidence.samples, evidence.operations
-        ));
-        if let (Some(residual), Some(scaled)) =
-            (evidence.max_residual, evidence.max_scaled_residual)
-        {
-            out.push_str(&format!(
-                "      residual  at most {residual:.1e}, {scaled:.3} of its error bound\n"
-            ));
+        out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        for (index, rung) in evidence.climb.iter().enumerate() {
+            let label = if index == 0 { "climb" } else { "" };
+            out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
+        }
+        if let Some(scaled) = evidence.max_scaled_residual {
+            out.push_str(&format!("      rounding  {scaled:.3} of its error bound at most\n"));
         }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));

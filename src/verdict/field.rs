@@ -52,6 +52,30 @@ impl<'a> Field<'a> {
         Ok(outcomes.into_iter().flatten().collect())
     }
 
+    /// The ranks of the first `n` rows of a matrix of values, for each n in `heights`, at a random
+    /// state of the place; the least over listed parameter values.
+    pub fn ranks(
+        &self,
+        rows: &[Vec<Expr>],
+        heights: &[usize],
+    ) -> Result<Option<Vec<usize>>, Fault> {
+        let mut least: Option<Vec<usize>> = None;
+        if self.sampler.is_numerical() {
+            return Ok(None);
+        }
+        for fixed in combinations(self.sampler.recipes()).unwrap_or_default() {
+            let (graph, rows) = self.sampler.compose(self.bench.graph, rows, &fixed)?;
+            let signs = |graph: &Graph, values: &[Expr]| self.signs(graph, values);
+            let prover = Prover { sources: &[], signs: &signs, seed: self.bench.options.seed };
+            let Some(found) = prover.ranks(&graph, &rows, heights)? else { return Ok(None) };
+            least = Some(match least {
+                None => found,
+                Some(before) => before.into_iter().zip(found).map(|(a, b)| a.min(b)).collect(),
+            });
+        }
+        Ok(least)
+    }
+
     /// The signs of values of a composed graph at the states that balls have, where all agree.
     fn signs(&self, graph: &Graph, values: &[Expr]) -> Vec<Option<bool>> {
         let tape = Tape::new(graph, values);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::evidence::{Evidence, Independence, Verdict};
+use super::evidence::{Evidence, Independence, Rung, Verdict};
 use super::recorded::{Recorded, Span};
 use super::run::{Doubles, Values};
 use super::sampler::LANES;
@@ -27,6 +27,14 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// Notes what a rung found.
+    pub fn rung(&mut self, rung: &'static str, found: String) {
+        match self.evidence.climb.last_mut() {
+            Some(last) if last.rung == rung => last.found = found,
+            _ => self.evidence.climb.push(Rung { rung, found }),
+        }
+    }
+
     /// Does the claim hold, as far as is known?
     pub fn holds(&self) -> bool {
         matches!(self.settled, Some(Verdict::Confirmed | Verdict::Proved))
@@ -39,6 +47,7 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
     if let Some(constants) = constants {
         finding.evidence.method = "folding";
+        finding.rung("folding", "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
         finding.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
         if !zero {
@@ -140,6 +149,11 @@ impl Look {
                 self.resolved, self.states
             )
         })
+    }
+
+    /// Has the residual a value at some state?
+    pub fn has_value(&self) -> bool {
+        self.defined > 0
     }
 
     /// Does some enclosure exclude 0?

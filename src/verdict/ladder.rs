@@ -10,9 +10,9 @@
 //! ```
 
 use super::bench::Bench;
-use super::evidence::{Proof, Rung, Verdict};
+use super::evidence::{Proof, Verdict};
 use super::field::Field;
-use super::finding::{Finding, fold, undecide, weigh};
+use super::finding::{Finding, Look, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
 use super::run::{Run, Values};
@@ -22,7 +22,14 @@ use crate::claim::Place;
 use crate::graph::Expr;
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
+use crate::number::precise::Precise;
+use crate::number::twofold::TwofoldBall;
 use crate::proof::Outcome;
+
+/// Precisions of the last rung.
+const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
+/// States that are tried with each of them.
+const PRECISE_STATES: u64 = 4;
 
 type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
 
@@ -177,7 +184,41 @@ impl Bench<'_> {
         }
     }
 
-    fn more_digits(&self, _: &Sampler, _: &mut Open<'_, '_>) {}
+    /// Balls with ever more digits, for claims that are still open.
+    fn more_digits(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let mut left: Vec<_> =
+            open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
+        if left.is_empty() {
+            return;
+        }
+        let (run, spans) = self.lay_out(left.iter().map(|(item, _)| *item), true);
+        let domain = TwofoldBall::<LANES>;
+        let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
+        for ((item, finding), span) in left.iter_mut().zip(&spans) {
+            let method = "double-double ball";
+            finding.evidence.method = method;
+            self.examine(sampler, 0, span, &values, finding);
+            let residual = values.range(span.residual.clone());
+            let scale = values.range(span.scale.clone()).first().copied();
+            let look = Look::at::<TwofoldBall<LANES>>(&residual, scale);
+            finding.blurred = look.blur(item.claim.kind.name());
+        }
+        for (item, finding) in left.iter_mut().filter(|(_, f)| f.settled.is_none() && f.is_nonzero)
+        {
+            let run = self.run(&item.residual);
+            let all = 0..item.residual.len();
+            for bits in BITS {
+                let domain = Precise::new(bits);
+                finding.evidence.method = "ball of many bits";
+                for index in 0..PRECISE_STATES {
+                    let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                    if finding.settled.is_none() {
+                        self.seek_witness(sampler, index, all.clone(), &values, finding);
+                    }
+                }
+            }
+        }
+    }
 
     /// One tape for some claims.
     fn lay_out<'r>(
@@ -261,15 +302,5 @@ impl Bench<'_> {
             }
         }
         false
-    }
-}
-
-impl Finding {
-    /// Notes what a rung found.
-    fn rung(&mut self, rung: &'static str, found: String) {
-        match self.evidence.climb.last_mut() {
-            Some(last) if last.rung == rung => last.found = found,
-            _ => self.evidence.climb.push(Rung { rung, found }),
-        }
     }
 }
