@@ -62,7 +62,7 @@ impl Sampling {
             Some(Trust::Float) => Asked::Float,
             None => Asked::Best,
         };
-        Options { seed: self.seed, states: self.states, trust }
+        Options { seed: self.seed, states: self.states, trust, mutants: false }
     }
 }
 
@@ -74,11 +74,19 @@ pub struct Check {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Perturb every true formula, and refute each mutant that is not equivalent
+    #[arg(long)]
+    pub mutants: bool,
     /// Show witnesses and how each verdict came about
     #[arg(short, long)]
     pub verbose: bool,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+fn parse_digits(text: &str) -> Result<usize, String> {
+    let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
+    (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
 }
 
 #[derive(Debug, Args)]
@@ -94,6 +102,10 @@ pub struct Eval {
     /// The number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
+    /// How many significant digits to print, all of them right (up to 2000); without it, numbers
+    /// are rounded to f64 and come with a bound on their error
+    #[arg(long, value_parser = parse_digits)]
+    pub digits: Option<usize>,
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

@@ -23,6 +23,7 @@ pub fn render(run: &RunReport, style: Style) -> String {
         out.push_str(&case(outcome, style));
         out.push('\n');
     }
+    out.push_str(&mutants(run));
     out.push_str(&summary(run));
     out
 }
@@ -179,6 +180,24 @@ fn details(report: &CaseReport) -> String {
     out
 }
 
+/// Mutants that are to be looked at.
+fn mutants(run: &RunReport) -> String {
+    let mut out = String::new();
+    for (outcome, report) in run.mutants() {
+        let marked = [("survived", &report.survived), ("discovered", &report.discovered)];
+        for (word, list) in marked {
+            for mutant in list {
+                let (claim, change) = (&mutant.claim, &mutant.change);
+                out.push_str(&format!(
+                    "mutant {word}: {}, claim {claim}: {change}\n    {}\n",
+                    outcome.path, mutant.formula
+                ));
+            }
+        }
+    }
+    out
+}
+
 fn summary(run: &RunReport) -> String {
     let summary = run.summary();
     let count = |number: usize, noun: &str| match number {
@@ -197,6 +216,12 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if let Some(mutants) = summary.mutants {
+        line.push_str(&format!(
+            "; mutants: {} killed, {} survived, {} equivalent, {} discovered",
+            mutants.killed, mutants.survived, mutants.equivalent, mutants.discovered
+        ));
     }
     format!("{line}; {:.2} s, seed {}\n", summary.seconds, run.seed)
 }

@@ -4,6 +4,7 @@ use super::bench::Bench;
 use super::conclude::report;
 use super::evidence::ClaimReport;
 use super::finding::Finding;
+use super::mutants::{MutationReport, mutate};
 use super::recorded::{Common, Recorded};
 use super::sampler::LANES;
 use crate::case::Case;
@@ -21,6 +22,8 @@ pub struct Options {
     pub states: u64,
     /// What is asked of a verdict that a claim holds.
     pub trust: Trust,
+    /// Are true formulas to be perturbed, to see whether each mutant is refuted?
+    pub mutants: bool,
 }
 
 /// What is asked of a verdict that a claim holds.
@@ -37,7 +40,7 @@ pub enum Trust {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, states: 4 * LANES as u64, trust: Trust::Best }
+        Self { seed: 1, states: 4 * LANES as u64, trust: Trust::Best, mutants: false }
     }
 }
 
@@ -48,6 +51,8 @@ pub struct CaseReport {
     pub claims: Vec<ClaimReport>,
     /// What is physically impossible about the states that were drawn.
     pub warnings: Vec<String>,
+    /// What became of mutants, if they were asked for.
+    pub mutants: Option<MutationReport>,
 }
 
 /// Why a case cannot be judged.
@@ -159,10 +164,11 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
                 .to_string(),
         );
     }
-    let claims = recorded
+    let claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(findings)
         .map(|(item, finding)| report(case, item, finding, options))
         .collect();
-    Ok(CaseReport { claims, warnings })
+    let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
+    Ok(CaseReport { claims, warnings, mutants })
 }

@@ -13,6 +13,7 @@ mod field;
 mod finding;
 mod judge;
 mod ladder;
+mod mutants;
 mod newton;
 mod physics;
 mod point;
@@ -26,7 +27,8 @@ mod witness;
 
 pub use evidence::{ClaimReport, Evidence, Independence, Proof, Rung, Sign, Verdict, Witness};
 pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
-pub use point::{Enclosed, Named, PointReport, evaluate};
+pub use mutants::{MutantReport, MutationReport};
+pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
 pub use sampler::{LANES, Sampler};
 pub use state::{StateError, read_state};
 

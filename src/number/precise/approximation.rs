@@ -65,6 +65,11 @@ impl Approximation {
         (&self.mantissa, self.exponent, self.radius)
     }
 
+    /// The midpoint alone.
+    pub fn midpoint(&self) -> Self {
+        Self { radius: 0, ..self.clone() }
+    }
+
     /// Is this 0 exactly?
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero() && self.radius == 0
@@ -104,9 +109,7 @@ impl Approximation {
         let Some(nearest) = Self::from_f64(hi) else { return (hi, 0.0, f64::INFINITY) };
         let rest = self.add(&nearest.neg(), u32::MAX);
         let (lo, rad) = rest.enclosure();
-        // hi was cut off, not rounded: their sum is split again, exactly.
-        let sum = hi + lo;
-        (sum, lo - (sum - hi), rad)
+        (hi, lo, rad)
     }
 
     /// |approximate - this|, rounded to f64; infinite for what is not finite.
@@ -226,10 +229,16 @@ impl Approximation {
     }
 }
 
-/// The f64 next to m·2^e towards 0, or the nearest where it is subnormal.
+/// The f64 nearest to m·2^e; one of the nearest two where it is subnormal.
 fn to_f64(mantissa: &BigInt, exponent: i64) -> f64 {
-    let shift = mantissa.bits().saturating_sub(f64::MANTISSA_DIGITS.into());
-    let head = (mantissa >> shift).to_f64().unwrap_or(0.0);
+    let size = mantissa.magnitude();
+    let shift = size.bits().saturating_sub(64);
+    let mut head = (size >> shift).to_u64().unwrap_or(0);
+    if size.trailing_zeros().is_some_and(|zeros| zeros < shift) {
+        // Something was cut off: no tie any more.
+        head |= 1;
+    }
     let exponent = (exponent + shift as i64).clamp(-4000, 4000) as i32;
-    libm::scalbn(head, exponent)
+    let value = libm::scalbn(head as f64, exponent);
+    if mantissa.is_negative() { -value } else { value }
 }
