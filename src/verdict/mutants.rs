@@ -195,7 +195,10 @@ fn depends(
     let (graph, (rows, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = Jet::new(Phase::new(model, parameters, state));
-        let mut rows = jet.level_gradients(&claim.place.kept);
+        // Where the level functions are integrals everywhere, all of them are known to be.
+        let all = vec![true; model.level.len()];
+        let known = if model.system.conserves_level() { &all } else { &claim.place.kept };
+        let mut rows = jet.level_gradients(known);
         if model.system.energy(&jet.phase).is_some() {
             rows.push(jet.gradient(|at| model.system.energy(at).unwrap_or_else(Zero::zero)));
         }
