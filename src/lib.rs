@@ -72,4 +72,5 @@ pub mod number;
 pub mod proof;
 pub mod report;
 pub mod scalar;
+pub mod stress;
 pub mod verdict;

@@ -3,10 +3,11 @@
 pub mod check;
 pub mod eval;
 mod files;
+pub mod stress;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -27,6 +28,8 @@ pub enum Command {
     Eval(Eval),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
+    /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right
+    Stress(Stress),
 }
 
 /// How states are drawn.
@@ -127,6 +130,35 @@ pub struct Table {
     pub json: bool,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+#[derive(Debug, Args)]
+pub struct Stress {
+    /// How many random bodies are judged at each power of ten
+    #[arg(long, default_value_t = 1)]
+    pub bodies: u64,
+    /// Seed of all random numbers
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// How many threads to use; all cores by default
+    #[arg(long)]
+    pub threads: Option<usize>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the heat map
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+}
+
+/// Writes a file that the user asked for.
+pub fn write(path: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|error| {
+        format!(
+            "error: cannot write {}: {error}\nhelp: check that its folder exists",
+            path.display()
+        )
+    })
 }
 
 /// What a command has to say: text for standard output, and the exit code.

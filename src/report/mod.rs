@@ -3,6 +3,7 @@
 pub mod diagnostic;
 pub mod json;
 pub mod point;
+pub mod stress;
 pub mod table;
 pub mod terminal;
 

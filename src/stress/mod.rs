@@ -1,0 +1,77 @@
+//! What makes the numbers hard: degenerate bodies, extreme ratios, states at the edge of charts,
+//! and claims that are wrong by almost nothing.
+//!
+//! Each [`Scenario`] sweeps one quantity x over powers of ten. At each x it is asked how many digits
+//! f64 loses against a reference of 256 bits at the same states, and whether the verdicts on all
+//! claims are still right: degenerate is not false, and nearly true is not true.
+
+mod precision;
+mod scenarios;
+
+pub use precision::{Loss, digits_lost};
+pub use scenarios::{SCENARIOS, Scenario, Sweep};
+
+use crate::case::{Case, CaseError, Expect};
+use crate::verdict::{JudgeError, Options, Verdict, judge};
+
+/// Verdicts on the claims of stressed cases, against what is known of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Tally {
+    /// Claims judged.
+    pub judged: usize,
+    /// Decided otherwise than is true: never, if the tool is right.
+    pub wrong: usize,
+    /// Proved, or refuted.
+    pub decided: usize,
+}
+
+impl Tally {
+    /// Both together.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            judged: self.judged + other.judged,
+            wrong: self.wrong + other.wrong,
+            decided: self.decided + other.decided,
+        }
+    }
+}
+
+/// Why a stressed case could not be judged.
+#[derive(Debug, thiserror::Error)]
+pub enum StressError {
+    /// Its parameters are refused.
+    #[error("{0}")]
+    Case(Box<CaseError>),
+    /// Its states cannot be made.
+    #[error(transparent)]
+    Judge(#[from] JudgeError),
+}
+
+/// Judges all claims of a scenario at x = 10^exponent, with the random numbers of `seed`.
+pub fn verdicts(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Tally, StressError> {
+    let case = scenario.case(exponent, seed)?;
+    let report = judge(&case, &Options { seed, states: 64, ..Options::default() })?;
+    let mut tally = Tally::default();
+    for (claim, report) in case.claims.iter().zip(&report.claims) {
+        let truth = match claim.expect {
+            Expect::Holds => true,
+            Expect::Fails => false,
+            Expect::Open => continue,
+        };
+        let found = match report.verdict {
+            Verdict::Proved | Verdict::Confirmed => Some(true),
+            Verdict::Refuted => Some(false),
+            Verdict::Undecided => None,
+        };
+        tally.judged += 1;
+        tally.wrong += usize::from(found.is_some_and(|found| found != truth));
+        let decided = matches!(report.verdict, Verdict::Proved | Verdict::Refuted);
+        tally.decided += usize::from(decided);
+    }
+    Ok(tally)
+}
+
+/// Reads a case with parameters put in.
+fn read(text: &str, settings: &[crate::case::Setting]) -> Result<Case, StressError> {
+    Case::parse(text, settings).map_err(|error| StressError::Case(Box::new(error)))
+}
