@@ -149,7 +149,8 @@ pub const SCENARIOS: [Scenario; 19] = [
         from: -8,
         to: 8,
         sweep: Sweep::Parameters(|x, random| {
-            vec![("m", x.to_string()), ("μ", within(random, 0.5, 3.0))]
+            // Some wrong readings are right for m = 1.
+            vec![("m", format!("3*{x}")), ("μ", within(random, 0.5, 3.0))]
         }),
     },
     Scenario {
@@ -193,7 +194,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         from: 0,
         to: 8,
         sweep: Sweep::Parameters(|x, random| {
-            vec![("k", x.to_string()), ("mu", within(random, 3.0, 6.0))]
+            vec![("k", x.to_string()), ("μ", within(random, 3.0, 6.0))]
         }),
     },
     Scenario {
@@ -202,7 +203,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         from: -8,
         to: 8,
         sweep: Sweep::Parameters(|x, random| {
-            vec![("mu", x.to_string()), ("k", within(random, 0.1, 0.5))]
+            vec![("μ", x.to_string()), ("k", within(random, 0.1, 0.5))]
         }),
     },
     Scenario {

@@ -10,6 +10,7 @@ use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::number::ball::{Ball, Balls};
+use crate::number::twofold::TwofoldBall;
 
 /// A case on the bench: its graph and how to run parts of it.
 pub struct Bench<'a> {
@@ -60,7 +61,8 @@ impl Bench<'_> {
                 return Err(JudgeError::OffLevel { equation, by });
             }
         }
-        if (0..LANES).all(|lane| !defined(&values.range(0..fields), lane)) {
+        let undefined = (0..LANES).all(|lane| !defined(&values.range(0..fields), lane));
+        if undefined && !self.has_field_with_more_digits(&sampler) {
             return Err(JudgeError::Singular(LANES as u64));
         }
         for (equation, index) in model.level.iter().zip(rates..physics) {
@@ -72,6 +74,18 @@ impl Bench<'_> {
         }
         sampler.check_coverage(self.case)?;
         Ok(physics::warnings(&physical))
+    }
+
+    /// Has the field a value at some state, in double-double?
+    fn has_field_with_more_digits(&self, sampler: &Sampler) -> bool {
+        let domain = TwofoldBall::<LANES>;
+        if sampler.is_numerical() {
+            return false;
+        }
+        let states = sampler.states(&domain, LANES, 0);
+        let values = self.run(&self.common.field).at(&domain, &states);
+        let field = values.range(0..self.common.field.len());
+        (0..LANES).any(|lane| field.iter().all(|block| block.is_defined(lane)))
     }
 
     /// Checks that no level equation of the user's follows from those before it.

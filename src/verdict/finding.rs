@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::evidence::{Evidence, Independence, Rung, Verdict};
 use super::recorded::{Recorded, Span};
-use super::run::{Doubles, Values};
+use super::run::Values;
 use super::sampler::LANES;
 use crate::graph::Graph;
 use crate::number::Enclosing;
@@ -22,7 +22,11 @@ pub struct Finding {
     pub evidence: Evidence,
     /// Did a prime field show that the residual is no identity?
     pub is_nonzero: bool,
-    /// Did rounding blur the residual in f64, and how?
+    /// Is the residual zero in prime fields?
+    pub is_zero: bool,
+    /// Has something no value, as far as the digits used so far can tell?
+    pub undefined: Option<String>,
+    /// Did rounding blur the residual, and how?
     pub blurred: Option<String>,
 }
 
@@ -59,21 +63,29 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
 
 /// What the first block tells beside the residual: does the formula have a value, are the
 /// quadratures functions of their variable, is the residual resolved, is the integral new?
-pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values<Doubles>, finding: &mut Finding) {
+pub fn weigh<D: Enclosing>(
+    item: &Recorded<'_>,
+    span: &Span,
+    values: &Values<D>,
+    finding: &mut Finding,
+) {
     let look = |range: &Range<usize>, scale: &Range<usize>| {
-        Look::at::<Doubles>(
-            &values.range(range.clone()),
-            values.range(scale.clone()).first().copied(),
-        )
+        Look::at::<D>(&values.range(range.clone()), values.range(scale.clone()).first().copied())
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
+    finding.undefined = None;
     if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
-        let reason = format!("the formula of this {kind} has no value at {LANES} states");
-        return undecide(finding, reason);
+        finding.undefined =
+            Some(format!("the formula of this {kind} has no value at {LANES} states"));
     }
-    if !span.defects.is_empty() && !look(&span.defects, &none).is_zero() {
-        let reason = "the integrand of an ∫ is not a function of its variable alone";
-        return undecide(finding, reason.to_string());
+    if !span.defects.is_empty() {
+        let defects = look(&span.defects, &none);
+        let reason = "the integrand of an ∫ is not a function of its variable alone".to_string();
+        match (defects.excludes_zero, defects.is_zero()) {
+            (true, _) => return undecide(finding, reason),
+            (_, false) => finding.undefined = Some(reason),
+            _ => {}
+        }
     }
     if !span.off_level.is_empty() {
         let (own, general) =
@@ -88,15 +100,17 @@ pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values<Doubles>, finding
         };
     }
     if finding.settled.is_some() {
+        if let Some(reason) = finding.undefined.take() {
+            undecide(finding, reason);
+        }
         return;
     }
     let residual = look(&span.residual, &span.scale);
     if residual.defined == 0 {
         let reason = format!("the residual is undefined at all {LANES} states that were drawn");
-        undecide(finding, reason);
-    } else {
-        finding.blurred = residual.blur(kind);
+        finding.undefined.get_or_insert(reason);
     }
+    finding.blurred = residual.blur(kind);
 }
 
 /// What a block of states shows of a residual.

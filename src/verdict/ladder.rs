@@ -12,7 +12,7 @@
 use super::bench::Bench;
 use super::evidence::{Proof, Verdict};
 use super::field::Field;
-use super::finding::{Finding, Look, fold, undecide, weigh};
+use super::finding::{Finding, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
 use super::run::{Run, Values};
@@ -55,17 +55,7 @@ impl Bench<'_> {
             self.more_digits(&sampler, &mut open);
         }
         for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.settled.is_none()) {
-            finding.settled = Some(Verdict::Confirmed);
-            if let Some(reason) = finding.blurred.take() {
-                undecide(finding, reason);
-            } else if finding.is_nonzero {
-                finding.settled = Some(Verdict::Refuted);
-                finding.evidence.method = "prime field";
-                finding.evidence.reason = Some(format!(
-                    "modulo a prime the residual of this {} is not 0, so it is no identity",
-                    item.claim.kind.name()
-                ));
-            }
+            conclude(item, finding);
         }
         let holding = open.into_iter().filter(|(_, finding)| finding.holds());
         self.settle_signs(&sampler, holding);
@@ -135,8 +125,11 @@ impl Bench<'_> {
                     let proof = Proof::from(certificate);
                     finding.rung("prime field", proof.to_string());
                     finding.evidence.proof = Some(proof);
-                    finding.evidence.method = "prime field";
-                    finding.settled = Some(Verdict::Proved);
+                    finding.is_zero = true;
+                    if finding.undefined.is_none() {
+                        finding.evidence.method = "prime field";
+                        finding.settled = Some(Verdict::Proved);
+                    }
                 }
                 Outcome::NonZero => {
                     finding.rung("prime field", "not 0, so no identity".to_string());
@@ -166,7 +159,9 @@ impl Bench<'_> {
         for block in 1..self.blocks() {
             let mut left: Vec<_> = open
                 .iter_mut()
-                .filter(|(_, finding)| finding.settled.is_none() && !finding.is_nonzero)
+                .filter(|(_, finding)| {
+                    finding.settled.is_none() && !finding.is_nonzero && !finding.is_zero
+                })
                 .collect();
             if left.is_empty() {
                 return;
@@ -197,11 +192,10 @@ impl Bench<'_> {
         for ((item, finding), span) in left.iter_mut().zip(&spans) {
             let method = "double-double ball";
             finding.evidence.method = method;
-            self.examine(sampler, 0, span, &values, finding);
-            let residual = values.range(span.residual.clone());
-            let scale = values.range(span.scale.clone()).first().copied();
-            let look = Look::at::<TwofoldBall<LANES>>(&residual, scale);
-            finding.blurred = look.blur(item.claim.kind.name());
+            weigh(item, span, &values, finding);
+            if finding.settled.is_none() {
+                self.examine(sampler, 0, span, &values, finding);
+            }
         }
         for (item, finding) in left.iter_mut().filter(|(_, f)| f.settled.is_none() && f.is_nonzero)
         {
@@ -302,5 +296,31 @@ impl Bench<'_> {
             }
         }
         false
+    }
+}
+
+/// The verdict on a claim that no state refuted.
+fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
+    let kind = item.claim.kind.name();
+    let mut settle = |verdict: Verdict, method: &'static str| {
+        finding.settled = Some(verdict);
+        if !method.is_empty() {
+            finding.evidence.method = method;
+        }
+    };
+    if let Some(reason) = finding.undefined.take() {
+        finding.evidence.proof = None;
+        undecide(finding, reason);
+    } else if finding.is_zero {
+        settle(Verdict::Proved, "prime field");
+    } else if finding.is_nonzero {
+        settle(Verdict::Refuted, "prime field");
+        finding.evidence.reason = Some(format!(
+            "modulo a prime the residual of this {kind} is not 0, so it is no identity"
+        ));
+    } else if let Some(reason) = finding.blurred.take() {
+        undecide(finding, reason);
+    } else {
+        settle(Verdict::Confirmed, "");
     }
 }

@@ -134,13 +134,27 @@ impl Sampler {
 
     /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
     pub fn balls_sharing_parameters(&self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
-        self.balls_of(|lane| {
-            let set = lane * sets / LANES;
-            let mut values = self.draws.state(self.seed, set as u64);
-            let own = self.draws.state(self.seed, start + lane as u64);
-            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
-            values
-        })
+        self.balls_of(|lane| self.numbers_sharing_parameters(start, sets, lane))
+    }
+
+    /// The same in another domain.
+    pub fn states_sharing_parameters<D: Domain + Clone>(
+        &self,
+        domain: &D,
+        start: u64,
+        sets: usize,
+    ) -> Vec<D::Block> {
+        let numbers: Vec<Vec<Rational>> =
+            (0..LANES).map(|lane| self.numbers_sharing_parameters(start, sets, lane)).collect();
+        self.made_in(domain, &numbers)
+    }
+
+    fn numbers_sharing_parameters(&self, start: u64, sets: usize, lane: usize) -> Vec<Rational> {
+        let set = lane * sets / LANES;
+        let mut values = self.draws.state(self.seed, set as u64);
+        let own = self.draws.state(self.seed, start + lane as u64);
+        values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+        values
     }
 
     fn balls_of(&self, draws_of: impl Fn(usize) -> Vec<Rational>) -> Vec<Balls<LANES>> {

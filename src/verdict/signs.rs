@@ -4,10 +4,13 @@ use super::bench::Bench;
 use super::evidence::Sign;
 use super::finding::{Finding, undecide};
 use super::recorded::Recorded;
+use super::run::Values;
 use super::sampler::{LANES, Sampler};
 use crate::claim::Kind;
 use crate::graph::Expr;
+use crate::number::Enclosing;
 use crate::number::ball::Ball;
+use crate::number::twofold::TwofoldBall;
 
 /// Parameter sets over which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
@@ -31,19 +34,29 @@ impl Bench<'_> {
         let mut seen = vec![[[false; 2]; PARAMETER_SETS]; densities.len()];
         for block in 0..self.blocks() {
             let states = sampler.balls_sharing_parameters(block * LANES as u64, PARAMETER_SETS);
-            let values = run.at(&Ball::<LANES>, &states);
-            for (index, seen) in seen.iter_mut().enumerate() {
-                let ball = values.output(index);
-                for lane in (0..LANES).filter(|lane| ball.excludes_zero(*lane)) {
-                    let set = lane * PARAMETER_SETS / LANES;
-                    seen[set][usize::from(ball.mid[lane] > 0.0)] = true;
-                }
-            }
+            observe(&run.at(&Ball::<LANES>, &states), &mut seen);
+        }
+        if seen.iter().any(|seen| sign(seen).is_none()) && !sampler.is_numerical() {
+            let domain = TwofoldBall::<LANES>;
+            let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
+            observe(&run.at(&domain, &states), &mut seen);
         }
         for (finding, seen) in findings.iter_mut().zip(&seen) {
             finding.evidence.sign = sign(seen);
             if finding.evidence.sign.is_none() {
                 undecide(finding, "the density is 0 at all states that were tried".to_string());
+            }
+        }
+    }
+}
+
+/// Notes the signs of a block of values, by parameter set.
+fn observe<D: Enclosing>(values: &Values<D>, seen: &mut [[[bool; 2]; PARAMETER_SETS]]) {
+    for (index, seen) in seen.iter_mut().enumerate() {
+        let block = values.output(index);
+        for lane in (0..LANES).filter(|lane| D::excludes_zero(block, *lane)) {
+            if let Some((mid, _)) = D::enclosure(block, lane) {
+                seen[lane * PARAMETER_SETS / LANES][usize::from(mid > 0.0)] = true;
             }
         }
     }
