@@ -33,7 +33,7 @@
 //!     &[],
 //! )?;
 //! let report = judge(&case, &Options::default()).expect("the equations are regular");
-//! assert_eq!(report.claims[0].verdict, Verdict::Confirmed);
+//! assert_eq!(report.claims[0].verdict, Verdict::Proved);
 //! assert_eq!(report.claims[1].verdict, Verdict::Refuted);
 //! # Ok::<(), liouville::case::CaseError>(())
 //! ```

@@ -60,11 +60,13 @@ fn check_reports_in_the_documented_form() {
     for key in ["name", "kind", "source", "where", "expect", "verdict", "agrees", "evidence"] {
         assert!(claim.get(key).is_some(), "a claim has `{key}`");
     }
-    assert_eq!(claim["verdict"], "confirmed");
+    assert_eq!(claim["verdict"], "proved");
     let evidence = &claim["evidence"];
-    for key in ["method", "samples", "max_residual", "max_scaled_residual"] {
+    let keys = ["method", "primes", "points", "draws", "degree", "roots", "error_log2"];
+    for key in keys.iter().chain(&["samples", "max_residual", "max_scaled_residual", "climb"]) {
         assert!(evidence.get(key).is_some(), "evidence has `{key}`");
     }
+    assert!(evidence["error_log2"].as_f64().expect("a number") < -100.0, "the error is stated");
     let summary = &report["summary"];
     for key in ["cases", "claims", "proved", "confirmed", "refuted", "undecided", "disagreements"] {
         assert!(summary[key].is_u64(), "the summary counts `{key}`");
@@ -251,6 +253,85 @@ fn both_tables_come_out_of_the_catalogue() {
                 assert_ne!(cell["status"], "contradicts", "{row}");
             }
         }
-        liouville(&["table", number]).assert().code(0).stdout(contains("confirmed"));
+        liouville(&["table", number]).assert().code(0).stdout(contains("proved"));
     }
+}
+
+#[test]
+fn trust_says_what_is_insisted_on() {
+    let near = GOOD.replace("|J*ω × γ|²", "|J*ω × γ|² + 1e-16*(J*ω,J*ω)");
+    let path = folder("trust", &[("good.toml", GOOD), ("near.toml", &near)]);
+    let good = path.join("good.toml");
+    let good = good.to_str().expect("UTF-8");
+    let verdict = |trust: &str| {
+        let report = json(&["check", "--json", "--trust", trust, good], 0);
+        report["cases"][0]["claims"][0]["verdict"].as_str().map(String::from)
+    };
+    assert_eq!(verdict("float").as_deref(), Some("confirmed"), "no proof is tried");
+    assert_eq!(verdict("proof").as_deref(), Some("proved"), "a proof is found");
+    let near = path.join("near.toml");
+    let near = near.to_str().expect("UTF-8");
+    let seen = json(&["check", "--json", "--trust", "float", near], 0);
+    assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "confirmed", "f64 cannot tell");
+    let seen = json(&["check", "--json", near], 1);
+    assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "refuted", "more digits can");
+    let numerical = "title = 'circle'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y*(x² + 3*y²)'\n\
+         \"y'\" = '−x*(x² + 3*y²)'\n[level]\nequations = ['x^4 + y^4 + 2*x²*y² = 1']\n[[claim]]\n\
+         integral = 'x² + y²'\n";
+    let path = folder("numerical", &[("circle.toml", numerical)]).join("circle.toml");
+    let path = path.to_str().expect("UTF-8");
+    let seen = json(&["check", "--json", path], 0);
+    assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "confirmed", "no chart, no proof");
+    let seen = json(&["check", "--json", "--trust", "proof", path], 1);
+    assert_eq!(seen["summary"]["disagreements"], 1, "which is not enough for a proof");
+}
+
+#[test]
+fn mutants_are_counted() {
+    let path = folder("mutants", &[("good.toml", GOOD)]);
+    let report = json(&["check", "--json", "--mutants", path.to_str().expect("UTF-8")], 0);
+    let mutants = &report["summary"]["mutants"];
+    assert!(mutants["killed"].as_u64().expect("a count") >= 5, "{mutants}");
+    assert_eq!(mutants["survived"], 0, "{mutants}");
+    assert!(mutants["equivalent"].is_u64() && mutants["discovered"].is_u64(), "{mutants}");
+}
+
+#[test]
+fn digits_are_all_right() {
+    let evaluate = |digits: &str| {
+        let arguments = [
+            "eval",
+            "cases/plane/unbalanced-ball.toml",
+            "--json",
+            "--digits",
+            digits,
+            "--state",
+            "ω=[3/7,0,-1/7] γ=[2/7,3/7,6/7]",
+        ];
+        json(&arguments, 0)
+    };
+    let (short, long) = (evaluate("30"), evaluate("60"));
+    let fields = |report: &Value| -> Vec<String> {
+        let field = report["field"].as_array().expect("a list");
+        field.iter().map(|x| x.as_str().expect("text").to_string()).collect()
+    };
+    for (short, long) in fields(&short).iter().zip(fields(&long)) {
+        let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
+        let significant = |text: &str| digits(text).trim_start_matches('0').to_string();
+        let kept: String = significant(&long).chars().take(29).collect();
+        assert!(significant(short).starts_with(&kept[..28]), "{short} and {long}");
+        assert_eq!(significant(short).len(), 30, "thirty digits: {short}");
+    }
+    assert_eq!(short["claims"]["F2"]["residual"], "0", "a residual that vanishes is 0");
+    liouville(&["eval", "cases/plane/disk.toml", "--digits", "0"]).assert().code(2);
+}
+
+#[test]
+fn stress_reports_no_wrong_verdict() {
+    let report = json(&["stress", "--json"], 0);
+    let verdicts = &report["verdicts"];
+    assert!(verdicts["judged"].as_u64().expect("a count") > 3000, "{verdicts}");
+    assert_eq!(verdicts["wrong"], 0, "{verdicts}");
+    let points = report["scenarios"][0]["points"].as_array().expect("points");
+    assert!(points.iter().all(|point| point["field"].is_number()), "digits lost at each x");
 }

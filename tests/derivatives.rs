@@ -87,7 +87,9 @@ fn floats(state: &[Rational]) -> Vec<f64> {
 fn assert_near(direct: f64, recorded: Enclosed, what: &str) {
     let (mid, radius) = recorded.unwrap_or_else(|| panic!("{what} is defined on the tape"));
     let gap = (direct - mid).abs();
-    assert!(gap <= 2.0 * radius, "{what}: {direct} at f64, {mid} ± {radius:e} on the tape");
+    // The tape was run in 160 bits; what differs is the rounding of the code at f64.
+    let rounding = 2f64.powi(-36) * mid.abs().max(1.0);
+    assert!(gap <= rounding, "{what}: {direct} at f64, {mid} ± {radius:e} on the tape");
     let coarsest = f64::EPSILON.sqrt() * mid.abs().max(1.0);
     assert!(radius <= coarsest, "{what}: ± {radius:e} compares nothing");
 }

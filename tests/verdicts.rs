@@ -1,7 +1,9 @@
 //! What verdicts say beside true and false: where, how new, of which sign, and why not.
 
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
+use liouville::verdict::{
+    ClaimReport, Independence, JudgeError, Options, Sign, Trust, Verdict, judge,
+};
 
 fn claims(text: &str) -> Vec<ClaimReport> {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -60,7 +62,7 @@ fn the_place_where_a_claim_holds_is_found() {
 fn level_only_is_checked_off_the_level() {
     let text = format!("{BALL}[[claim]]\nintegral = '|J*ω × γ|²'\nwhere = 'level only'\n");
     let claim = &claims(&text)[0];
-    assert_eq!(claim.verdict, Verdict::Confirmed);
+    assert_eq!(claim.verdict, Verdict::Proved);
     assert!(!claim.agrees, "it holds elsewhere too: {:?}", claim.evidence.holds);
 }
 
@@ -101,10 +103,10 @@ fn charts_solved_given_and_numerical_agree() {
         "{level}[level.chart]\ninputs = {{ u = '-2..2', v = '-2..2', a = 'vector(-2..2)' }}\n\
          \"γ\" = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'\nM = 'a + (1 − (a,γ))*γ'\n"
     );
-    for (level, method, holds) in [
-        (level, "ball at numerical states", "(M,γ) = 1"),
-        (&given, "ball", "(M,γ) = 1"),
-        (solved, "ball", "level"),
+    for (level, verdict, method, holds) in [
+        (level, Verdict::Confirmed, "ball at numerical states", "(M,γ) = 1"),
+        (&given, Verdict::Proved, "prime field", "(M,γ) = 1"),
+        (solved, Verdict::Proved, "prime field", "level"),
     ] {
         let text = format!(
             "title = 'Euler–Poisson'\n[parameters]\nI = 'inertia(0.5..5)'\n[state]\nM = 'vector(-2..2)'\n\
@@ -114,7 +116,7 @@ fn charts_solved_given_and_numerical_agree() {
         );
         let found = claims(&text);
         let verdicts: Vec<_> = found.iter().map(|claim| claim.verdict).collect();
-        assert_eq!(verdicts[..2], [Verdict::Confirmed, Verdict::Refuted], "{level}");
+        assert_eq!(verdicts[..2], [verdict, Verdict::Refuted], "{level}");
         assert_ne!(verdicts[2], Verdict::Refuted, "{level}");
         assert_eq!(found[0].evidence.method, method, "{level}");
         assert_eq!(found[0].evidence.holds, [holds], "M1 spoils it elsewhere: {level}");
@@ -137,7 +139,7 @@ fn an_integrand_of_two_variables_has_no_integral() {
     let found = claims(&oscillator(
         "[[claim]]\nintegral = 'y² + 2*∫(x, x)'\n[[claim]]\nintegral = 'y² + 2*∫(x + y, x)'\nexpect = 'open'\n",
     ));
-    assert_eq!(found[0].verdict, Verdict::Confirmed, "y²/2 + ∫x dx is the energy");
+    assert_eq!(found[0].verdict, Verdict::Proved, "y²/2 + ∫x dx is the energy");
     assert_eq!(found[1].verdict, Verdict::Undecided);
     let reason = found[1].evidence.reason.as_deref().unwrap_or_default();
     assert!(reason.contains("not a function of its variable"), "{reason}");
@@ -151,10 +153,13 @@ fn an_integrand_of_two_variables_has_no_integral() {
 fn rounding_that_hides_a_residual_is_admitted() {
     // 10⁵⁰ (y - y) by a detour that no simplification sees: the error bound swamps L_v x = y.
     let huge = "10^50*((x + y)² − x² − 2*x*y − y²)";
-    let found = claims(&oscillator(&format!(
-        "[[claim]]\nintegral = '(x² + y²)*(1 + {huge})'\nexpect = 'open'\n"
-    )));
+    let text =
+        oscillator(&format!("[[claim]]\nintegral = '(x² + y²)*(1 + {huge})'\nexpect = 'open'\n"));
+    let case = Case::parse(&text, &[]).expect("a case");
+    let options = Options { trust: Trust::Float, ..Options::default() };
+    let found = judge(&case, &options).expect("it can be judged").claims;
     assert_eq!(found[0].verdict, Verdict::Undecided);
+    assert_eq!(claims(&text)[0].verdict, Verdict::Proved, "a prime field has no rounding");
     let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
     assert!(reason.contains("rounding hides"), "{reason}");
 }

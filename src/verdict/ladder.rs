@@ -86,7 +86,7 @@ impl Bench<'_> {
         let values = run.at(&Ball::<LANES>, &sampler.balls(0));
         for ((item, finding), span) in open.iter_mut().zip(&spans) {
             weigh(item, span, &values, finding);
-            if finding.settled.is_none() {
+            if finding.settled.is_none() && finding.undefined.is_none() {
                 self.examine(sampler, 0, span, &values, finding);
             }
         }
@@ -193,12 +193,14 @@ impl Bench<'_> {
             let method = "double-double ball";
             finding.evidence.method = method;
             weigh(item, span, &values, finding);
-            if finding.settled.is_none() {
+            if finding.settled.is_none() && finding.undefined.is_none() {
                 self.examine(sampler, 0, span, &values, finding);
             }
         }
-        for (item, finding) in left.iter_mut().filter(|(_, f)| f.settled.is_none() && f.is_nonzero)
-        {
+        let deserves = |finding: &Finding| {
+            finding.settled.is_none() && finding.is_nonzero && finding.undefined.is_none()
+        };
+        for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
             let run = self.run(&item.residual);
             let all = 0..item.residual.len();
             for bits in BITS {
