@@ -15,6 +15,20 @@ pub(super) trait Work {
     fn run(self);
 }
 
+/// The processor's features that tapes are run with, beyond the baseline of its architecture.
+pub fn vector_features() -> &'static [&'static str] {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+            return &["avx512f", "avx512dq"];
+        }
+        if is_x86_feature_detected!("avx2") {
+            return &["avx2"];
+        }
+    }
+    &[]
+}
+
 /// Does the work with the widest vectors there are.
 pub(super) fn with_widest_vectors(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
