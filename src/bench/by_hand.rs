@@ -66,15 +66,18 @@ pub fn criterion(state: &[f64]) -> f64 {
         .sum()
 }
 
+#[inline]
 fn split(state: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
     let at = |k: usize| state.get(k).copied().unwrap_or(f64::NAN);
     (Vector3::new(at(0), at(1), at(2)), Vector3::new(at(3), at(4), at(5)))
 }
 
+#[inline]
 fn ball<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
     -(gamma.map(|x| x * RADIUS) + Vector3::from(CENTRE).map(T::from))
 }
 
+#[inline]
 fn ellipsoid<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
     let image = gamma.component_mul(&Vector3::from(SQUARES).map(T::from));
     let scale = -gamma.dot(&image).sqrt().recip();
@@ -82,6 +85,7 @@ fn ellipsoid<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
 }
 
 /// r' of the ellipsoid for γ' = `rate`.
+#[inline]
 fn ellipsoid_slide<T: Number>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<T> {
     let squares = Vector3::from(SQUARES).map(T::from);
     let (image, image_rate) = (gamma.component_mul(&squares), rate.component_mul(&squares));
@@ -91,17 +95,20 @@ fn ellipsoid_slide<T: Number>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<
     image_rate.zip_map(&image, |dx, x| (dx - x * along) * scale)
 }
 
+#[inline]
 fn inertia_at<T: Number>(r: &Vector3<T>, central: &[f64; 3]) -> Matrix3<T> {
     let steiner = Matrix3::from_diagonal_element(r.dot(r)) - r * r.transpose();
     Matrix3::from_diagonal(&Vector3::from(*central).map(T::from)) + steiner.map(|x| x * MASS)
 }
 
 /// The adjugate of a symmetric matrix.
+#[inline]
 fn adjugate<T: Number>(a: &Matrix3<T>) -> Matrix3<T> {
     let [x, y, z] = [0, 1, 2].map(|k| a.column(k).into_owned());
     Matrix3::from_columns(&[y.cross(&z), z.cross(&x), x.cross(&y)])
 }
 
+#[inline]
 fn acceleration<T: Number>(
     omega: &Vector3<T>,
     gamma: &Vector3<T>,
@@ -120,6 +127,7 @@ fn acceleration<T: Number>(
 }
 
 /// |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω)
+#[inline]
 fn second_integral<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>) -> T {
     let momentum = inertia_at(&ball(gamma), &INERTIA) * omega;
     let turned = momentum.cross(gamma);

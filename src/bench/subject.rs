@@ -114,7 +114,7 @@ impl<'i> Subject<'i> {
     }
 
     /// What the residual is small against, at each lane of each block: |∇F||v| of an integral,
-    /// |v|(|∇ln ρ| + 1/|x|) of a density, |w| of a criterion.
+    /// |v|(|∇ln ρ| + 1/|x|) of a density, |a| of a criterion.
     pub fn scales(&self) -> Result<Vec<[f64; LANES]>, BenchError> {
         let (graph, scale) = with_jet(&self.item.case, |jet| {
             self.claim.kind.context(jet, &self.claim.place.kept).scale

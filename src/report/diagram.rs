@@ -39,14 +39,16 @@ const COLOURS: [(&str, &str); 8] = [
 /// The diagram of some claims.
 pub fn svg(measured: &[Measured]) -> String {
     let domains = domains(measured);
+    // A residual that is nowhere defined has no error, and no place in the diagram.
+    let shown = |m: &&Row| m.max_error.is_some();
     let panels: Vec<(String, Vec<&Row>)> = if measured.len() <= MOST_PANELS {
         let title = |m: &Measured| match m.item == m.claim {
             true => m.item.clone(),
             false => format!("{}: {}", m.item, m.claim),
         };
-        measured.iter().map(|m| (title(m), m.rows.iter().collect())).collect()
+        measured.iter().map(|m| (title(m), m.rows.iter().filter(shown).collect())).collect()
     } else {
-        let rows = measured.iter().flat_map(|m| &m.rows).collect();
+        let rows = measured.iter().flat_map(|m| &m.rows).filter(shown).collect();
         vec![(format!("{} claims", measured.len()), rows)]
     };
     let mut legend = String::new();
@@ -158,6 +160,9 @@ fn panel(
     axes.draw(out, top);
     let points: Vec<(f64, f64)> =
         rows.iter().map(|row| axes.place(row.max_error, row.ns_per_state, top)).collect();
+    if !labelled {
+        out.push_str("<g fill-opacity=\"0.5\">\n");
+    }
     let mut labels = Labels::new(axes.frame(top), &points);
     for (row, (x, y)) in rows.iter().zip(&points) {
         let class = domains.iter().position(|domain| *domain == row.domain).unwrap_or(0);
@@ -166,6 +171,9 @@ fn panel(
             let text = format!("{}, {}", row.method.name(), row.domain);
             labels.put(out, (*x, *y), &text);
         }
+    }
+    if !labelled {
+        out.push_str("</g>\n");
     }
 }
 
