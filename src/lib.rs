@@ -70,6 +70,7 @@ pub mod formula;
 pub mod graph;
 pub mod mechanics;
 pub mod number;
+pub mod proof;
 pub mod report;
 pub mod scalar;
 pub mod verdict;

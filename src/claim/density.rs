@@ -21,11 +21,7 @@ pub(super) fn residual<T: Scalar>(jet: &Jet<'_, T>, formula: &Formula, kept: &[b
 
 /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
 pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula) -> Context {
-    let slope: Vec<Expr> = jet
-        .along_axes()
-        .iter()
-        .map(|moved| formula.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
-        .collect();
+    let slope = slope(jet, formula);
     let (field, state) = (jet.phase.field(), jet.phase.state());
     let rate = dot(&slope, &slope) + dot(&state, &state).recip();
     Context {
@@ -33,4 +29,12 @@ pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula) -> Context {
         value: Some(jet.phase.scalar(formula)),
         ..Context::default()
     }
+}
+
+/// ∇ln ρ
+pub(super) fn slope(jet: &Jet<'_, Expr>, formula: &Formula) -> Vec<Expr> {
+    jet.along_axes()
+        .iter()
+        .map(|moved| formula.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
+        .collect()
 }

@@ -48,6 +48,25 @@ impl Kind {
         }
     }
 
+    /// The same claim about another formula; a claim about none stays as it is.
+    pub fn about(&self, formula: Formula) -> Self {
+        match self {
+            Kind::Integral(_) => Kind::Integral(formula),
+            Kind::Density(_) => Kind::Density(formula),
+            Kind::AnalyticDensity => Kind::AnalyticDensity,
+            Kind::PositionDensity => Kind::PositionDensity,
+        }
+    }
+
+    /// The gradient of F, or of ln ρ.
+    pub fn slope(&self, jet: &Jet<'_, Expr>) -> Option<Vec<Expr>> {
+        match self {
+            Kind::Integral(formula) => Some(jet.gradient(|at| at.scalar(formula))),
+            Kind::Density(formula) => Some(density::slope(jet, formula)),
+            Kind::AnalyticDensity | Kind::PositionDensity => None,
+        }
+    }
+
     /// The scalars that vanish where the claim holds.
     pub fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         match self {

@@ -3,11 +3,16 @@
 use std::io::IsTerminal;
 
 use liouville::report::{json, terminal};
+use liouville::verdict::Options;
 
 use super::{Answer, Check, colour, files, width};
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let run = files::judge(&options.paths, options.sampling)?;
+    let run = files::judge(
+        &options.paths,
+        &Options { mutants: options.mutants, ..options.sampling.options() },
+        options.sampling.threads,
+    )?;
     let text = if options.json {
         json::render(&run).map_err(|error| format!("error: {error}"))? + "\n"
     } else {

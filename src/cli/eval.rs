@@ -32,15 +32,28 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
             verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
         ),
     };
-    let report = verdict::evaluate(&case, state.as_deref(), options.seed, options.index).map_err(
-        |error| diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered,
-    )?;
-    let text = if options.json {
-        point::json(&report).map_err(|error| format!("error: {error}"))? + "\n"
-    } else {
-        point::text(&report)
+    let told = |error: verdict::JudgeError| {
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
     };
+    let (seed, index, state) = (options.seed, options.index, state.as_deref());
+    let text = match options.digits {
+        None => written(&verdict::evaluate(&case, state, seed, index).map_err(told)?, options.json),
+        Some(digits) => written(
+            &verdict::evaluate_digits(&case, state, seed, index, digits).map_err(told)?,
+            options.json,
+        ),
+    }?;
     Ok(Answer { text, code: 0 })
+}
+
+fn written<N: point::Written>(
+    report: &verdict::PointReport<N>,
+    json: bool,
+) -> Result<String, String> {
+    match json {
+        true => Ok(point::json(report).map_err(|error| format!("error: {error}"))? + "\n"),
+        false => Ok(point::text(report)),
+    }
 }
 
 fn setting(text: &str) -> Result<Setting, String> {

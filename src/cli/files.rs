@@ -10,28 +10,29 @@ use liouville::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::verdict::{self, Options};
 use rayon::prelude::*;
 
-use super::Sampling;
-
 /// A progress bar appears after this time.
 const BLINK: Duration = Duration::from_millis(300);
 
 /// Judges every case under `paths`.
-pub fn judge(paths: &[PathBuf], sampling: Sampling) -> Result<RunReport, String> {
+pub fn judge(
+    paths: &[PathBuf],
+    options: &Options,
+    threads: Option<usize>,
+) -> Result<RunReport, String> {
     let started = Instant::now();
     let files = collect(paths);
-    let threads = sampling.threads.unwrap_or(0).min(files.len().max(1));
+    let threads = threads.unwrap_or(0).min(files.len().max(1));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|error| format!("error: cannot start threads: {error}"))?;
-    let options = Options { seed: sampling.seed, states: sampling.states };
     let bar = bar(files.len() as u64);
     let outcomes = pool.install(|| {
         files
             .par_iter()
             .map(|file| {
                 let outcome = match file {
-                    Ok(path) => judge_file(path, &options),
+                    Ok(path) => judge_file(path, options),
                     Err((path, problem)) => failed(path, problem.clone()),
                 };
                 advance(&bar, started);
@@ -40,7 +41,7 @@ pub fn judge(paths: &[PathBuf], sampling: Sampling) -> Result<RunReport, String>
             .collect()
     });
     bar.finish_and_clear();
-    Ok(RunReport { seed: sampling.seed, outcomes, elapsed: started.elapsed() })
+    Ok(RunReport { seed: options.seed, outcomes, elapsed: started.elapsed() })
 }
 
 /// One more file is done; the bar shows itself once it is worth it.

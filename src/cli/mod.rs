@@ -10,7 +10,7 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
@@ -41,9 +41,32 @@ pub struct Sampling {
     /// How many states a claim must survive (rounded up to blocks of 64)
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub states: u64,
+    /// What a claim that holds needs: a proof, or states in floating point alone (faster). By
+    /// default a proof is tried, and a confirmation taken where there is none
+    #[arg(long, value_enum)]
+    pub trust: Option<Trust>,
     /// How many threads to use; all cores by default. Results do not depend on it
     #[arg(long)]
     pub threads: Option<usize>,
+}
+
+/// What the user insists on.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Trust {
+    Proof,
+    Float,
+}
+
+impl Sampling {
+    pub fn options(&self) -> liouville::verdict::Options {
+        use liouville::verdict::{Options, Trust as Asked};
+        let trust = match self.trust {
+            Some(Trust::Proof) => Asked::Proof,
+            Some(Trust::Float) => Asked::Float,
+            None => Asked::Best,
+        };
+        Options { seed: self.seed, states: self.states, trust, mutants: false }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -54,11 +77,19 @@ pub struct Check {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Perturb every true formula, and refute each mutant that is not equivalent
+    #[arg(long)]
+    pub mutants: bool,
     /// Show witnesses and how each verdict came about
     #[arg(short, long)]
     pub verbose: bool,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+fn parse_digits(text: &str) -> Result<usize, String> {
+    let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
+    (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
 }
 
 #[derive(Debug, Args)]
@@ -74,6 +105,10 @@ pub struct Eval {
     /// The number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
+    /// How many significant digits to print, all of them right (up to 2000); without it, numbers
+    /// are rounded to f64 and come with a bound on their error
+    #[arg(long, value_parser = parse_digits)]
+    pub digits: Option<usize>,
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

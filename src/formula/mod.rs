@@ -48,6 +48,7 @@ mod functions;
 mod homogeneity;
 mod lexer;
 mod logarithm;
+mod mutation;
 mod names;
 mod operands;
 mod parser;
@@ -69,6 +70,7 @@ use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
+pub use mutation::Mutant;
 pub use names::canonical_name;
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;

@@ -37,7 +37,7 @@ pub(super) fn with_widest_vectors(work: impl Work) {
             // SAFETY: the processor has the features that the function is compiled for.
             return unsafe { avx512(work) };
         }
-        if is_x86_feature_detected!("avx2") {
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             // SAFETY: as above.
             return unsafe { avx2(work) };
         }
@@ -52,7 +52,7 @@ fn avx512(work: impl Work) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx2,fma")]
 fn avx2(work: impl Work) {
     work.run();
 }

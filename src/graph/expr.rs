@@ -27,7 +27,7 @@ impl Expr {
     }
 
     /// A further free input of the recording under way.
-    pub(super) fn input() -> Self {
+    pub fn input() -> Self {
         Self::made(Graph::input)
     }
 
@@ -64,6 +64,16 @@ impl Expr {
             let (a, b) = (self.node_in(graph), other.node_in(graph));
             graph.binary(operation, a, b)
         })
+    }
+
+    /// f(x)
+    pub fn apply(self, function: Function) -> Self {
+        self.unary(function)
+    }
+
+    /// x op y
+    pub fn combine(self, operation: Operation, other: Self) -> Self {
+        self.binary(operation, other)
     }
 
     pub(super) fn zero_node() -> Self {

@@ -12,6 +12,7 @@ mod dual_num;
 mod evaluate;
 mod expr;
 mod simplify;
+mod steps;
 mod tape;
 
 use std::cell::RefCell;
@@ -24,6 +25,7 @@ use crate::number::{Function, Operation};
 pub use dispatch::vector_features;
 pub use evaluate::Evaluator;
 pub use expr::Expr;
+pub use steps::Step;
 pub use tape::Tape;
 
 /// A node's place in its graph; arguments come before their users.
@@ -133,21 +135,9 @@ impl Graph {
 
     /// How many operations these expressions take together.
     pub fn operations(&self, exprs: &[Expr]) -> usize {
-        let mut pending: Vec<NodeId> = exprs.iter().filter_map(|expr| expr.id()).collect();
-        let mut reached = vec![false; self.nodes.len()];
-        let mut count = 0;
-        while let Some(id) = pending.pop() {
-            if std::mem::replace(&mut reached[id.0 as usize], true) {
-                continue;
-            }
-            match self.node(id) {
-                Node::Constant(_) | Node::Input(_) => continue,
-                Node::Unary(_, a) | Node::Power(a, _) => pending.push(a),
-                Node::Binary(_, a, b) => pending.extend([a, b]),
-            }
-            count += 1;
-        }
-        count
+        let reached = self.reached(exprs.iter().copied());
+        let computed = |(node, reached): &(&Node, bool)| *reached && node.is_computed();
+        self.nodes.iter().zip(reached).filter(computed).count()
     }
 
     fn constant_at(&self, id: NodeId) -> Option<&Rational> {

@@ -136,7 +136,7 @@ impl Instruction {
 }
 
 impl Node {
-    fn is_computed(&self) -> bool {
+    pub(super) fn is_computed(&self) -> bool {
         !matches!(self, Node::Constant(_) | Node::Input(_))
     }
 }

@@ -8,7 +8,10 @@ pub mod ball;
 pub mod complex;
 pub mod exact;
 pub mod float;
+pub mod precise;
+pub mod prime;
 pub mod rational;
+pub mod twofold;
 
 use rational::Rational;
 

@@ -114,6 +114,14 @@ impl Rational {
         }
     }
 
+    /// Numerator and denominator where both fit a machine word.
+    pub fn small_parts(&self) -> Option<(i64, i64)> {
+        match self.0 {
+            Form::Small(n, d) => Some((n, d)),
+            Form::Big(_) => None,
+        }
+    }
+
     /// Numerator and denominator in lowest terms, the denominator positive.
     pub fn parts(&self) -> (BigInt, BigInt) {
         self.to_big().into()

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Failure, RunReport, Summary};
-use crate::verdict::ClaimReport;
+use crate::verdict::{ClaimReport, MutationReport};
 
 #[derive(Serialize)]
 struct Root<'a> {
@@ -23,6 +23,8 @@ struct CaseEntry<'a> {
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     warnings: &'a [String],
     claims: &'a [ClaimReport],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mutants: Option<&'a MutationReport>,
 }
 
 #[derive(Serialize)]
@@ -45,6 +47,7 @@ pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
                 system: &outcome.heading.system,
                 warnings: &report.warnings,
                 claims: &report.claims,
+                mutants: report.mutants.as_ref(),
             }),
             Err(failure) => root.errors.push(ErrorEntry { path: &outcome.path, failure }),
         }

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::verdict::{CaseReport, ClaimReport, Verdict};
+use crate::verdict::{CaseReport, ClaimReport, MutationReport, Verdict};
 
 /// One file of a run.
 #[derive(Debug)]
@@ -89,8 +89,24 @@ pub struct Summary {
     pub disagreements: usize,
     /// Files that could not be judged.
     pub errors: usize,
+    /// What became of mutants, if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mutants: Option<MutantCounts>,
     /// How long the run took.
     pub seconds: f64,
+}
+
+/// Counts of mutants.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct MutantCounts {
+    /// Refuted.
+    pub killed: usize,
+    /// Neither refuted nor proved.
+    pub survived: usize,
+    /// Proved, and nothing new.
+    pub equivalent: usize,
+    /// Proved, and independent of what is known.
+    pub discovered: usize,
 }
 
 impl RunReport {
@@ -102,6 +118,14 @@ impl RunReport {
         })
     }
 
+    /// The mutants of all cases, where they were asked for.
+    pub fn mutants(&self) -> impl Iterator<Item = (&Outcome, &MutationReport)> {
+        self.outcomes.iter().filter_map(|outcome| {
+            let report = outcome.result.as_ref().ok()?;
+            Some((outcome, report.mutants.as_ref()?))
+        })
+    }
+
     /// The counts.
     pub fn summary(&self) -> Summary {
         let mut summary = Summary { seconds: self.elapsed.as_secs_f64(), ..Summary::default() };
@@ -110,6 +134,13 @@ impl RunReport {
                 Ok(_) => summary.cases += 1,
                 Err(_) => summary.errors += 1,
             }
+        }
+        for mutants in self.mutants().map(|(_, mutants)| mutants) {
+            let counts = summary.mutants.get_or_insert_default();
+            counts.killed += mutants.killed;
+            counts.survived += mutants.survived.len();
+            counts.equivalent += mutants.equivalent;
+            counts.discovered += mutants.discovered.len();
         }
         for (_, claim) in self.claims() {
             summary.claims += 1;
@@ -124,10 +155,12 @@ impl RunReport {
         summary
     }
 
-    /// 0: all as expected; 1: a verdict contradicts its expectation; 2: a file could not be judged.
+    /// 0: all as expected; 1: a verdict contradicts its expectation, or a mutant survived; 2: a file
+    /// could not be judged.
     pub fn exit_code(&self) -> u8 {
         let summary = self.summary();
-        match (summary.errors, summary.disagreements) {
+        let survived = summary.mutants.map_or(0, |mutants| mutants.survived);
+        match (summary.errors, summary.disagreements + survived) {
             (0, 0) => 0,
             (0, _) => 1,
             _ => 2,

@@ -2,11 +2,40 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::verdict::{Enclosed, PointReport};
+use crate::verdict::{Digits, Enclosed, PointReport};
+
+/// How a number of a report is written.
+pub trait Written {
+    /// The number itself, if it is defined.
+    fn number(&self) -> Option<String>;
+
+    /// A bound on its error, if there is more to say than that all digits are right.
+    fn error(&self) -> Option<f64>;
+}
+
+impl Written for Enclosed {
+    fn number(&self) -> Option<String> {
+        self.map(|(mid, _)| decimal(mid))
+    }
+
+    fn error(&self) -> Option<f64> {
+        self.map(|(_, error)| error)
+    }
+}
+
+impl Written for Digits {
+    fn number(&self) -> Option<String> {
+        self.clone()
+    }
+
+    fn error(&self) -> Option<f64> {
+        None
+    }
+}
 
 /// The report as JSON; numbers are decimal strings, null where undefined.
-pub fn json(report: &PointReport) -> Result<String, serde_json::Error> {
-    let list = |values: &[Enclosed]| Value::from(values.iter().map(number).collect::<Vec<_>>());
+pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::Error> {
+    let list = |values: &[N]| Value::from(values.iter().map(number).collect::<Vec<_>>());
     let named = |entries: &[(String, Vec<String>)]| {
         let pair = |(name, values): &(String, Vec<String>)| (name.clone(), json!(values));
         Value::Object(entries.iter().map(pair).collect::<Map<String, Value>>())
@@ -17,11 +46,10 @@ pub fn json(report: &PointReport) -> Result<String, serde_json::Error> {
         .claims
         .iter()
         .map(|(name, value, residual)| {
-            let entry = json!({
-                "value": number(value),
-                "residual": number(residual),
-                "residual_error": residual.map(|(_, error)| decimal(error)),
-            });
+            let mut entry = json!({ "value": number(value), "residual": number(residual) });
+            if let Some(error) = residual.error() {
+                entry["residual_error"] = decimal(error).into();
+            }
             (name.clone(), entry)
         })
         .collect();
@@ -46,7 +74,7 @@ pub fn json(report: &PointReport) -> Result<String, serde_json::Error> {
 }
 
 /// The report for people: each number with the bound on its error.
-pub fn text(report: &PointReport) -> String {
+pub fn text<N: Written>(report: &PointReport<N>) -> String {
     let mut out = String::new();
     let mut line = |name: &str, value: String| out.push_str(&format!("{name:<18} {value}\n"));
     for (name, values) in report.parameters.iter().chain(&report.state) {
@@ -55,12 +83,18 @@ pub fn text(report: &PointReport) -> String {
     for (equation, value) in &report.level {
         line(equation, format!("off by {}", shown(value)));
     }
-    let rates: Vec<String> = report.field.iter().map(shown).collect();
+    let rates: Vec<String> = report.field.iter().map(|rate| shown(rate)).collect();
     line("field", rates.join("\n                   "));
     line("divergence", shown(&report.divergence));
     line("  on the level", shown(&report.level_divergence));
     if let Some(chi) = &report.chi {
-        line("χ", chi.iter().map(shown).collect::<Vec<_>>().join("\n                   "));
+        line(
+            "χ",
+            chi.iter()
+                .map(|component| shown(component))
+                .collect::<Vec<_>>()
+                .join("\n                   "),
+        );
     }
     if let Some(criterion) = &report.criterion {
         line("criterion", shown(criterion));
@@ -69,15 +103,15 @@ pub fn text(report: &PointReport) -> String {
         line("energy", shown(energy));
     }
     for (name, value, residual) in &report.claims {
-        let value = value.map_or(String::new(), |value| format!("  value {}", shown(&Some(value))));
+        let value = value.number().map_or(String::new(), |_| format!("  value {}", shown(value)));
         line("claim", name.to_string());
         line("", format!("residual {}{value}", shown(residual)));
     }
     out
 }
 
-fn number(value: &Enclosed) -> Value {
-    value.map_or(Value::Null, |(mid, _)| Value::String(decimal(mid)))
+fn number(value: &impl Written) -> Value {
+    value.number().map_or(Value::Null, Value::String)
 }
 
 /// The shortest decimal that reads back as the same f64.
@@ -85,9 +119,10 @@ fn decimal(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn shown(value: &Enclosed) -> String {
-    match value {
-        Some((mid, error)) => format!("{} ± {error:.1e}", decimal(*mid)),
-        None => "undefined".to_string(),
+fn shown(value: &impl Written) -> String {
+    match (value.number(), value.error()) {
+        (Some(number), Some(error)) => format!("{number} ± {error:.1e}"),
+        (Some(number), None) => number,
+        (None, _) => "undefined".to_string(),
     }
 }

@@ -23,6 +23,7 @@ pub fn render(run: &RunReport, style: Style) -> String {
         out.push_str(&case(outcome, style));
         out.push('\n');
     }
+    out.push_str(&mutants(run));
     out.push_str(&summary(run));
     out
 }
@@ -110,15 +111,22 @@ fn remark(claim: &ClaimReport) -> String {
                 Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }
-            if evidence.method.starts_with("ball") {
-                words.push(format!("{} states", evidence.samples));
-            }
+            words.push(match &evidence.proof {
+                Some(proof) => format!("{}, error < 2^{:.0}", evidence.method, proof.error_log2),
+                None if evidence.samples > 0 => {
+                    format!("{}, {} states", evidence.method, evidence.samples)
+                }
+                None => evidence.method.to_string(),
+            });
         }
         Verdict::Refuted => {
             if let Some(witness) = &evidence.witness {
                 words.push(format!("{:.2e} at state {}", witness.residual, witness.index));
+                if evidence.method != "ball" {
+                    words.push(evidence.method.to_string());
+                }
             } else {
-                words.push("at every state".to_string());
+                words.push(format!("at almost every state, {}", evidence.method));
             }
         }
         Verdict::Undecided => {}
@@ -138,16 +146,13 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        out.push_str(&format!(
-            "      method    {}, {} states, {} operations a state\n",
-            evidence.method, evidence.samples, evidence.operations
-        ));
-        if let (Some(residual), Some(scaled)) =
-            (evidence.max_residual, evidence.max_scaled_residual)
-        {
-            out.push_str(&format!(
-                "      residual  at most {residual:.1e}, {scaled:.3} of its error bound\n"
-            ));
+        out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        for (index, rung) in evidence.climb.iter().enumerate() {
+            let label = if index == 0 { "climb" } else { "" };
+            out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
+        }
+        if let Some(scaled) = evidence.max_scaled_residual {
+            out.push_str(&format!("      rounding  {scaled:.3} of its error bound at most\n"));
         }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));
@@ -175,6 +180,24 @@ fn details(report: &CaseReport) -> String {
     out
 }
 
+/// Mutants that are to be looked at.
+fn mutants(run: &RunReport) -> String {
+    let mut out = String::new();
+    for (outcome, report) in run.mutants() {
+        let marked = [("survived", &report.survived), ("discovered", &report.discovered)];
+        for (word, list) in marked {
+            for mutant in list {
+                let (claim, change) = (&mutant.claim, &mutant.change);
+                out.push_str(&format!(
+                    "mutant {word}: {}, claim {claim}: {change}\n    {}\n",
+                    outcome.path, mutant.formula
+                ));
+            }
+        }
+    }
+    out
+}
+
 fn summary(run: &RunReport) -> String {
     let summary = run.summary();
     let count = |number: usize, noun: &str| match number {
@@ -193,6 +216,12 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if let Some(mutants) = summary.mutants {
+        line.push_str(&format!(
+            "; mutants: {} killed, {} survived, {} equivalent, {} discovered",
+            mutants.killed, mutants.survived, mutants.equivalent, mutants.discovered
+        ));
     }
     format!("{line}; {:.2} s, seed {}\n", summary.seconds, run.seed)
 }

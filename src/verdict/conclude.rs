@@ -2,12 +2,18 @@
 
 use super::evidence::{ClaimReport, Verdict};
 use super::finding::Finding;
+use super::judge::{Options, Trust};
 use super::recorded::Recorded;
 use crate::case::{Case, Expect};
 use crate::claim::Kind;
 
 /// The report on a claim: its verdict against what is expected.
-pub fn report(case: &Case, item: &Recorded<'_>, finding: Finding) -> ClaimReport {
+pub fn report(
+    case: &Case,
+    item: &Recorded<'_>,
+    finding: Finding,
+    options: &Options,
+) -> ClaimReport {
     let claim = item.claim;
     let holds = finding.holds();
     let mut verdict = finding.settled.unwrap_or(Verdict::Undecided);
@@ -34,9 +40,14 @@ pub fn report(case: &Case, item: &Recorded<'_>, finding: Finding) -> ClaimReport
         evidence.volume = Some(format!("σ with dx = d({})∧σ", functions.join(")∧d(")));
     }
     let elsewhere = evidence.holds.iter().any(|name| *name != place);
+    let enough = options.trust != Trust::Proof || verdict == Verdict::Proved;
+    if holds && !enough {
+        let silence = evidence.silence.as_deref().unwrap_or("none was found");
+        evidence.reason = Some(format!("a proof was asked for: {silence}"));
+    }
     let agrees = match claim.expect {
         Expect::Open => true,
-        Expect::Holds => holds && !(claim.only_there && elsewhere),
+        Expect::Holds => holds && enough && !(claim.only_there && elsewhere),
         Expect::Fails => verdict == Verdict::Refuted,
     };
     if holds && claim.only_there && elsewhere {

@@ -1,8 +1,11 @@
 //! What is known about a claim in the end, and on what grounds.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use serde::Serialize;
+
+use crate::proof::Certificate;
 
 /// The answer to a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -70,13 +73,75 @@ pub enum Sign {
     Changes,
 }
 
+/// A proof in prime fields.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Proof {
+    /// Random primes.
+    pub primes: usize,
+    /// Random points, all primes together, at which the residual is 0.
+    pub points: usize,
+    /// Points that were drawn; some have no value.
+    pub draws: u64,
+    /// A bound on the degree of the residual's numerator.
+    pub degree: f64,
+    /// Square roots and roots of odd index in it.
+    pub roots: usize,
+    /// Log₂ of the probability that the residual is no identity all the same.
+    pub error_log2: f64,
+}
+
+impl From<Certificate> for Proof {
+    fn from(found: Certificate) -> Self {
+        Self {
+            primes: found.primes,
+            points: found.points,
+            draws: found.draws,
+            degree: found.degree.ceil(),
+            roots: found.roots,
+            error_log2: (found.error_log2 * 10.0).ceil() / 10.0,
+        }
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "0 at {} points of {} prime fields ({} draws), degree ≤ {}, ",
+            self.points, self.primes, self.draws, self.degree
+        )?;
+        match self.roots {
+            0 => {}
+            1 => write!(out, "1 root, ")?,
+            n => write!(out, "{n} roots, ")?,
+        }
+        write!(out, "error < 2^{:.0}", self.error_log2)
+    }
+}
+
+/// What a rung of the ladder found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rung {
+    /// `folding`, `ball`, `prime field`, `double-double ball`, `ball of many bits`.
+    pub rung: &'static str,
+    /// In words.
+    pub found: String,
+}
+
 /// The grounds of a verdict.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// `folding`: the residual became the constant 0, or another, while it was recorded.
-    /// `ball`: enclosures in f64. `ball at numerical states`: the same, where the level set has no
-    /// parametrisation.
+    /// The rung that settled it. `folding`: the residual became the constant 0, or another, while it
+    /// was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, with twice
+    /// its digits, with more. `ball at numerical states`: where the level set has no parametrisation.
+    /// `prime field`: an identity tested modulo random primes.
     pub method: &'static str,
+    /// The proof, where there is one.
+    #[serde(flatten)]
+    pub proof: Option<Proof>,
+    /// Why prime fields have nothing to say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub silence: Option<String>,
     /// States at which the residual was computed.
     pub samples: usize,
     /// The largest |residual| where the claim holds.
@@ -102,6 +167,8 @@ pub struct Evidence {
     /// Where a claim is refuted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
+    /// All rungs, in order.
+    pub climb: Vec<Rung>,
     /// Why a claim is undecided, or what its verdict leaves open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,

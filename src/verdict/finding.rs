@@ -2,15 +2,15 @@
 
 use std::ops::Range;
 
-use super::evidence::{Evidence, Independence, Verdict};
+use super::evidence::{Evidence, Independence, Rung, Verdict};
 use super::recorded::{Recorded, Span};
-use super::run::Values;
+use super::run::{Doubles, Values};
 use super::sampler::LANES;
 use crate::graph::Graph;
-use crate::number::ball::Balls;
+use crate::number::Enclosing;
 
-/// A claim is confirmed by no fewer states of the first block than this.
-const MIN_STATES: usize = LANES / 4;
+/// A claim is confirmed by no fewer states of the first block than one in this many.
+const MIN_SHARE: usize = 4;
 /// Bits of the residual's scale that its error bound must leave for a state to count: what is
 /// blurred more than this could hide a term.
 const RESOLVED_BITS: i32 = 16;
@@ -20,9 +20,21 @@ const RESOLVED_BITS: i32 = 16;
 pub struct Finding {
     pub settled: Option<Verdict>,
     pub evidence: Evidence,
+    /// Did a prime field show that the residual is no identity?
+    pub is_nonzero: bool,
+    /// Did rounding blur the residual in f64, and how?
+    pub blurred: Option<String>,
 }
 
 impl Finding {
+    /// Notes what a rung found.
+    pub fn rung(&mut self, rung: &'static str, found: String) {
+        match self.evidence.climb.last_mut() {
+            Some(last) if last.rung == rung => last.found = found,
+            _ => self.evidence.climb.push(Rung { rung, found }),
+        }
+    }
+
     /// Does the claim hold, as far as is known?
     pub fn holds(&self) -> bool {
         matches!(self.settled, Some(Verdict::Confirmed | Verdict::Proved))
@@ -35,6 +47,7 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
     if let Some(constants) = constants {
         finding.evidence.method = "folding";
+        finding.rung("folding", "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
         finding.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
         if !zero {
@@ -46,9 +59,12 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
 
 /// What the first block tells beside the residual: does the formula have a value, are the
 /// quadratures functions of their variable, is the residual resolved, is the integral new?
-pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values, finding: &mut Finding) {
+pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values<Doubles>, finding: &mut Finding) {
     let look = |range: &Range<usize>, scale: &Range<usize>| {
-        Look::at(&values.range(range.clone()), values.range(scale.clone()).first().copied())
+        Look::at::<Doubles>(
+            &values.range(range.clone()),
+            values.range(scale.clone()).first().copied(),
+        )
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
     if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
@@ -78,18 +94,15 @@ pub fn weigh(item: &Recorded<'_>, span: &Span, values: &Values, finding: &mut Fi
     if residual.defined == 0 {
         let reason = format!("the residual is undefined at all {LANES} states that were drawn");
         undecide(finding, reason);
-    } else if !residual.excludes_zero && residual.resolved < MIN_STATES {
-        let resolved = residual.resolved;
-        let reason = format!(
-            "rounding hides the residual of this {kind}: only at {resolved} of {LANES} states is its \
-             error bound 2^{RESOLVED_BITS} times below the terms that are added"
-        );
-        undecide(finding, reason);
+    } else {
+        finding.blurred = residual.blur(kind);
     }
 }
 
 /// What a block of states shows of a residual.
 pub struct Look {
+    /// States looked at.
+    states: usize,
     /// States at which it has an enclosure.
     defined: usize,
     /// Those at which the enclosure is narrow against the residual's scale.
@@ -100,27 +113,47 @@ pub struct Look {
 
 impl Look {
     /// Looks at a residual, and the square of its scale.
-    pub fn at(residuals: &[&Balls<LANES>], scale: Option<&Balls<LANES>>) -> Self {
-        let mut look = Self { defined: 0, resolved: 0, excludes_zero: false };
-        for lane in 0..LANES {
-            if !residuals.iter().all(|ball| ball.is_defined(lane)) {
+    pub fn at<D: Enclosing>(residuals: &[&D::Block], scale: Option<&D::Block>) -> Self {
+        let mut look = Self { states: D::LANES, defined: 0, resolved: 0, excludes_zero: false };
+        for lane in 0..D::LANES {
+            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
+            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
                 continue;
-            }
-            let blur = scale.map_or(f64::INFINITY, |scale| {
-                let floor = (scale.mid[lane] - scale.rad[lane]).max(0.0).sqrt();
-                2f64.powi(-RESOLVED_BITS) * floor
-            });
-            let narrow = |ball: &&Balls<LANES>| ball.rad[lane] <= blur || ball.rad[lane] == 0.0;
+            };
+            let blur = match scale {
+                None => f64::INFINITY,
+                Some(scale) => {
+                    let (mid, rad) = D::enclosure(scale, lane).unwrap_or((0.0, 0.0));
+                    2f64.powi(-RESOLVED_BITS) * (mid - rad).max(0.0).sqrt()
+                }
+            };
             look.defined += 1;
-            look.resolved += usize::from(residuals.iter().all(narrow));
-            look.excludes_zero |= residuals.iter().any(|ball| ball.excludes_zero(lane));
+            look.resolved +=
+                usize::from(enclosures.iter().all(|(_, rad)| *rad <= blur || *rad == 0.0));
+            look.excludes_zero |= residuals.iter().any(|block| D::excludes_zero(block, lane));
         }
         look
     }
 
     /// Is 0 enclosed everywhere, and narrowly enough at enough states?
     pub fn is_zero(&self) -> bool {
-        !self.excludes_zero && self.resolved >= MIN_STATES
+        !self.excludes_zero && self.resolved * MIN_SHARE >= self.states
+    }
+
+    /// Why zeros in these enclosures would not mean much, if that is so.
+    pub fn blur(&self, kind: &str) -> Option<String> {
+        (!self.excludes_zero && self.resolved * MIN_SHARE < self.states).then(|| {
+            format!(
+                "rounding hides the residual of this {kind}: only at {} of {} states is its error \
+                 bound 2^{RESOLVED_BITS} times below the terms that are added",
+                self.resolved, self.states
+            )
+        })
+    }
+
+    /// Has the residual a value at some state?
+    pub fn has_value(&self) -> bool {
+        self.defined > 0
     }
 
     /// Does some enclosure exclude 0?

@@ -1,13 +1,10 @@
-//! The ladder for all claims of a case: record once, then climb until each claim is settled.
-//!
-//! 1. *Folding*: a residual that was simplified to a constant while it was recorded is settled.
-//! 2. *Balls over f64* at the first block of states, together with what tells rounding from truth;
-//! 3. at further blocks, for the claims that are left.
+//! All claims of a case: record once, then climb the ladder until each claim is settled.
 
 use super::bench::Bench;
 use super::conclude::report;
 use super::evidence::ClaimReport;
 use super::finding::Finding;
+use super::mutants::{MutationReport, mutate};
 use super::recorded::{Common, Recorded};
 use super::sampler::LANES;
 use crate::case::Case;
@@ -23,11 +20,27 @@ pub struct Options {
     pub seed: u64,
     /// How many states a claim must survive, in steps of 64.
     pub states: u64,
+    /// What is asked of a verdict that a claim holds.
+    pub trust: Trust,
+    /// Are true formulas to be perturbed, to see whether each mutant is refuted?
+    pub mutants: bool,
+}
+
+/// What is asked of a verdict that a claim holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Trust {
+    /// Rounding that is accounted for, at enough states: no proof is tried.
+    Float,
+    /// A proof where there is one, else as `Float`.
+    #[default]
+    Best,
+    /// A proof: without one the claim does not agree with an expectation that it holds.
+    Proof,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, states: 4 * LANES as u64 }
+        Self { seed: 1, states: 4 * LANES as u64, trust: Trust::Best, mutants: false }
     }
 }
 
@@ -38,6 +51,8 @@ pub struct CaseReport {
     pub claims: Vec<ClaimReport>,
     /// What is physically impossible about the states that were drawn.
     pub warnings: Vec<String>,
+    /// What became of mutants, if they were asked for.
+    pub mutants: Option<MutationReport>,
 }
 
 /// Why a case cannot be judged.
@@ -149,7 +164,11 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
                 .to_string(),
         );
     }
-    let claims =
-        recorded.iter().zip(findings).map(|(item, finding)| report(case, item, finding)).collect();
-    Ok(CaseReport { claims, warnings })
+    let claims: Vec<ClaimReport> = recorded
+        .iter()
+        .zip(findings)
+        .map(|(item, finding)| report(case, item, finding, options))
+        .collect();
+    let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
+    Ok(CaseReport { claims, warnings, mutants })
 }

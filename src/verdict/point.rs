@@ -8,7 +8,7 @@ use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Model, Phase, components};
 use crate::number::Domain;
-use crate::number::ball::Ball;
+use crate::number::precise::{Approximation, Precise};
 use crate::number::rational::Rational;
 
 /// A number with a bound on its error; `None` where it is undefined.
@@ -17,30 +17,41 @@ pub type Enclosed = Option<(f64, f64)>;
 /// A name with the components of its value.
 pub type Named = (String, Vec<String>);
 
-/// A case at one state.
+/// Decimal digits of a number; `None` where it is undefined.
+pub type Digits = Option<String>;
+
+/// A case at one state, its numbers as enclosures or as digits.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PointReport {
+pub struct PointReport<N = Enclosed> {
     /// The free parameters with the values they had.
     pub parameters: Vec<Named>,
     /// The state.
     pub state: Vec<Named>,
     /// The level equations with the value of left minus right.
-    pub level: Vec<(String, Enclosed)>,
+    pub level: Vec<(String, N)>,
     /// The time derivatives of the state's components.
-    pub field: Vec<Enclosed>,
+    pub field: Vec<N>,
     /// Σ ∂v_i/∂x_i in all components.
-    pub divergence: Enclosed,
+    pub divergence: N,
     /// The same less the cofactors of the level functions.
-    pub level_divergence: Enclosed,
+    pub level_divergence: N,
     /// χ with div v = (χ,ω), for the rubber systems.
-    pub chi: Option<[Enclosed; 3]>,
+    pub chi: Option<[N; 3]>,
     /// The criterion, for systems that have one.
-    pub criterion: Option<Enclosed>,
+    pub criterion: Option<N>,
     /// ½(ω,Ĩω) + U, for bodies.
-    pub energy: Option<Enclosed>,
-    /// Name, value and residual of each claim.
-    pub claims: Vec<(String, Enclosed, Enclosed)>,
+    pub energy: Option<N>,
+    /// Name, value and residual of each claim; a claim may be about no formula.
+    pub claims: Vec<(String, N, N)>,
 }
+
+/// Bits in which enclosures are computed: near misses of 10⁻²⁰ and less show.
+const BITS: u32 = 160;
+/// Bits a decimal digit takes, and those that are granted beside.
+const BITS_PER_DIGIT: f64 = 3.33;
+const SPARE_BITS: u32 = 64;
+/// Each try has twice the bits of the one before.
+const TRIES: u32 = 5;
 
 /// Evaluates everything at `state`, or at state `index` of the seed where it is not given; free
 /// parameters have the values of that index.
@@ -50,79 +61,148 @@ pub fn evaluate(
     seed: u64,
     index: u64,
 ) -> Result<PointReport, JudgeError> {
-    let model = &case.model;
-    let level = Place::level(model);
-    let sampler = Sampler::new(case, &level, seed)?;
-    let free = model.free_components();
-    let drawn = sampler.printed(index);
-    let mut point: Vec<Rational> = drawn
-        .iter()
-        .map(|text| text.parse().map_err(|_| JudgeError::Unreachable(1)))
-        .collect::<Result<_, _>>()?;
-    if let Some(state) = state {
-        point.truncate(free);
-        point.extend_from_slice(state);
-    }
-    let mut counts = Vec::new();
-    let (graph, outputs) = record(point.len(), |inputs| {
-        let (parameters, state) = inputs.split_at(free);
-        let jet = Jet::new(Phase::new(model, parameters, state));
-        let phase = &jet.phase;
-        let mut groups: Vec<Vec<Expr>> = vec![
-            model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
-            phase.field().to_vec(),
-        ];
-        let divergence = jet.divergence();
-        groups.push(vec![divergence, divergence - jet.level_cofactor(&level.kept)]);
-        groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
-        groups.push(model.system.criterion(phase).into_iter().collect());
-        groups.push(model.system.energy(phase).into_iter().collect());
-        for claim in &case.claims {
-            groups.push(claim.kind.formula().map(|f| phase.scalar(f)).into_iter().collect());
-            groups.push(claim.kind.residual(&jet, &claim.place.kept));
+    let scene = Scene::new(case, state, seed, index)?;
+    let values = scene.values(&Precise::new(BITS));
+    Ok(scene.report(values.iter().map(|value| Some(value.as_ref()?.enclosure())).collect()))
+}
+
+/// The same to `wanted` significant decimal digits, all of them right.
+///
+/// A number that many times as many bits do not tell from 0 is written as `0`.
+pub fn evaluate_digits(
+    case: &Case,
+    state: Option<&[Rational]>,
+    seed: u64,
+    index: u64,
+    wanted: usize,
+) -> Result<PointReport<Digits>, JudgeError> {
+    let scene = Scene::new(case, state, seed, index)?;
+    let mut bits = (wanted as f64 * BITS_PER_DIGIT) as u32 + SPARE_BITS;
+    let mut found: Vec<Digits> = Vec::new();
+    for _ in 0..TRIES {
+        let values = scene.values(&Precise::new(bits));
+        let written = values.iter().map(|value| match value {
+            Some(value) => value.decimal(wanted),
+            None => None,
+        });
+        found = written.collect();
+        let open =
+            values.iter().zip(&found).filter(|(value, digits)| value.is_some() && digits.is_none());
+        if open.count() == 0 {
+            break;
         }
-        counts = groups.iter().map(Vec::len).collect();
-        groups.concat()
-    })?;
-    let tape = Tape::new(&graph, &outputs);
-    let domain = Ball::<1>;
-    let mut evaluator = Evaluator::new(&tape, domain);
-    let antiderivatives = (0..graph.inputs() - point.len()).map(antiderivative_value);
-    let inputs: Vec<_> =
-        point.iter().cloned().chain(antiderivatives).map(|x| domain.values(&[x])).collect();
-    evaluator.run(&inputs);
-    let mut values =
-        evaluator.outputs().map(|ball| (ball.is_defined(0)).then(|| (ball.mid[0], ball.rad[0])));
-    let mut groups =
-        counts.iter().map(|count| values.by_ref().take(*count).collect::<Vec<Enclosed>>());
-    let mut next = || groups.next().unwrap_or_default();
-    let level = model.level.iter().map(|e| e.text.clone()).zip(next()).collect();
-    let field = next();
-    let divergences = next();
-    let chi = next();
-    let (criterion, energy) = (next().first().copied(), next().first().copied());
-    let claims = case
-        .claims
-        .iter()
-        .map(|claim| {
-            let value = next().first().copied().flatten();
-            (claim.name.clone(), value, next().first().copied().flatten())
-        })
-        .collect();
-    let shown: Vec<String> = point.iter().map(|value| value.to_string()).collect();
-    let (parameters, state) = named(model, &shown);
-    Ok(PointReport {
-        parameters,
-        state,
-        level,
-        field,
-        divergence: divergences.first().copied().flatten(),
-        level_divergence: divergences.get(1).copied().flatten(),
-        chi: <[Enclosed; 3]>::try_from(chi).ok(),
-        criterion,
-        energy,
-        claims,
-    })
+        bits *= 2;
+        for (value, digits) in values.iter().zip(&mut found) {
+            let Some(value) = value.as_ref().filter(|_| digits.is_none()) else { continue };
+            // So near to 0, or to the middle of two decimals, as to be there.
+            *digits = match value.excludes_zero() {
+                false => Some("0".to_string()),
+                true => value.midpoint().decimal(wanted),
+            };
+        }
+    }
+    Ok(scene.report(found))
+}
+
+/// A case at a state: what is to be computed, and from which numbers.
+struct Scene<'c> {
+    case: &'c Case,
+    point: Vec<Rational>,
+    tape: Tape,
+    inputs: usize,
+    /// How many outputs each part of the report has.
+    counts: Vec<usize>,
+}
+
+impl<'c> Scene<'c> {
+    fn new(
+        case: &'c Case,
+        state: Option<&[Rational]>,
+        seed: u64,
+        index: u64,
+    ) -> Result<Self, JudgeError> {
+        let model = &case.model;
+        let level = Place::level(model);
+        let sampler = Sampler::new(case, &level, seed)?;
+        let free = model.free_components();
+        let drawn = sampler.printed(index);
+        let mut point: Vec<Rational> = drawn
+            .iter()
+            .map(|text| text.parse().map_err(|_| JudgeError::Unreachable(1)))
+            .collect::<Result<_, _>>()?;
+        if let Some(state) = state {
+            point.truncate(free);
+            point.extend_from_slice(state);
+        }
+        let mut counts = Vec::new();
+        let (graph, outputs) = record(point.len(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            let jet = Jet::new(Phase::new(model, parameters, state));
+            let phase = &jet.phase;
+            let mut groups: Vec<Vec<Expr>> = vec![
+                model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
+                phase.field().to_vec(),
+            ];
+            let divergence = jet.divergence();
+            groups.push(vec![divergence, divergence - jet.level_cofactor(&level.kept)]);
+            groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
+            groups.push(model.system.criterion(phase).into_iter().collect());
+            groups.push(model.system.energy(phase).into_iter().collect());
+            for claim in &case.claims {
+                groups.push(claim.kind.formula().map(|f| phase.scalar(f)).into_iter().collect());
+                groups.push(claim.kind.residual(&jet, &claim.place.kept));
+            }
+            counts = groups.iter().map(Vec::len).collect();
+            groups.concat()
+        })?;
+        let tape = Tape::new(&graph, &outputs);
+        Ok(Self { case, point, tape, inputs: graph.inputs(), counts })
+    }
+
+    fn values(&self, domain: &Precise) -> Vec<Option<Approximation>> {
+        let antiderivatives = (0..self.inputs - self.point.len()).map(antiderivative_value);
+        let inputs: Vec<_> = self
+            .point
+            .iter()
+            .cloned()
+            .chain(antiderivatives)
+            .map(|x| domain.values(&[x]))
+            .collect();
+        let mut evaluator = Evaluator::new(&self.tape, *domain);
+        evaluator.run(&inputs);
+        evaluator.outputs().cloned().collect()
+    }
+
+    /// The report with these values of the outputs; what a claim lacks is the default.
+    fn report<N: Clone + Default>(&self, values: Vec<N>) -> PointReport<N> {
+        let model = &self.case.model;
+        let mut values = values.into_iter();
+        let mut groups =
+            self.counts.iter().map(|count| values.by_ref().take(*count).collect::<Vec<N>>());
+        let mut next = || groups.next().unwrap_or_default();
+        let level = model.level.iter().map(|e| e.text.clone()).zip(next()).collect();
+        let field = next();
+        let divergences = next();
+        let chi = next();
+        let (criterion, energy) = (next().first().cloned(), next().first().cloned());
+        let mut first = || next().first().cloned().unwrap_or_default();
+        let claims =
+            self.case.claims.iter().map(|claim| (claim.name.clone(), first(), first())).collect();
+        let shown: Vec<String> = self.point.iter().map(|value| value.to_string()).collect();
+        let (parameters, state) = named(model, &shown);
+        PointReport {
+            parameters,
+            state,
+            level,
+            field,
+            divergence: divergences.first().cloned().unwrap_or_default(),
+            level_divergence: divergences.get(1).cloned().unwrap_or_default(),
+            chi: <[N; 3]>::try_from(chi).ok(),
+            criterion,
+            energy,
+            claims,
+        }
+    }
 }
 
 /// Values in the order of a tape's inputs, by the names of parameters and of state variables.

@@ -2,12 +2,13 @@
 
 use crate::case::Case;
 use crate::claim::Place;
-use crate::graph::{Evaluator, Fault, Tape, record};
-use crate::mechanics::{Chart, Draws};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use crate::mechanics::{Chart, Draw, Draws};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 use super::newton::Newton;
 use super::{JudgeError, coverage};
@@ -19,6 +20,10 @@ pub const LANES: usize = 64;
 pub struct Sampler {
     seed: u64,
     draws: Draws,
+    recipes: Vec<Draw>,
+    /// From draws to parameters and state.
+    graph: Graph,
+    made: Vec<Expr>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
     dimension: usize,
@@ -47,10 +52,11 @@ impl Sampler {
             Chart::Given(_) | Chart::Solved(_) if all => None,
             _ => some.then(|| Newton::new(model, &place.kept)).transpose()?,
         };
-        let draws = Draws::new(&draws);
         let tape = Tape::new(&graph, &outputs);
         let dimension = model.dimension();
-        Ok(Self { seed, draws, parameter_draws, dimension, tape, newton })
+        let (recipes, draws) = (draws.clone(), Draws::new(&draws));
+        let made = outputs;
+        Ok(Self { seed, draws, recipes, graph, made, parameter_draws, dimension, tape, newton })
     }
 
     /// Are the states found numerically, with an estimated rather than a proved distance from the
@@ -61,10 +67,58 @@ impl Sampler {
 
     /// Parameters and state of the states `start..start + LANES`, as balls.
     pub fn balls(&self, start: u64) -> Vec<Balls<LANES>> {
-        self.balls_of(|lane| {
-            let index = start + lane as u64;
-            self.draws.state(self.seed, index)
-        })
+        self.balls_of(|lane| self.draws.state(self.seed, start + lane as u64))
+    }
+
+    /// The same for `lanes` states in another domain; states found numerically are known in f64
+    /// only.
+    pub fn states<D: Domain + Clone>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
+        let numbers: Vec<Vec<Rational>> =
+            (0..lanes).map(|lane| self.draws.state(self.seed, start + lane as u64)).collect();
+        self.made_in(domain, &numbers)
+    }
+
+    /// The numbers that are drawn, as balls, for the first states.
+    pub fn drawn(&self) -> Vec<Balls<LANES>> {
+        let lanes: Vec<Vec<Rational>> =
+            (0..LANES).map(|lane| self.draws.state(self.seed, lane as u64)).collect();
+        self.columns(&Ball::<LANES>, &lanes)
+    }
+
+    /// How each of the numbers is drawn.
+    pub fn recipes(&self) -> &[Draw] {
+        &self.recipes
+    }
+
+    /// Values of `graph`, which starts from parameters and states, as values of a graph that starts
+    /// from draws, those in `fixed` replaced by constants.
+    ///
+    /// Further inputs of `graph` (antiderivatives) follow the draws.
+    pub fn compose(
+        &self,
+        graph: &Graph,
+        groups: &[Vec<Expr>],
+        fixed: &[Option<Rational>],
+    ) -> Result<(Graph, Vec<Vec<Expr>>), Fault> {
+        let (composed, values) = record(self.draws.len(), |draws| {
+            let draws: Vec<Expr> = draws
+                .iter()
+                .zip(fixed)
+                .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
+                .collect();
+            let reached = self.graph.reached(self.made.iter().copied());
+            let values = self.graph.replay(&reached, &draws, |_, _, _| None);
+            let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+            let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
+            inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+            let reached = graph.reached(groups.iter().flatten().copied());
+            let values = graph.replay(&reached, &inputs, |_, _, _| None);
+            let group = |group: &Vec<Expr>| {
+                group.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            };
+            groups.iter().map(group).collect::<Option<Vec<Vec<Expr>>>>()
+        })?;
+        values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
     }
 
     /// Checks that a parametrisation typed by the user fills the level set.
@@ -91,20 +145,28 @@ impl Sampler {
 
     fn balls_of(&self, draws_of: impl Fn(usize) -> Vec<Rational>) -> Vec<Balls<LANES>> {
         let lanes: Vec<Vec<Rational>> = (0..LANES).map(draws_of).collect();
-        let domain = Ball::<LANES>;
-        let inputs: Vec<Balls<LANES>> = (0..self.draws.len())
-            .map(|k| {
-                let column: Vec<Rational> = lanes.iter().map(|lane| lane[k].clone()).collect();
-                domain.values(&column)
-            })
-            .collect();
-        let mut evaluator = Evaluator::new(&self.tape, domain);
-        evaluator.run(&inputs);
-        let mut values: Vec<Balls<LANES>> = evaluator.outputs().cloned().collect();
+        let mut values = self.made_in(&Ball::<LANES>, &lanes);
         if let Some(newton) = &self.newton {
             newton.project(&mut values);
         }
         values
+    }
+
+    /// The draws of some states, a block each.
+    fn columns<D: Domain>(&self, domain: &D, lanes: &[Vec<Rational>]) -> Vec<D::Block> {
+        (0..self.draws.len())
+            .map(|k| {
+                let column: Vec<Rational> = lanes.iter().map(|lane| lane[k].clone()).collect();
+                domain.values(&column)
+            })
+            .collect()
+    }
+
+    /// Parameters and states made from draws.
+    fn made_in<D: Domain + Clone>(&self, domain: &D, lanes: &[Vec<Rational>]) -> Vec<D::Block> {
+        let mut evaluator = Evaluator::new(&self.tape, domain.clone());
+        evaluator.run(&self.columns(domain, lanes));
+        evaluator.outputs().cloned().collect()
     }
 
     /// Parameters and state of one state, exact where they are rational.

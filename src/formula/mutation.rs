@@ -1,0 +1,232 @@
+//! Perturbed formulas: each mutant is the text with one thing changed, read again.
+//!
+//! Changed are coefficients (one more, the negative, a near miss by a relative 2⁻⁵⁰, a doubled term),
+//! signs, exponents, terms and factors (dropped), quotients (turned over), arguments (one for the
+//! other) and names (a tensor, a vector or a scalar for another). What cannot be read any more, is
+//! not of the same type, or says the same as the original is left out.
+
+use super::Formula;
+use super::arena::{Function, NodeId, Operation};
+use super::scope::Scope;
+use super::value::Type;
+use crate::number::rational::Rational;
+
+/// Mutants of one formula; beyond these every so many are taken.
+const MOST: usize = 60;
+/// 1 + 2⁻⁵⁰
+const NEAR_ONE: &str = "1125899906842625/1125899906842624";
+/// Replacements tried for each use of a name, by type.
+const MOST_NAMES: usize = 3;
+
+/// A formula with one thing changed.
+#[derive(Clone, Debug)]
+pub struct Mutant {
+    /// The changed formula.
+    pub formula: Formula,
+    /// What was changed, e.g. `2 → 3`.
+    pub change: String,
+}
+
+impl Formula {
+    /// All mutants, in the order of the text; at most 60.
+    pub fn mutants(&self, scope: &dyn Scope) -> Vec<Mutant> {
+        let mut edits = Vec::new();
+        for node in 0..self.arena.nodes.len() {
+            self.edits_of(node, scope, &mut edits);
+        }
+        let mut mutants: Vec<Mutant> = Vec::new();
+        let stripped =
+            |formula: &Formula| formula.text.split_whitespace().collect::<Vec<_>>().concat();
+        let mut known = vec![stripped(self)];
+        for edit in edits {
+            let Ok(formula) = Formula::parse(&edit.text, scope) else { continue };
+            let text = stripped(&formula);
+            let same =
+                formula.operations().eq(self.operations()) && formula.symbols().eq(self.symbols());
+            if formula.value_type() == self.value_type() && !same && !known.contains(&text) {
+                known.push(text);
+                mutants.push(Mutant { formula, change: edit.change });
+            }
+        }
+        let step = mutants.len().div_ceil(MOST).max(1);
+        mutants.into_iter().step_by(step).collect()
+    }
+
+    fn operations(&self) -> impl Iterator<Item = &Operation> {
+        self.arena.nodes.iter().map(|node| &node.operation)
+    }
+
+    fn part(&self, node: NodeId) -> &str {
+        self.text.get(self.arena.nodes[node].span.clone()).unwrap_or("")
+    }
+
+    /// The text with the part of `node` replaced.
+    fn edit(&self, node: NodeId, by: &str, change: String) -> Edit {
+        let span = &self.arena.nodes[node].span;
+        let (before, after) = (self.text.get(..span.start), self.text.get(span.end..));
+        let text = format!("{}({by}){}", before.unwrap_or(""), after.unwrap_or(""));
+        Edit { text, change }
+    }
+
+    /// The text with the operator between two operands replaced.
+    fn operator(&self, a: NodeId, b: NodeId, from: &[char], to: &str) -> Option<Edit> {
+        let gap = self.arena.nodes[a].span.end..self.arena.nodes[b].span.start;
+        let found = self.text.get(gap.clone())?.find(from)? + gap.start;
+        let sign = self.text[found..].chars().next()?;
+        let (before, after) = (&self.text[..found], &self.text[found + sign.len_utf8()..]);
+        Some(Edit { text: format!("{before}{to}{after}"), change: format!("{sign} → {to}") })
+    }
+
+    fn edits_of(&self, node: NodeId, scope: &dyn Scope, edits: &mut Vec<Edit>) {
+        let own = self.part(node);
+        let replaced = |by: String| self.edit(node, &by, format!("{own} → {by}"));
+        match &self.arena.nodes[node].operation {
+            Operation::Number(value) => {
+                edits.push(replaced((value + &Rational::from(1)).to_string()));
+                edits.push(replaced(format!("-({own})")));
+                edits.push(replaced(format!("{own}*({NEAR_ONE})")));
+            }
+            Operation::Symbol(slot) => {
+                let (_, kind) = self.arena.symbols[*slot];
+                edits.extend(others(own, kind, scope).into_iter().map(replaced));
+            }
+            Operation::Negate(a) => edits.push(replaced(self.part(*a).to_string())),
+            Operation::Add(a, b) => {
+                edits.extend(self.operator(*a, *b, &['+'], "−"));
+                self.terms(node, *a, *b, edits);
+            }
+            Operation::Subtract(a, b) => {
+                edits.extend(self.operator(*a, *b, &['-', '−'], "+"));
+                self.terms(node, *a, *b, edits);
+            }
+            Operation::Multiply(a, b)
+            | Operation::Scale(a, b)
+            | Operation::Apply(a, b)
+            | Operation::Compose(a, b)
+            | Operation::Solve(a, b) => {
+                for kept in [*a, *b] {
+                    edits.push(self.kept(node, kept));
+                }
+            }
+            Operation::Divide(a, b) => {
+                let (above, below) = (self.part(*a), self.part(*b));
+                edits.push(self.kept(node, *a));
+                edits.push(replaced(format!("({below})/({above})")));
+            }
+            Operation::Power(a, exponent) => {
+                let base = self.part(*a);
+                let one = Rational::from(1);
+                for other in [exponent + &one, -exponent, exponent + &Rational::new(1, 2)] {
+                    edits.push(replaced(format!("({base})^({other})")));
+                }
+            }
+            Operation::Function(Function::Sqrt | Function::Modulus, a)
+            | Operation::Inverse(a)
+            | Operation::Transpose(a)
+            | Operation::Adjugate(a) => edits.push(self.kept(node, *a)),
+            Operation::Dot(a, b) => {
+                let (left, right) = (self.part(*a), self.part(*b));
+                edits.push(replaced(format!("({left},{left})")));
+                edits.push(replaced(format!("({right},{right})")));
+            }
+            _ => {}
+        }
+    }
+
+    /// A term doubled, a near miss of it, and each dropped.
+    fn terms(&self, node: NodeId, a: NodeId, b: NodeId, edits: &mut Vec<Edit>) {
+        for term in [a, b] {
+            let text = self.part(term);
+            edits.push(self.edit(term, &format!("2*({text})"), format!("{text} doubled")));
+            let near = format!("({NEAR_ONE})*({text})");
+            edits.push(self.edit(term, &near, format!("{text} · (1 + 2⁻⁵⁰)")));
+        }
+        edits.push(self.kept(node, a));
+        edits.push(self.kept(node, b));
+    }
+
+    /// The node replaced by one of its operands.
+    fn kept(&self, node: NodeId, operand: NodeId) -> Edit {
+        let (own, part) = (self.part(node), self.part(operand));
+        self.edit(node, part, format!("{own} → {part}"))
+    }
+}
+
+/// A changed text.
+struct Edit {
+    text: String,
+    change: String,
+}
+
+/// Names of the same type, those that a reader would confuse first.
+fn others(name: &str, kind: Type, scope: &dyn Scope) -> Vec<String> {
+    let likely: &[&str] = match kind {
+        Type::Matrix => &["Ĩ", "J", "I", "B", "Γ"],
+        Type::Vector => &["γ", "ω", "r", "c"],
+        Type::Scalar => &["m", "R", "μ", "k", "κ"],
+    };
+    let is_other =
+        |other: &str| other != name && scope.lookup(other).is_some_and(|(_, found)| found == kind);
+    let names = likely.iter().filter(|other| is_other(other)).map(|other| other.to_string());
+    names.take(MOST_NAMES).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Scope, Symbol};
+    use super::*;
+
+    struct Letters;
+
+    impl Scope for Letters {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            let kind = match name {
+                "m" | "R" => Type::Scalar,
+                "ω" | "γ" => Type::Vector,
+                "I" | "J" => Type::Matrix,
+                _ => return None,
+            };
+            Some((Symbol(u32::from(name.chars().next()?) as _), kind))
+        }
+
+        fn names(&self) -> Vec<String> {
+            ["m", "R", "ω", "γ", "I", "J"].map(String::from).to_vec()
+        }
+    }
+
+    fn texts(text: &str) -> Vec<String> {
+        let formula = Formula::parse(text, &Letters).expect("a formula");
+        let mutants = formula.mutants(&Letters);
+        mutants.iter().map(|mutant| mutant.formula.text().to_string()).collect()
+    }
+
+    #[test]
+    fn each_kind_of_change_occurs() {
+        let found = texts("(J*ω,ω) − 2*m*R²");
+        for expected in [
+            "(J*ω,ω) + 2*m*R²",
+            "(J*ω,ω) − (3)*m*R²",
+            "(J*ω,ω) − 2*m*((R)^(3))",
+            "((I)*ω,ω) − 2*m*R²",
+            "(J*(γ),ω) − 2*m*R²",
+            "((J*ω,ω))",
+            "(J*ω,ω) − 2*(R)*R²",
+            "(2*((J*ω,ω))) − 2*m*R²",
+        ] {
+            assert!(found.iter().any(|text| text == expected), "{expected} among {found:#?}");
+        }
+    }
+
+    #[test]
+    fn mutants_keep_the_type_and_differ() {
+        for text in ["√m", "-m", "m/R", "(ω × γ,J⁻¹*ω)", "det(J)^(1/2)", "(ω,γ)²/m"] {
+            let formula = Formula::parse(text, &Letters).expect("a formula");
+            let mutants = formula.mutants(&Letters);
+            assert!(!mutants.is_empty(), "{text} can be wrong in some way");
+            for mutant in mutants {
+                assert_eq!(mutant.formula.value_type(), Type::Scalar, "{}", mutant.change);
+                assert_ne!(mutant.formula.text(), text, "{}", mutant.change);
+            }
+        }
+    }
+}

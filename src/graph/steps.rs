@@ -1,0 +1,135 @@
+//! A graph read from outside: its operations in order, and their repetition in another recording.
+
+use super::{Expr, Graph, Node};
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::scalar::Scalar;
+
+/// One operation; arguments are given by the places of earlier steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step<'g> {
+    /// An exact constant.
+    Constant(&'g Rational),
+    /// A free input, by number.
+    Input(usize),
+    /// f(x)
+    Unary(Function, usize),
+    /// x op y
+    Binary(Operation, usize, usize),
+    /// x^q
+    Power(usize, &'g Rational),
+}
+
+impl Step<'_> {
+    /// The places of the arguments.
+    pub fn arguments(&self) -> impl Iterator<Item = usize> {
+        let [first, second] = match *self {
+            Step::Constant(_) | Step::Input(_) => [None, None],
+            Step::Unary(_, a) | Step::Power(a, _) => [Some(a), None],
+            Step::Binary(_, a, b) => [Some(a), Some(b)],
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+impl Graph {
+    /// All steps; the place of a step is its number.
+    pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
+        (0..self.nodes.len()).map(|place| self.step(place))
+    }
+
+    /// The step at a place.
+    pub fn step(&self, place: usize) -> Step<'_> {
+        match self.nodes[place] {
+            Node::Constant(index) => Step::Constant(&self.constants[index as usize]),
+            Node::Input(input) => Step::Input(input as usize),
+            Node::Unary(function, a) => Step::Unary(function, a.0 as usize),
+            Node::Binary(operation, a, b) => Step::Binary(operation, a.0 as usize, b.0 as usize),
+            Node::Power(a, exponent) => {
+                Step::Power(a.0 as usize, &self.constants[exponent as usize])
+            }
+        }
+    }
+
+    /// The place of the step that makes `expr`; 0, a constant, for a handle of no recording.
+    pub fn place(&self, expr: Expr) -> usize {
+        expr.id().map_or(0, |id| id.0 as usize)
+    }
+
+    /// Which steps the outputs need.
+    pub fn reached(&self, outputs: impl IntoIterator<Item = Expr>) -> Vec<bool> {
+        let places: Vec<usize> = outputs.into_iter().map(|output| self.place(output)).collect();
+        self.reached_from(&places)
+    }
+
+    /// Which steps those at these places need.
+    pub fn reached_from(&self, places: &[usize]) -> Vec<bool> {
+        let mut reached = vec![false; self.nodes.len()];
+        places.iter().for_each(|place| reached[*place] = true);
+        for (place, step) in self.steps().enumerate().rev() {
+            if reached[place] {
+                step.arguments().for_each(|argument| reached[argument] = true);
+            }
+        }
+        reached
+    }
+
+    /// Repeats what the reached steps compute, from other inputs, in the recording under way; gives
+    /// the new value of each place.
+    ///
+    /// `replace` may give a step another value; it is asked with the step and the new values of the
+    /// places before it.
+    pub fn replay(
+        &self,
+        reached: &[bool],
+        inputs: &[Expr],
+        mut replace: impl FnMut(usize, Step<'_>, &[Option<Expr>]) -> Option<Expr>,
+    ) -> Vec<Option<Expr>> {
+        let mut values: Vec<Option<Expr>> = Vec::with_capacity(self.nodes.len());
+        for (place, step) in self.steps().enumerate() {
+            if !reached[place] {
+                values.push(None);
+                continue;
+            }
+            let value = replace(place, step, &values).or_else(|| {
+                let at = |place: usize| values[place];
+                Some(match step {
+                    Step::Constant(value) => Expr::rational(value),
+                    Step::Input(input) => *inputs.get(input)?,
+                    Step::Unary(function, a) => at(a)?.apply(function),
+                    Step::Binary(operation, a, b) => at(a)?.combine(operation, at(b)?),
+                    Step::Power(a, exponent) => at(a)?.power(exponent),
+                })
+            });
+            values.push(value);
+        }
+        values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record;
+    use super::*;
+    use num_dual::DualNum;
+
+    #[test]
+    fn a_replay_repeats_and_replaces() {
+        let (graph, outputs) = record(2, |x| [x[0] * x[1] + x[0].sqrt(), x[0]]).expect("records");
+        let reached = graph.reached(outputs);
+        let (_, same) = record(2, |x| {
+            let values = graph.replay(&reached, x, |_, _, _| None);
+            values[graph.place(outputs[0])] == Some(x[0] * x[1] + x[0].sqrt())
+        })
+        .expect("records");
+        assert!(same, "equal steps are equal nodes");
+        let (_, replaced) = record(2, |x| {
+            let values = graph.replay(&reached, x, |_, step, _| {
+                matches!(step, Step::Unary(Function::Sqrt, _)).then(|| x[1])
+            });
+            values[graph.place(outputs[0])] == Some(x[0] * x[1] + x[1])
+        })
+        .expect("records");
+        assert!(replaced, "the root was given another value");
+    }
+}

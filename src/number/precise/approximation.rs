@@ -1,0 +1,244 @@
+//! (m ± r)·2^e, and the operations that are exact but for their rounding.
+
+use num_bigint::{BigInt, BigUint};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::super::rational::Rational;
+
+/// Radii are kept below this many bits: the digits beneath them mean nothing.
+const RADIUS_BITS: u64 = 32;
+
+/// The interval of all reals within r·2^e of m·2^e.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Approximation {
+    mantissa: BigInt,
+    exponent: i64,
+    /// In units of 2^e.
+    radius: u64,
+}
+
+impl Approximation {
+    /// m·2^e exactly.
+    pub fn exact(mantissa: BigInt, exponent: i64) -> Self {
+        Self { mantissa, exponent, radius: 0 }
+    }
+
+    /// (m ± r)·2^e, cut to what its radius and `bits` make worth keeping.
+    pub(super) fn new(mantissa: BigInt, radius: BigUint, exponent: i64, bits: u32) -> Self {
+        let long = mantissa.bits().saturating_sub(u64::from(bits));
+        let wide = radius.bits().saturating_sub(RADIUS_BITS);
+        let shift = long.max(wide);
+        if shift == 0 {
+            let radius = radius.to_u64().unwrap_or(u64::MAX);
+            return Self { mantissa, exponent, radius };
+        }
+        let loses = mantissa.trailing_zeros().is_some_and(|zeros| zeros < shift);
+        let mut radius: BigUint =
+            if radius.is_zero() { radius } else { (radius >> shift) + BigUint::one() };
+        if loses {
+            radius += BigUint::one();
+        }
+        let radius = radius.to_u64().unwrap_or(u64::MAX);
+        Self { mantissa: mantissa >> shift, exponent: exponent + shift as i64, radius }
+    }
+
+    /// An exact f64; `None` for NaN and infinities.
+    pub fn from_f64(value: f64) -> Option<Self> {
+        let (above, below) = Rational::from_f64(value)?.parts();
+        // The denominator of an f64 is a power of two.
+        Some(Self::exact(above, 1 - below.bits() as i64))
+    }
+
+    /// The ball of radius `rad` around hi + lo.
+    pub fn from_twofold(hi: f64, lo: f64, rad: f64) -> Option<Self> {
+        let mid = Self::from_f64(hi)?.add(&Self::from_f64(lo)?, u32::MAX);
+        let rad = Self::from_f64(rad)?;
+        // As an integer number of units that are no larger than either.
+        let unit = mid.exponent.min(rad.exponent);
+        let mantissa = mid.mantissa << (mid.exponent - unit) as u64;
+        let radius = rad.mantissa.magnitude() << (rad.exponent - unit) as u64;
+        Some(Self::new(mantissa, radius, unit, u32::MAX))
+    }
+
+    /// The midpoint as m·2^e, and the radius in units of 2^e.
+    pub fn parts(&self) -> (&BigInt, i64, u64) {
+        (&self.mantissa, self.exponent, self.radius)
+    }
+
+    /// The midpoint alone.
+    pub fn midpoint(&self) -> Self {
+        Self { radius: 0, ..self.clone() }
+    }
+
+    /// Is this 0 exactly?
+    pub fn is_zero(&self) -> bool {
+        self.mantissa.is_zero() && self.radius == 0
+    }
+
+    /// Is 0 outside the interval?
+    pub fn excludes_zero(&self) -> bool {
+        self.mantissa.magnitude() > &BigUint::from(self.radius)
+    }
+
+    /// Is every number of the interval positive?
+    pub fn is_positive(&self) -> bool {
+        self.mantissa.is_positive() && self.excludes_zero()
+    }
+
+    /// Bits of the midpoint before the binary point; negative for small numbers.
+    pub(super) fn magnitude(&self) -> i64 {
+        self.mantissa.bits() as i64 + self.exponent
+    }
+
+    /// Midpoint and radius in f64, the radius covering both roundings.
+    pub fn enclosure(&self) -> (f64, f64) {
+        let mid = to_f64(&self.mantissa, self.exponent);
+        let radius = to_f64(&BigInt::from(self.radius), self.exponent);
+        if !mid.is_finite() {
+            return (f64::MAX.copysign(mid), f64::INFINITY);
+        }
+        let exact = self.radius == 0
+            && Self::from_f64(mid).is_some_and(|back| back.add(&self.neg(), u32::MAX).is_zero());
+        let rounding = if exact { 0.0 } else { mid.abs() * f64::EPSILON + f64::MIN_POSITIVE };
+        (mid, radius * (1.0 + 4.0 * f64::EPSILON) + rounding)
+    }
+
+    /// hi, lo and radius.
+    pub fn to_twofold(&self) -> (f64, f64, f64) {
+        let hi = to_f64(&self.mantissa, self.exponent);
+        let Some(nearest) = Self::from_f64(hi) else { return (hi, 0.0, f64::INFINITY) };
+        let rest = self.add(&nearest.neg(), u32::MAX);
+        let (lo, rad) = rest.enclosure();
+        (hi, lo, rad)
+    }
+
+    /// |approximate - this|, rounded to f64; infinite for what is not finite.
+    pub fn distance(&self, approximate: f64) -> f64 {
+        Self::from_f64(approximate).map_or(f64::INFINITY, |other| {
+            let rest = self.add(&other.neg(), u32::MAX);
+            to_f64(&rest.mantissa, rest.exponent).abs()
+        })
+    }
+
+    /// -x
+    pub fn neg(&self) -> Self {
+        Self { mantissa: -&self.mantissa, ..self.clone() }
+    }
+
+    /// |x|, as the ball around the absolute value of the midpoint.
+    pub fn abs(&self) -> Self {
+        Self { mantissa: self.mantissa.abs(), ..self.clone() }
+    }
+
+    /// The same with at most `bits` bits.
+    pub fn rounded(self, bits: u32) -> Self {
+        Self::new(self.mantissa, self.radius.into(), self.exponent, bits)
+    }
+
+    /// x + y
+    pub fn add(&self, other: &Self, bits: u32) -> Self {
+        let (coarse, fine) = match self.exponent >= other.exponent {
+            true => (self, other),
+            false => (other, self),
+        };
+        if coarse.is_zero() {
+            return fine.clone().rounded(bits);
+        }
+        if fine.is_zero() {
+            return coarse.clone().rounded(bits);
+        }
+        let apart = (coarse.exponent - fine.exponent) as u64;
+        let room = u64::from(bits).saturating_mul(2).saturating_add(128);
+        if coarse.radius > 0 || apart > room.saturating_add(fine.mantissa.bits()) {
+            // Nothing finer than the coarse radius is worth keeping; without one, an exact coarse
+            // number is first refined as far as the result can be.
+            let refine = if coarse.radius > 0 { 0 } else { room };
+            let coarse_mantissa = &coarse.mantissa << refine;
+            let drop = apart.saturating_sub(refine);
+            let mantissa = coarse_mantissa + (&fine.mantissa >> drop);
+            let dropped = fine.radius.checked_shr(drop.min(64) as u32).unwrap_or(0) + 2;
+            let radius = BigUint::from(coarse.radius) + BigUint::from(dropped);
+            return Self::new(mantissa, radius, coarse.exponent - refine as i64, bits);
+        }
+        let mantissa = (&coarse.mantissa << apart) + &fine.mantissa;
+        Self::new(mantissa, fine.radius.into(), fine.exponent, bits)
+    }
+
+    /// x y
+    pub fn mul(&self, other: &Self, bits: u32) -> Self {
+        let mantissa = &self.mantissa * &other.mantissa;
+        let exponent = self.exponent + other.exponent;
+        // |m| s + |n| r + r s
+        let mut radius = BigUint::zero();
+        if other.radius > 0 {
+            radius += self.mantissa.magnitude() * other.radius;
+        }
+        if self.radius > 0 {
+            radius += other.mantissa.magnitude() * self.radius;
+            radius += BigUint::from(self.radius) * other.radius;
+        }
+        Self::new(mantissa, radius, exponent, bits)
+    }
+
+    /// 1/x, unless 0 is in the interval.
+    pub fn recip(&self, bits: u32) -> Option<Self> {
+        let size = self.mantissa.magnitude();
+        if !self.excludes_zero() {
+            return None;
+        }
+        let room = size - BigUint::from(self.radius);
+        let shift = u64::from(bits.min(1 << 24)) + size.bits() + 1;
+        let one = BigInt::one() << shift;
+        let quotient = &one / &self.mantissa;
+        // |1/x - 1/m| ≤ (1/|m|) r/(|m| - r), and one unit each for two roundings.
+        let mut radius = BigUint::zero();
+        if self.radius > 0 {
+            radius += quotient.magnitude() * self.radius / room + BigUint::from(2u8);
+        }
+        if &quotient * &self.mantissa != one {
+            radius += BigUint::one();
+        }
+        Some(Self::new(quotient, radius, -self.exponent - shift as i64, bits))
+    }
+
+    /// √x, unless a negative number is in the interval.
+    pub fn sqrt(&self, bits: u32) -> Option<Self> {
+        if self.is_zero() {
+            return Some(self.clone());
+        }
+        if self.mantissa.is_negative() || self.mantissa.magnitude() < &BigUint::from(self.radius) {
+            return None;
+        }
+        let wanted = 2 * u64::from(bits.min(1 << 24)) + 2;
+        let mut shift = wanted.saturating_sub(self.mantissa.bits());
+        if (self.exponent - shift as i64) % 2 != 0 {
+            shift += 1;
+        }
+        let square = self.mantissa.magnitude() << shift;
+        let root = square.sqrt();
+        // |√x - √m| ≤ r/√m
+        let mut radius = BigUint::zero();
+        if self.radius > 0 {
+            radius += (BigUint::from(self.radius) << shift) / &root + BigUint::from(2u8);
+        }
+        if &root * &root != square {
+            radius += BigUint::one();
+        }
+        let exponent = (self.exponent - shift as i64) / 2;
+        Some(Self::new(BigInt::from(root), radius, exponent, bits))
+    }
+}
+
+/// The f64 nearest to m·2^e; one of the nearest two where it is subnormal.
+fn to_f64(mantissa: &BigInt, exponent: i64) -> f64 {
+    let size = mantissa.magnitude();
+    let shift = size.bits().saturating_sub(64);
+    let mut head = (size >> shift).to_u64().unwrap_or(0);
+    if size.trailing_zeros().is_some_and(|zeros| zeros < shift) {
+        // Something was cut off: no tie any more.
+        head |= 1;
+    }
+    let exponent = (exponent + shift as i64).clamp(-4000, 4000) as i32;
+    let value = libm::scalbn(head as f64, exponent);
+    if mantissa.is_negative() { -value } else { value }
+}

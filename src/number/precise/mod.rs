@@ -1,0 +1,146 @@
+//! Balls with as many bits as are asked for, over big integers.
+//!
+//! An [`Approximation`] (m ± r)·2^e stands for every real in that interval; the radius counts units
+//! of the last place, so that nothing is ever rounded the wrong way. Results are cut to the
+//! working precision, and to what their radius makes worth keeping.
+
+mod approximation;
+mod decimal;
+mod elementary;
+
+pub use approximation::Approximation;
+
+use num_bigint::BigInt;
+
+use super::rational::Rational;
+use super::{Domain, Enclosing, Function, Operation};
+
+/// Integer powers up to this exponent are multiplied out.
+const LARGEST_POWER: i64 = 1 << 12;
+
+/// The domain with balls of a given precision, one lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Precise {
+    bits: u32,
+}
+
+impl Precise {
+    /// Balls with midpoints of `bits` bits, at least 16.
+    pub fn new(bits: u32) -> Self {
+        Self { bits: bits.max(16) }
+    }
+
+    /// The working precision.
+    pub fn bits(&self) -> u32 {
+        self.bits
+    }
+
+    /// An enclosure of an exact number.
+    pub fn rational(&self, value: &Rational) -> Approximation {
+        let (above, below) = value.parts();
+        let above = Approximation::exact(above, 0);
+        if below == BigInt::from(1) {
+            return above.rounded(self.bits);
+        }
+        let below = Approximation::exact(below, 0);
+        // A denominator is not 0.
+        below.recip(self.bits + 2).map_or(above.clone(), |inverse| above.mul(&inverse, self.bits))
+    }
+
+    /// f(x), `None` where it is undefined or too large to be of use.
+    pub fn function(&self, function: Function, x: &Approximation) -> Option<Approximation> {
+        match function {
+            Function::Neg => Some(x.neg()),
+            Function::Abs => Some(x.abs()),
+            Function::Recip => x.recip(self.bits),
+            Function::Sqrt => x.sqrt(self.bits),
+            Function::Exp => elementary::exp(x, self.bits),
+            Function::Ln => elementary::ln(x, self.bits),
+            Function::Sin => elementary::sin_cos(x, self.bits).map(|(sine, _)| sine),
+            Function::Cos => elementary::sin_cos(x, self.bits).map(|(_, cosine)| cosine),
+            Function::Atan => elementary::atan(x, self.bits),
+        }
+    }
+
+    /// x^y = exp(y ln x) for x > 0.
+    pub fn power_of(&self, x: &Approximation, y: &Approximation) -> Option<Approximation> {
+        // exp turns absolute into relative errors: the exponent needs as many bits more as it has
+        // before the point, of which there are few.
+        let more = self.bits + 48;
+        elementary::exp(&elementary::ln(x, more)?.mul(y, more), self.bits)
+    }
+
+    /// x^q, for x > 0 unless q is an integer.
+    pub fn rational_power(&self, x: &Approximation, exponent: &Rational) -> Option<Approximation> {
+        match exponent.to_integer().filter(|n| n.abs() <= LARGEST_POWER) {
+            Some(n) => {
+                let mut power = Approximation::exact(BigInt::from(1), 0);
+                for bit in (0..64 - n.unsigned_abs().leading_zeros()).rev() {
+                    power = power.mul(&power, self.bits + 16);
+                    if n.unsigned_abs() >> bit & 1 == 1 {
+                        power = power.mul(x, self.bits + 16);
+                    }
+                }
+                if n < 0 { power.recip(self.bits) } else { Some(power.rounded(self.bits)) }
+            }
+            None => self.power_of(x, &Precise::new(self.bits + 48).rational(exponent)),
+        }
+    }
+}
+
+impl Domain for Precise {
+    type Block = Option<Approximation>;
+
+    fn constant(&self, value: &Rational) -> Option<Approximation> {
+        Some(self.rational(value))
+    }
+
+    fn values(&self, values: &[Rational]) -> Option<Approximation> {
+        values.first().map(|value| self.rational(value))
+    }
+
+    fn unary(
+        &self,
+        function: Function,
+        x: &Option<Approximation>,
+        out: &mut Option<Approximation>,
+    ) {
+        *out = x.as_ref().and_then(|x| self.function(function, x));
+    }
+
+    fn binary(
+        &self,
+        operation: Operation,
+        x: &Option<Approximation>,
+        y: &Option<Approximation>,
+        out: &mut Option<Approximation>,
+    ) {
+        *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| match operation {
+            Operation::Add => Some(x.add(y, self.bits)),
+            Operation::Sub => Some(x.add(&y.neg(), self.bits)),
+            Operation::Mul => Some(x.mul(y, self.bits)),
+            Operation::Pow => self.power_of(x, y),
+        });
+    }
+
+    fn power(
+        &self,
+        x: &Option<Approximation>,
+        exponent: &Rational,
+        out: &mut Option<Approximation>,
+    ) {
+        *out = x.as_ref().and_then(|x| self.rational_power(x, exponent));
+    }
+}
+
+impl Enclosing for Precise {
+    const LANES: usize = 1;
+
+    fn enclosure(block: &Option<Approximation>, _: usize) -> Option<(f64, f64)> {
+        block.as_ref().map(Approximation::enclosure)
+    }
+
+    fn excludes_zero(block: &Option<Approximation>, _: usize) -> bool {
+        block.as_ref().is_some_and(Approximation::excludes_zero)
+    }
+}

@@ -1,0 +1,359 @@
+//! Prime fields: exact arithmetic modulo random primes of 61 bits, in which an algebraic identity is
+//! tested rather than approximated.
+//!
+//! Each lane has a prime of its own choice, p = 3 mod 4. Then -1 is no square, exactly one of ±x is
+//! (for x ≠ 0), and the root of a square that is itself a square, √x = x^((p+1)/4), behaves like
+//! the positive root under products: √x √y = √(xy). Under sums it does not; what may be concluded
+//! from values in these fields is written down in docs/soundness.md.
+//!
+//! A lane is undefined after 1/0 and after a root of 0 or of a non-square; what has no value in a
+//! field (exp, ln, sin, cos, atan, x^y) is always undefined and must have been replaced before.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::ToPrimitive;
+
+use super::rational::Rational;
+use super::{Domain, Function, Operation};
+
+/// Marks a lane without value; no residue is as large.
+pub const UNDEFINED: u64 = u64::MAX;
+
+/// Arithmetic modulo one odd prime below 2^62, on residues in Montgomery form: x stands for x·2^64.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Modulus {
+    prime: u64,
+    /// -p⁻¹ mod 2^64
+    negative_inverse: u64,
+    /// 2^64 mod p, the image of 1.
+    one: u64,
+    /// 2^128 mod p, which turns an integer into its image.
+    square: u64,
+}
+
+impl Modulus {
+    /// The field of `prime` elements; odd and below 2^62.
+    pub fn new(prime: u64) -> Self {
+        // Newton's iteration doubles the number of correct low bits; p is its own inverse mod 8.
+        let mut inverse = prime;
+        for _ in 0..5 {
+            inverse = inverse.wrapping_mul(2u64.wrapping_sub(prime.wrapping_mul(inverse)));
+        }
+        let wide = u128::from(prime);
+        let one = ((1u128 << 64) % wide) as u64;
+        let square = (u128::from(one) * u128::from(one) % wide) as u64;
+        Self { prime, negative_inverse: inverse.wrapping_neg(), one, square }
+    }
+
+    /// The prime itself.
+    pub fn prime(&self) -> u64 {
+        self.prime
+    }
+
+    /// The image of 1.
+    pub fn one(&self) -> u64 {
+        self.one
+    }
+
+    /// The image of an integer below 2^64.
+    pub fn integer(&self, value: u64) -> u64 {
+        self.mul(value % self.prime, self.square)
+    }
+
+    /// The least non-negative integer with this image.
+    pub fn to_integer(&self, x: u64) -> u64 {
+        self.mul(x, 1)
+    }
+
+    /// The image of a rational number, `None` where p divides its denominator.
+    pub fn rational(&self, value: &Rational) -> Option<u64> {
+        let (numerator, denominator) = value.small_parts().map_or_else(
+            || {
+                let (numerator, denominator) = value.parts();
+                let modulus = BigInt::from(self.prime);
+                let image = |x: &BigInt| x.mod_floor(&modulus).to_u64().unwrap_or(0);
+                (image(&numerator), image(&denominator))
+            },
+            |(n, d)| {
+                let above = n.unsigned_abs() % self.prime;
+                let above = if n < 0 && above > 0 { self.prime - above } else { above };
+                (above, d.unsigned_abs() % self.prime)
+            },
+        );
+        match denominator {
+            0 => None,
+            1 => Some(self.integer(numerator)),
+            _ => Some(self.mul(self.integer(numerator), self.inverse(self.integer(denominator)))),
+        }
+    }
+
+    /// x + y
+    #[inline(always)]
+    pub fn add(&self, x: u64, y: u64) -> u64 {
+        let sum = x + y;
+        sum.min(sum.wrapping_sub(self.prime))
+    }
+
+    /// x - y
+    #[inline(always)]
+    pub fn sub(&self, x: u64, y: u64) -> u64 {
+        let difference = x.wrapping_sub(y);
+        difference.min(difference.wrapping_add(self.prime))
+    }
+
+    /// x y
+    #[inline(always)]
+    pub fn mul(&self, x: u64, y: u64) -> u64 {
+        let product = u128::from(x) * u128::from(y);
+        let factor = (product as u64).wrapping_mul(self.negative_inverse);
+        // product + factor p is divisible by 2^64 and below 2^64 · 2p.
+        let sum = ((product + u128::from(factor) * u128::from(self.prime)) >> 64) as u64;
+        sum.min(sum.wrapping_sub(self.prime))
+    }
+
+    /// x^n
+    pub fn power(&self, x: u64, n: u64) -> u64 {
+        let mut result = self.one;
+        for bit in (0..64 - n.leading_zeros()).rev() {
+            result = self.mul(result, result);
+            if n >> bit & 1 == 1 {
+                result = self.mul(result, x);
+            }
+        }
+        result
+    }
+
+    /// 1/x for x ≠ 0
+    pub fn inverse(&self, x: u64) -> u64 {
+        self.power(x, self.prime - 2)
+    }
+
+    /// The root of x that is itself a square, if x is a square and not 0 (for p = 3 mod 4).
+    pub fn root(&self, x: u64) -> Option<u64> {
+        // x^((p-3)/4): times x it is the root, and times the root it is χ(x).
+        let power = self.power(x, (self.prime - 3) / 4);
+        let root = self.mul(power, x);
+        (self.mul(power, root) == self.one).then_some(root)
+    }
+
+    /// Is x a square other than 0?
+    pub fn is_square(&self, x: u64) -> bool {
+        self.power(x, (self.prime - 1) / 2) == self.one
+    }
+
+    /// x^(a/b) for a square x and b prime to (p-1)/2, the order of the group of squares.
+    fn rational_power(&self, x: u64, exponent: &Rational) -> Option<u64> {
+        let (above, below) = exponent.parts();
+        let order = BigInt::from((self.prime - 1) / 2);
+        let inverse = below.modinv(&order)?;
+        let exponent = (above * inverse).mod_floor(&order).to_u64()?;
+        self.is_square(x).then(|| self.power(x, exponent))
+    }
+
+    fn integer_power(&self, x: u64, exponent: i64) -> Option<u64> {
+        let power = self.power(x, exponent.unsigned_abs());
+        match (exponent < 0, power) {
+            (false, _) => Some(power),
+            (true, 0) => None,
+            (true, _) => Some(self.inverse(power)),
+        }
+    }
+}
+
+/// `N` lanes, each in a prime field of its own.
+#[derive(Clone, Debug)]
+pub struct Prime<const N: usize> {
+    moduli: [Modulus; N],
+}
+
+impl<const N: usize> Prime<N> {
+    /// The domain whose lanes compute modulo these primes.
+    pub fn new(moduli: [Modulus; N]) -> Self {
+        Self { moduli }
+    }
+
+    /// The moduli of the lanes.
+    pub fn moduli(&self) -> &[Modulus; N] {
+        &self.moduli
+    }
+
+    #[inline(always)]
+    fn map(&self, x: &[u64; N], out: &mut [u64; N], f: impl Fn(&Modulus, u64) -> Option<u64>) {
+        for lane in 0..N {
+            out[lane] = match x[lane] {
+                UNDEFINED => UNDEFINED,
+                value => f(&self.moduli[lane], value).unwrap_or(UNDEFINED),
+            };
+        }
+    }
+
+    #[inline(always)]
+    fn zip(
+        &self,
+        x: &[u64; N],
+        y: &[u64; N],
+        out: &mut [u64; N],
+        f: impl Fn(&Modulus, u64, u64) -> u64,
+    ) {
+        for lane in 0..N {
+            let defined = x[lane] != UNDEFINED && y[lane] != UNDEFINED;
+            // The operation on the mark is harmless, and goes without a branch.
+            let (a, b) = if defined { (x[lane], y[lane]) } else { (0, 0) };
+            let value = f(&self.moduli[lane], a, b);
+            out[lane] = if defined { value } else { UNDEFINED };
+        }
+    }
+}
+
+impl<const N: usize> Domain for Prime<N> {
+    type Block = [u64; N];
+
+    fn constant(&self, value: &Rational) -> [u64; N] {
+        let mut block = [UNDEFINED; N];
+        for lane in 0..N {
+            // Neighbours mostly share their prime.
+            block[lane] = match lane {
+                1.. if self.moduli[lane] == self.moduli[lane - 1] => block[lane - 1],
+                _ => self.moduli[lane].rational(value).unwrap_or(UNDEFINED),
+            };
+        }
+        block
+    }
+
+    fn values(&self, values: &[Rational]) -> [u64; N] {
+        let last = values.len().saturating_sub(1);
+        std::array::from_fn(|lane| {
+            let value = values.get(lane.min(last));
+            value.and_then(|value| self.moduli[lane].rational(value)).unwrap_or(UNDEFINED)
+        })
+    }
+
+    #[inline(always)]
+    fn unary(&self, function: Function, x: &[u64; N], out: &mut [u64; N]) {
+        match function {
+            Function::Neg => self.map(x, out, |m, x| Some(m.sub(0, x))),
+            Function::Recip => self.map(x, out, |m, x| (x != 0).then(|| m.inverse(x))),
+            Function::Sqrt => self.map(x, out, Modulus::root),
+            Function::Abs => {
+                self.map(x, out, |m, x| Some(if m.is_square(x) { x } else { m.sub(0, x) }));
+            }
+            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+                *out = [UNDEFINED; N];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn binary(&self, operation: Operation, x: &[u64; N], y: &[u64; N], out: &mut [u64; N]) {
+        match operation {
+            Operation::Add => self.zip(x, y, out, Modulus::add),
+            Operation::Sub => self.zip(x, y, out, Modulus::sub),
+            Operation::Mul => self.zip(x, y, out, Modulus::mul),
+            Operation::Pow => *out = [UNDEFINED; N],
+        }
+    }
+
+    fn power(&self, x: &[u64; N], exponent: &Rational, out: &mut [u64; N]) {
+        match exponent.to_integer() {
+            Some(n) => self.map(x, out, |m, x| m.integer_power(x, n)),
+            None => self.map(x, out, |m, x| m.rational_power(x, exponent)),
+        }
+    }
+}
+
+/// Is this a prime? By Miller's test with the bases that decide every number below 2^64.
+pub fn is_prime(candidate: u64) -> bool {
+    const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    if let Some(divisor) = BASES.iter().find(|base| candidate % **base == 0) {
+        return candidate == *divisor;
+    }
+    if candidate < 41 {
+        return candidate > 1;
+    }
+    if candidate >> 62 != 0 {
+        return false;
+    }
+    let m = Modulus::new(candidate);
+    let (minus_one, twos) = (m.sub(0, m.one), (candidate - 1).trailing_zeros());
+    BASES.iter().all(|base| {
+        let mut x = m.power(m.integer(*base), (candidate - 1) >> twos);
+        if x == m.one || x == minus_one {
+            return true;
+        }
+        (1..twos).any(|_| {
+            x = m.mul(x, x);
+            x == minus_one
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MERSENNE: u64 = (1 << 61) - 1;
+
+    #[test]
+    fn primes_are_told_from_the_rest() {
+        let small: Vec<u64> = (0..50).filter(|n| is_prime(*n)).collect();
+        assert_eq!(small, [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47]);
+        assert!(is_prime(MERSENNE), "2^61 - 1");
+        // A strong pseudoprime to the first nine bases, and a Carmichael number.
+        assert!(!is_prime(3_825_123_056_546_413_051), "149491 · 747451 · 34233211");
+        assert!(!is_prime(2_147_483_647 * 1_073_741_789), "(2^31 - 1)(2^30 - 35)");
+        assert!(!is_prime(561), "3 · 11 · 17");
+    }
+
+    #[test]
+    fn residues_compute() {
+        let m = Modulus::new(MERSENNE);
+        let third = m.rational(&Rational::new(1, 3)).expect("3 is a unit");
+        assert_eq!(m.mul(third, m.integer(3)), m.one(), "1/3 · 3");
+        assert_eq!(m.to_integer(m.sub(0, m.integer(5))), MERSENNE - 5, "-5");
+        assert_eq!(m.rational(&Rational::from(-5)), Some(m.sub(0, m.integer(5))), "-5 again");
+        let zero: Rational = MERSENNE.to_string().parse().expect("a number");
+        assert_eq!(m.rational(&zero), Some(0), "p is 0");
+        assert_eq!(m.rational(&zero.recip().expect("not 0")), None, "1/p is nothing");
+        let large: Rational = "123456789012345678901234567890/7".parse().expect("a number");
+        let by_hand = 123456789012345678901234567890u128 % u128::from(MERSENNE);
+        let image = m.rational(&large).map(|x| m.to_integer(m.mul(x, m.integer(7))));
+        assert_eq!(image, Some(by_hand as u64), "large parts are reduced");
+    }
+
+    #[test]
+    fn roots_are_squares_and_multiply() {
+        let m = Modulus::new(MERSENNE);
+        let (mut roots, mut none) = (0, 0);
+        for n in 1..200u64 {
+            let x = m.integer(n * n * n + 7);
+            match m.root(x) {
+                Some(root) => {
+                    assert_eq!(m.mul(root, root), x, "√x √x = x");
+                    assert!(m.is_square(root), "the root is a square itself");
+                    roots += 1;
+                }
+                None => {
+                    assert!(!m.is_square(x), "no square, no root");
+                    assert!(m.is_square(m.sub(0, x)), "then -x is one, as p = 3 mod 4");
+                    none += 1;
+                }
+            }
+        }
+        assert!(roots > 50 && none > 50, "half of all elements are squares");
+        assert_eq!(m.root(0), None, "√0 is refused: it has no sign");
+        assert_eq!(m.root(m.integer(3)), None, "3 is no square mod 2^61 - 1");
+    }
+
+    #[test]
+    fn roots_of_higher_index_need_a_suitable_prime() {
+        // (2^61 - 2)/2 is divisible by 3, so cube roots are not unique there.
+        let x = Modulus::new(MERSENNE).integer(4);
+        assert_eq!(Modulus::new(MERSENNE).rational_power(x, &Rational::new(1, 3)), None);
+        let prime = (1u64 << 60..).find(|p| p % 12 == 11 && is_prime(*p)).expect("there is one");
+        let m = Modulus::new(prime);
+        let root = m.rational_power(m.integer(4), &Rational::new(2, 3)).expect("4 is a square");
+        assert_eq!(m.power(root, 3), m.integer(16), "(4^(2/3))³ = 16");
+        let half = m.rational_power(m.integer(4), &Rational::new(1, 2));
+        assert_eq!(half, m.root(m.integer(4)), "x^(1/2) is √x");
+    }
+}

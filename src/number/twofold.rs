@@ -1,0 +1,242 @@
+//! Balls over double-double: the midpoint is an unevaluated sum hi + lo of two f64, some 32 digits.
+//!
+//! With u = 2⁻⁵³ and z the result, the midpoints obey
+//!
+//! ```text
+//! x ± y   within 3u² + 13u³ of the sum      (Joldes, Muller, Popescu 2017, algorithm 6)   4u² used
+//! x y     within 5u² of the product         (the same, algorithm 10)                      8u² used
+//! 1/x     q + q r,  q = fl(1/hi), r = 1 - q x: r² ≤ 9u², rounding of r ≤ 6u², of q r ≤ 3u²  32u² used
+//! √x      s + r/2s, s = fl(√hi),  r = x - s²: (r/2s)²/2s ≤ 2u² s, rounding ≤ 6u² s         16u² used
+//! ```
+//!
+//! and the radii are those of [`ball`](super::ball), in f64. The error of a product is exact by a
+//! fused multiply-add as long as it does not underflow; `TINY` puts back what is lost then, divided
+//! by s for a root. Elementary functions are computed in [`precise`](super::precise) arithmetic.
+
+use super::precise::{Approximation, Precise};
+use super::rational::Rational;
+use super::{Domain, Enclosing, Function, Operation};
+
+/// u², the unit of the error bounds.
+const UNIT: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+/// More than what underflow takes from any operation.
+const TINY: f64 = f64::MIN_POSITIVE;
+/// Bits in which elementary functions are computed.
+const ELEMENTARY_BITS: u32 = 140;
+
+/// The domain of double-double balls with `N` lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TwofoldBall<const N: usize>;
+
+/// `N` balls: midpoints hi + lo, and radii.
+#[derive(Clone, Debug)]
+pub struct Twofolds<const N: usize> {
+    /// The nearest f64 of each midpoint.
+    pub hi: [f64; N],
+    /// What is left of it, at most half a unit in the last place of `hi`.
+    pub lo: [f64; N],
+    /// Radii; NaN or infinite where the lane is undefined or unbounded.
+    pub rad: [f64; N],
+}
+
+/// One lane: hi, lo, radius.
+type Lane = (f64, f64, f64);
+
+const UNDEFINED: Lane = (f64::NAN, f64::NAN, f64::NAN);
+
+impl<const N: usize> Twofolds<N> {
+    /// Is there a finite enclosure in this lane?
+    pub fn is_defined(&self, lane: usize) -> bool {
+        self.hi[lane].is_finite() && self.rad[lane].is_finite()
+    }
+
+    fn lane(&self, lane: usize) -> Lane {
+        (self.hi[lane], self.lo[lane], self.rad[lane])
+    }
+}
+
+/// a + b = s + e exactly.
+#[inline(always)]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let c = s - a;
+    (s, (a - (s - c)) + (b - c))
+}
+
+/// The same for |a| ≥ |b|, or a = 0.
+#[inline(always)]
+fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// a b = p + e exactly, where e does not underflow.
+#[inline(always)]
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    (p, a.mul_add(b, -p))
+}
+
+#[inline(always)]
+fn sum(a: f64, al: f64, b: f64, bl: f64) -> (f64, f64) {
+    let (s, e) = two_sum(a, b);
+    let (t, f) = two_sum(al, bl);
+    let (s, e) = quick_two_sum(s, e + t);
+    quick_two_sum(s, f + e)
+}
+
+/// Puts back what computing a bound in f64 may have lost.
+#[inline(always)]
+fn widen(radius: f64) -> f64 {
+    radius * (1.0 + 16.0 * f64::EPSILON) + TINY
+}
+
+#[inline(always)]
+fn add((a, al, ra): Lane, (b, bl, rb): Lane) -> Lane {
+    let (z, zl) = sum(a, al, b, bl);
+    (z, zl, widen(ra + rb + 4.0 * UNIT * z.abs()))
+}
+
+#[inline(always)]
+fn multiply((a, al, ra): Lane, (b, bl, rb): Lane) -> Lane {
+    let (p, e) = two_product(a, b);
+    let (z, zl) = quick_two_sum(p, e + (a * bl + al * b));
+    (z, zl, widen(a.abs() * rb + b.abs() * ra + ra * rb + 8.0 * UNIT * z.abs()))
+}
+
+#[inline(always)]
+fn reciprocal((a, al, ra): Lane) -> Lane {
+    let q = 1.0 / a;
+    let (p, e) = two_product(q, a);
+    let r = ((1.0 - p) - e) - q * al;
+    let (z, zl) = quick_two_sum(q, r * q);
+    // The midpoint is |a| up to one part in 2^53.
+    let room = a.abs() * (1.0 - f64::EPSILON) - ra;
+    let rad = widen(z.abs() * (ra / room) + 32.0 * UNIT * z.abs());
+    (z, zl, if room > 0.0 { rad } else { f64::NAN })
+}
+
+#[inline(always)]
+fn square_root((a, al, ra): Lane) -> Lane {
+    let s = a.sqrt();
+    let (p, e) = two_product(s, s);
+    let r = ((a - p) - e) + al;
+    let (z, zl) = quick_two_sum(s, r / (s + s));
+    // |√x - √a| ≤ |x - a|/√a; √0 is exactly 0.
+    let rad = widen((ra + TINY) / (s * (1.0 - f64::EPSILON)) + 16.0 * UNIT * s);
+    let is_zero = a == 0.0 && ra == 0.0;
+    let (z, zl, rad) = if is_zero { (0.0, 0.0, 0.0) } else { (z, zl, rad) };
+    let lowest = a * (1.0 - f64::EPSILON);
+    (z, zl, if lowest >= ra || is_zero { rad } else { f64::NAN })
+}
+
+/// An elementary function by way of more digits.
+fn elementary(lane: Lane, f: impl Fn(&Precise, &Approximation) -> Option<Approximation>) -> Lane {
+    let domain = Precise::new(ELEMENTARY_BITS);
+    Approximation::from_twofold(lane.0, lane.1, lane.2)
+        .and_then(|x| f(&domain, &x))
+        .map_or(UNDEFINED, |z| z.to_twofold())
+}
+
+impl<const N: usize> Domain for TwofoldBall<N> {
+    type Block = Twofolds<N>;
+
+    fn constant(&self, value: &Rational) -> Twofolds<N> {
+        let (hi, lo, rad) = enclose(value);
+        Twofolds { hi: [hi; N], lo: [lo; N], rad: [rad; N] }
+    }
+
+    fn values(&self, values: &[Rational]) -> Twofolds<N> {
+        let mut block = Twofolds { hi: [f64::NAN; N], lo: [f64::NAN; N], rad: [f64::NAN; N] };
+        let mut last = UNDEFINED;
+        for lane in 0..N {
+            last = values.get(lane).map_or(last, enclose);
+            (block.hi[lane], block.lo[lane], block.rad[lane]) = last;
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn unary(&self, function: Function, x: &Twofolds<N>, out: &mut Twofolds<N>) {
+        match function {
+            Function::Neg => map(x, out, |(a, al, ra)| (-a, -al, ra)),
+            Function::Abs => {
+                map(x, out, |(a, al, ra)| if a < 0.0 { (-a, -al, ra) } else { (a, al, ra) });
+            }
+            Function::Recip => map(x, out, reciprocal),
+            Function::Sqrt => map(x, out, square_root),
+            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+                map(x, out, |lane| elementary(lane, |domain, x| domain.function(function, x)));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn binary(
+        &self,
+        operation: Operation,
+        x: &Twofolds<N>,
+        y: &Twofolds<N>,
+        out: &mut Twofolds<N>,
+    ) {
+        match operation {
+            Operation::Add => zip(x, y, out, add),
+            Operation::Sub => zip(x, y, out, |x, (b, bl, rb)| add(x, (-b, -bl, rb))),
+            Operation::Mul => zip(x, y, out, multiply),
+            Operation::Pow => zip(x, y, out, |x, y| {
+                let y = Approximation::from_twofold(y.0, y.1, y.2);
+                elementary(x, |domain, x| domain.power_of(x, y.as_ref()?))
+            }),
+        }
+    }
+
+    fn power(&self, x: &Twofolds<N>, exponent: &Rational, out: &mut Twofolds<N>) {
+        map(x, out, |lane| elementary(lane, |domain, x| domain.rational_power(x, exponent)));
+    }
+}
+
+impl<const N: usize> Enclosing for TwofoldBall<N> {
+    const LANES: usize = N;
+
+    fn enclosure(block: &Twofolds<N>, lane: usize) -> Option<(f64, f64)> {
+        let (hi, lo, rad) = block.lane(lane);
+        // The radius must cover what is left out of the midpoint.
+        block.is_defined(lane).then(|| (hi, if lo == 0.0 { rad } else { widen(rad + lo.abs()) }))
+    }
+
+    fn excludes_zero(block: &Twofolds<N>, lane: usize) -> bool {
+        let (hi, lo, rad) = block.lane(lane);
+        block.is_defined(lane) && hi.abs() - lo.abs() > rad
+    }
+}
+
+/// hi, lo and radius of an exact number.
+fn enclose(value: &Rational) -> Lane {
+    let (hi, exact) = value.to_f64();
+    let rest = match Rational::from_f64(hi) {
+        Some(nearest) if !exact => (value - &nearest).to_f64(),
+        _ => (0.0, true),
+    };
+    let rad = if rest.1 { 0.0 } else { widen(rest.0.abs() * f64::EPSILON) };
+    (hi, rest.0, rad)
+}
+
+#[inline(always)]
+fn map<const N: usize>(x: &Twofolds<N>, out: &mut Twofolds<N>, f: impl Fn(Lane) -> Lane) {
+    for lane in 0..N {
+        (out.hi[lane], out.lo[lane], out.rad[lane]) = f((x.hi[lane], x.lo[lane], x.rad[lane]));
+    }
+}
+
+#[inline(always)]
+fn zip<const N: usize>(
+    x: &Twofolds<N>,
+    y: &Twofolds<N>,
+    out: &mut Twofolds<N>,
+    f: impl Fn(Lane, Lane) -> Lane,
+) {
+    for lane in 0..N {
+        (out.hi[lane], out.lo[lane], out.rad[lane]) =
+            f((x.hi[lane], x.lo[lane], x.rad[lane]), (y.hi[lane], y.lo[lane], y.rad[lane]));
+    }
+}

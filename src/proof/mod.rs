@@ -1,0 +1,210 @@
+//! Proofs of algebraic identities by computing in prime fields.
+//!
+//! In goes a graph, some of its values, and what its inputs are; out comes whether all of them are
+//! identically zero, with a bound on the probability of an error, or that one is not, or why nothing
+//! can be said. The law is docs/soundness.md; what it says is in these files:
+//!
+//! | | |
+//! |---|---|
+//! | `algebraic` | functions that no field has are replaced by signs and symbols |
+//! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
+//! | `bounds` | degree and height on the graph, denominators kept in factors |
+//! | `chance` | random primes and points |
+//! | `identity` | Theorem 1: the test itself |
+//! | `elimination`, `rank` | linear algebra modulo a prime |
+//! | `roots` | independent roots certified, dependent ones eliminated |
+
+mod algebraic;
+mod bounds;
+mod chance;
+mod elimination;
+mod identity;
+mod rank;
+mod relations;
+mod roots;
+mod symbols;
+
+#[cfg(test)]
+mod tests;
+
+pub use bounds::Source;
+pub use identity::{Certificate, Outcome};
+pub use roots::Signs;
+
+use crate::graph::{Expr, Fault, Graph};
+
+use algebraic::Algebraic;
+use identity::Trial;
+use relations::Relations;
+use roots::{Eliminated, Standing};
+use symbols::Symbols;
+
+/// Rounds of eliminating roots: each takes away at least one.
+const MOST_ROUNDS: usize = 12;
+/// Sign choices are tried for at most this many dependent roots.
+const MOST_CHOICES: usize = 4;
+
+/// What is to be proved about a graph.
+pub struct Prover<'a> {
+    /// The inputs of the graph in order; those beyond are uniform.
+    pub sources: &'a [Source],
+    /// The signs of values at real states.
+    pub signs: Signs<'a>,
+    /// The seed of primes and points.
+    pub seed: u64,
+}
+
+impl Prover<'_> {
+    /// For each group of outputs: are all of them identically zero?
+    pub fn prove(&self, graph: &Graph, groups: &[Vec<Expr>]) -> Result<Vec<Outcome>, Fault> {
+        let all: Vec<Expr> = groups.concat();
+        let sources = self.sources_of(graph);
+        let algebraic = self.lower(graph, &all, &sources)?;
+        let trial = Trial::new(&algebraic, self.seed);
+        groups
+            .iter()
+            .map(|group| {
+                let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
+                let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
+                    return Ok(no_value());
+                };
+                match algebraic.roots_of(&outputs).next() {
+                    Some(_) => self.prove_with_roots(graph, group),
+                    None => Ok(judged(&algebraic, &outputs, trial.test(&outputs, &[], &[]))),
+                }
+            })
+            .collect()
+    }
+
+    fn sources_of(&self, graph: &Graph) -> Vec<Source> {
+        let mut sources = self.sources.to_vec();
+        sources.resize(graph.inputs(), Source::Uniform);
+        sources
+    }
+
+    fn lower(
+        &self,
+        graph: &Graph,
+        outputs: &[Expr],
+        sources: &[Source],
+    ) -> Result<Algebraic, Fault> {
+        let reached = graph.reached(outputs.iter().copied());
+        let opaque = Symbols::opaque(graph, &reached);
+        let algebraic = Algebraic::of(graph, &reached, sources, &opaque)?;
+        if !symbols::any(graph, &reached) {
+            return Ok(algebraic);
+        }
+        let mut relations = Relations::new(graph, sources, algebraic, self.seed);
+        let symbols = Symbols::by_basis(graph, &reached, &mut relations);
+        Algebraic::of(graph, &reached, sources, &symbols)
+    }
+
+    /// One group by itself, with its roots certified, eliminated, or tried with all signs.
+    fn prove_with_roots(&self, graph: &Graph, group: &[Expr]) -> Result<Outcome, Fault> {
+        let sources = self.sources_of(graph);
+        let mut replaced: Option<Eliminated> = None;
+        let mut eliminations: Option<Certificate> = None;
+        for round in 0..=MOST_ROUNDS {
+            let (graph, group) = match &replaced {
+                Some(replaced) => (&replaced.graph, replaced.outputs.as_slice()),
+                None => (graph, group),
+            };
+            let algebraic = self.lower(graph, group, &sources)?;
+            let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
+            let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
+                return Ok(no_value());
+            };
+            let trial = Trial::new(&algebraic, self.seed);
+            let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
+            let standing = roots::standing(&trial, &algebraic, &roots, self.seed);
+            let roots: Vec<_> = roots.into_iter().zip(standing).collect();
+            if round < MOST_ROUNDS && roots.iter().any(|(_, s)| *s == Standing::Dependent) {
+                let next = roots::eliminate(
+                    graph, group, &algebraic, &trial, &roots, self.signs, self.seed,
+                )?;
+                if let Some(next) = next {
+                    eliminations = both(eliminations, next.certificate);
+                    replaced = Some(next);
+                    continue;
+                }
+            }
+            return Ok(match (self.decide(&algebraic, &trial, &outputs, &roots), eliminations) {
+                (Outcome::Zero(last), Some(before)) => Outcome::Zero(last.and(before)),
+                (outcome, _) => outcome,
+            });
+        }
+        Ok(Outcome::Silent("its roots could not be sorted out".to_string()))
+    }
+
+    /// All sign choices of the roots that are left dependent.
+    fn decide(
+        &self,
+        algebraic: &Algebraic,
+        trial: &Trial<'_>,
+        outputs: &[Expr],
+        roots: &[(algebraic::Root, Standing)],
+    ) -> Outcome {
+        let of = |wanted: Standing| -> Vec<algebraic::Root> {
+            roots.iter().filter(|(_, s)| *s == wanted).map(|(root, _)| *root).collect()
+        };
+        let (independent, choices) = (of(Standing::Independent), of(Standing::Dependent));
+        if !of(Standing::Unknown).is_empty() {
+            let reason = "a root never exists at random points, or is reached too rarely";
+            return Outcome::Silent(reason.to_string());
+        }
+        if choices.len() > MOST_CHOICES {
+            let reason = format!("{} roots or moduli depend on each other", choices.len());
+            return Outcome::Silent(reason);
+        }
+        let mut certificate: Option<Certificate> = None;
+        let (mut zero, mut other) = (0, 0);
+        let signs: Vec<Vec<(usize, bool)>> = (0u32..1 << choices.len())
+            .map(|choice| {
+                let sign = |(k, root): (usize, &algebraic::Root)| (root.sign, choice >> k & 1 == 0);
+                choices.iter().enumerate().map(sign).collect()
+            })
+            .collect();
+        for signs in &signs {
+            match trial.test(outputs, &independent, signs) {
+                Outcome::Zero(found) => {
+                    zero += 1;
+                    certificate = both(certificate, Some(found));
+                }
+                Outcome::NonZero => other += 1,
+                silent => return silent,
+            }
+        }
+        match (certificate, other) {
+            (Some(certificate), 0) => Outcome::Zero(certificate),
+            _ if trial.is_nonzero_for_all(outputs, &signs) => {
+                judged(algebraic, outputs, Outcome::NonZero)
+            }
+            _ => Outcome::Silent(format!(
+                "it vanishes for {zero} of {} choices of signs of dependent roots or moduli",
+                zero + other
+            )),
+        }
+    }
+}
+
+fn both(a: Option<Certificate>, b: Option<Certificate>) -> Option<Certificate> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.and(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// A value away from zero refutes only where no symbol stands for a function.
+fn judged(algebraic: &Algebraic, outputs: &[Expr], outcome: Outcome) -> Outcome {
+    match outcome {
+        Outcome::NonZero if algebraic.has_symbols(outputs) => Outcome::Silent(
+            "it does not vanish for independent symbols in the place of transcendental functions"
+                .to_string(),
+        ),
+        outcome => outcome,
+    }
+}
+
+fn no_value() -> Outcome {
+    Outcome::Silent("a function has no value in a prime field".to_string())
+}

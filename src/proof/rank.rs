@@ -1,0 +1,63 @@
+//! The rank of a matrix of values, by its rank at random points modulo random primes.
+
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
+use crate::number::prime::{Prime, UNDEFINED};
+
+use super::algebraic::Algebraic;
+use super::chance::Chance;
+use super::elimination::reduce;
+use super::identity::{LANES, Trial, points};
+use super::symbols::Symbols;
+use super::{MOST_ROUNDS, Prover};
+
+impl Prover<'_> {
+    /// The ranks of the first `n` rows for each n in `heights`.
+    ///
+    /// The rank at a point is a lower bound for certain, and at a random point the rank but for a
+    /// probability of about its degree over 2^60. `None` where no point was found at which all
+    /// entries have a value.
+    pub fn ranks(
+        &self,
+        graph: &Graph,
+        rows: &[Vec<Expr>],
+        heights: &[usize],
+    ) -> Result<Option<Vec<usize>>, Fault> {
+        let entries = rows.concat();
+        let reached = graph.reached(entries.iter().copied());
+        let sources = self.sources_of(graph);
+        let symbols = Symbols::opaque(graph, &reached);
+        let algebraic = Algebraic::of(graph, &reached, &sources, &symbols)?;
+        let outputs = entries.iter().map(|entry| algebraic.values[graph.place(*entry)]);
+        let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else { return Ok(None) };
+        let trial = Trial::new(&algebraic, self.seed);
+        let tape = Tape::new(&algebraic.graph, &outputs);
+        let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
+        let mut chance = Chance::new(self.seed, 5);
+        let width = rows.first().map_or(0, Vec::len);
+        let mut ranks: Option<Vec<usize>> = None;
+        for _ in 0..1 << MOST_ROUNDS {
+            evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));
+            for lane in 0..LANES {
+                let values: Vec<u64> = evaluator.outputs().map(|block| block[lane]).collect();
+                if values.contains(&UNDEFINED) {
+                    continue;
+                }
+                let matrix: Vec<Vec<u64>> =
+                    values.chunks(width.max(1)).map(<[u64]>::to_vec).collect();
+                let found = heights.iter().map(|height| {
+                    let rows = matrix[..(*height).min(matrix.len())].to_vec();
+                    reduce(rows, width, &trial.moduli()[lane]).0.len()
+                });
+                let found: Vec<usize> = found.collect();
+                ranks = Some(match ranks {
+                    None => found,
+                    Some(before) => before.into_iter().zip(found).map(|(a, b)| a.max(b)).collect(),
+                });
+            }
+            if ranks.is_some() {
+                break;
+            }
+        }
+        Ok(ranks)
+    }
+}

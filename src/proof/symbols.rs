@@ -1,0 +1,186 @@
+//! One symbol for each element of a basis of transcendental arguments.
+//!
+//! A symbol for each exp, sin and x^y by itself would lose exp(2x) = exp(x)² and sin 2φ =
+//! 2 sin φ cos φ. So the arguments are written through a basis over the rationals, and
+//! exp(Σ n_i e_i) becomes Π T_i^n_i, sin and cos become polynomials in points of the circle.
+
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Graph, Step};
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+
+use super::bounds::Source;
+use super::relations::{Combination, Relations};
+
+/// Multiples of a basis element beyond this are given a symbol of their own.
+const LARGEST_MULTIPLE: i64 = 64;
+
+/// How a transcendental step is made from symbols.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// A symbol of its own.
+    Opaque(usize, Source),
+    /// base^q · Π T_i^n_i
+    Product {
+        /// The place of x, and the rational part of the exponent, for x^y.
+        base: Option<(usize, Rational)>,
+        /// Symbols with their powers.
+        powers: Vec<(usize, i64)>,
+    },
+    /// sin or cos of Σ n_i e_i.
+    Angle {
+        /// Symbols with their multiples.
+        multiples: Vec<(usize, i64)>,
+        /// Is it the sine?
+        sine: bool,
+    },
+}
+
+/// The forms of all transcendental steps of a graph.
+#[derive(Clone, Debug, Default)]
+pub struct Symbols {
+    /// By place.
+    pub forms: FxHashMap<usize, Form>,
+    /// How many symbols there are.
+    pub count: usize,
+}
+
+impl Symbols {
+    /// A symbol of its own for every transcendental step.
+    pub fn opaque(graph: &Graph, reached: &[bool]) -> Self {
+        let mut symbols = Self::default();
+        for (place, step) in transcendental(graph, reached) {
+            let positive = matches!(step, Step::Unary(Function::Exp, _) | Step::Binary(..));
+            let source = if positive { Source::Square } else { Source::Uniform };
+            symbols.forms.insert(place, Form::Opaque(symbols.count, source));
+            symbols.count += 1;
+        }
+        symbols
+    }
+
+    /// The same with one symbol for each element of a basis; `relations` finds linear relations
+    /// between values of the graph, proved like any identity.
+    pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut Relations<'_>) -> Self {
+        let mut symbols = Self::opaque(graph, reached);
+        let steps: Vec<(usize, Step<'_>)> = transcendental(graph, reached).collect();
+        let exponentials: Vec<(usize, usize)> = steps
+            .iter()
+            .filter_map(|(place, step)| match step {
+                Step::Unary(Function::Exp, a) => Some((*place, *a)),
+                _ => None,
+            })
+            .collect();
+        symbols.exponentials(None, &exponentials, relations);
+        let mut bases: Vec<usize> = Vec::new();
+        for (_, step) in &steps {
+            if let Step::Binary(Operation::Pow, base, _) = step
+                && !bases.contains(base)
+            {
+                bases.push(*base);
+            }
+        }
+        for base in bases {
+            let powers: Vec<(usize, usize)> = steps
+                .iter()
+                .filter_map(|(place, step)| match step {
+                    Step::Binary(Operation::Pow, a, b) if *a == base => Some((*place, *b)),
+                    _ => None,
+                })
+                .collect();
+            symbols.exponentials(Some(base), &powers, relations);
+        }
+        let angles: Vec<(usize, usize, bool)> = steps
+            .iter()
+            .filter_map(|(place, step)| match step {
+                Step::Unary(Function::Sin, a) => Some((*place, *a, true)),
+                Step::Unary(Function::Cos, a) => Some((*place, *a, false)),
+                _ => None,
+            })
+            .collect();
+        symbols.angles(&angles, relations);
+        symbols
+    }
+
+    /// exp(e), or x^e for a base x, for several exponents e.
+    fn exponentials(
+        &mut self,
+        base: Option<usize>,
+        steps: &[(usize, usize)],
+        relations: &mut Relations<'_>,
+    ) {
+        let arguments: Vec<usize> = steps.iter().map(|(_, argument)| *argument).collect();
+        // The exponent 1 is a basis element by itself where there is a base: x^1 = x.
+        let Some(combinations) = relations.between(&arguments, base.is_some()) else { return };
+        let Some((first, multiples)) = self.allot(&combinations) else { return };
+        for (((place, _), multiples), combination) in steps.iter().zip(multiples).zip(combinations)
+        {
+            let powers = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
+            let base = base.map(|base| (base, combination.constant));
+            self.forms.insert(*place, Form::Product { base, powers });
+        }
+    }
+
+    fn angles(&mut self, steps: &[(usize, usize, bool)], relations: &mut Relations<'_>) {
+        let arguments: Vec<usize> = steps.iter().map(|(_, argument, _)| *argument).collect();
+        let Some(combinations) = relations.between(&arguments, false) else { return };
+        let Some((first, multiples)) = self.allot(&combinations) else { return };
+        for ((place, _, sine), multiples) in steps.iter().zip(multiples) {
+            let multiples = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
+            self.forms.insert(*place, Form::Angle { multiples, sine: *sine });
+        }
+    }
+
+    /// New symbols for the basis, each for so small a part of its element that all multiples are
+    /// integers; the number of the first, and the multiples of each combination.
+    #[allow(clippy::type_complexity, reason = "one use")]
+    fn allot(&mut self, combinations: &[Combination]) -> Option<(usize, Vec<Vec<(usize, i64)>>)> {
+        let width = combinations.iter().map(|c| c.multiples.len()).max().unwrap_or(0);
+        let mut parts = vec![1i64; width];
+        for combination in combinations {
+            for (part, multiple) in parts.iter_mut().zip(&combination.multiples) {
+                let (_, below) = multiple.small_parts()?;
+                *part = num_integer::lcm(*part, below);
+            }
+        }
+        let mut all = Vec::new();
+        for combination in combinations {
+            let mut multiples = Vec::new();
+            for (k, multiple) in combination.multiples.iter().enumerate() {
+                let whole = (multiple * &Rational::from(parts[k])).to_integer()?;
+                if whole.abs() > LARGEST_MULTIPLE {
+                    return None;
+                }
+                if whole != 0 {
+                    multiples.push((k, whole));
+                }
+            }
+            all.push(multiples);
+        }
+        let first = self.count;
+        self.count += width;
+        Some((first, all))
+    }
+}
+
+/// The steps that no field computes, in order.
+fn transcendental<'g>(
+    graph: &'g Graph,
+    reached: &'g [bool],
+) -> impl Iterator<Item = (usize, Step<'g>)> {
+    graph.steps().enumerate().filter(|(place, step)| {
+        reached[*place]
+            && matches!(
+                step,
+                Step::Unary(
+                    Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan,
+                    _
+                ) | Step::Binary(Operation::Pow, ..)
+            )
+    })
+}
+
+/// Does any reached step need a symbol?
+pub fn any(graph: &Graph, reached: &[bool]) -> bool {
+    transcendental(graph, reached).next().is_some()
+}

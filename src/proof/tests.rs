@@ -1,0 +1,188 @@
+//! The examples of docs/soundness.md.
+
+use num_dual::DualNum;
+
+use super::*;
+use crate::graph::{Evaluator, Tape, record};
+use crate::number::Domain;
+use crate::number::ball::Ball;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// Inputs in 1..2, or in -2..-1 for those that are negative.
+fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
+    let (graph, value) = record(negative.len(), build).expect("records");
+    let signs = |graph: &Graph, values: &[Expr]| {
+        let tape = Tape::new(graph, values);
+        let mut evaluator = Evaluator::new(&tape, Ball::<4>);
+        let states = [[1.1, 1.7, 1.3, 1.9], [1.6, 1.2, 1.4, 1.5], [1.05, 1.95, 1.45, 1.25]];
+        let inputs: Vec<_> = negative
+            .iter()
+            .zip(states.iter().cycle())
+            .map(|(negative, states)| {
+                let sign = if *negative { -1.0 } else { 1.0 };
+                Ball::<4>.values(&states.map(|x| Rational::from_f64(sign * x).expect("finite")))
+            })
+            .collect();
+        evaluator.run(&inputs);
+        let sign_of = |ball: &crate::number::ball::Balls<4>| {
+            let known = (0..4).all(|lane| ball.excludes_zero(lane));
+            let same = (0..4).all(|lane| (ball.mid[lane] > 0.0) == (ball.mid[0] > 0.0));
+            (known && same).then_some(ball.mid[0] > 0.0)
+        };
+        evaluator.outputs().map(sign_of).collect()
+    };
+    let prover = Prover { sources: &[], signs: &signs, seed: 1 };
+    prover.prove(&graph, &[vec![value]]).expect("records").remove(0)
+}
+
+fn is_proved(outcome: &Outcome) -> bool {
+    matches!(outcome, Outcome::Zero(certificate) if certificate.error_log2 < -100.0)
+}
+
+fn number(text: &str) -> Expr {
+    Expr::rational(&text.parse().expect("a number"))
+}
+
+#[test]
+fn identities_are_proved_and_others_are_not() {
+    let square = |x: &[Expr]| (x[0] + x[1]).powi(2);
+    let right = |x: &[Expr]| x[0] * x[0] + x[0] * x[1] * 2.0 + x[1] * x[1];
+    let outcome = prove(&[false, false], |x| square(x) - right(x));
+    assert!(is_proved(&outcome), "(x + y)² = x² + 2xy + y²: {outcome:?}");
+    let near = prove(&[false, false], |x| {
+        square(x) - right(x) + x[0] * number("1/1267650600228229401496703205376")
+    });
+    assert_eq!(near, Outcome::NonZero, "off by 2^-100 x");
+}
+
+#[test]
+fn one_fixed_prime_would_be_fooled() {
+    let outcome = prove(&[false], |x| x[0] * number("2305843009213693951"));
+    assert_eq!(outcome, Outcome::NonZero, "(2^61 - 1) x is not zero");
+}
+
+#[test]
+fn degrees_beyond_the_bound_are_not_proved() {
+    let outcome = prove(&[false], |x| {
+        let mut power = x[0];
+        for _ in 0..58 {
+            power = power * power;
+        }
+        (power + 1.0) * (power - 1.0) - power * power + 1.0
+    });
+    assert!(matches!(&outcome, Outcome::Silent(why) if why.contains("degree")), "{outcome:?}");
+}
+
+#[test]
+fn independent_roots_are_certified() {
+    let outcome = prove(&[false, false], |x| {
+        let (a, b) = (x[0].sqrt(), x[1].sqrt());
+        (a + b) * (a - b) - x[0] + x[1]
+    });
+    assert!(is_proved(&outcome), "(√x + √y)(√x - √y) = x - y: {outcome:?}");
+    let Outcome::Zero(certificate) = outcome else { unreachable!() };
+    assert_eq!(certificate.roots, 2, "two roots");
+    let outcome = prove(&[false, false], |x| x[0].sqrt() + x[1].sqrt() - (x[0] + x[1]).sqrt());
+    assert_eq!(outcome, Outcome::NonZero, "√x + √y is not √(x + y)");
+}
+
+#[test]
+fn roots_of_squares_have_the_sign_of_real_states() {
+    let binomial = |x: &[Expr]| {
+        let sum = x[0] + x[1];
+        (sum * sum).sqrt() - sum
+    };
+    let outcome = prove(&[false, false], binomial);
+    assert!(is_proved(&outcome), "√((x + y)²) = x + y for x, y > 0: {outcome:?}");
+    assert_eq!(prove(&[true, true], binomial), Outcome::NonZero, "and not for x, y < 0");
+    let unsettled = prove(&[true, false], binomial);
+    assert!(matches!(unsettled, Outcome::Silent(_)), "x + y has both signs: {unsettled:?}");
+    let single = |x: &[Expr]| (x[0] * x[0]).sqrt() - x[0];
+    assert!(is_proved(&prove(&[false], single)), "√(x²) = x for x > 0");
+    assert_eq!(prove(&[true], single), Outcome::NonZero, "√(x²) = -x for x < 0");
+}
+
+#[test]
+fn roots_that_depend_on_each_other_are_found() {
+    let product = prove(&[false, false], |x| (x[0] * x[1]).sqrt() - x[0].sqrt() * x[1].sqrt());
+    assert!(is_proved(&product), "√(xy) = √x √y for x, y > 0: {product:?}");
+    let negative = prove(&[true, true], |x| (x[0] * x[1]).sqrt() - (-x[0]).sqrt() * (-x[1]).sqrt());
+    assert!(is_proved(&negative), "√(xy) = √(-x) √(-y) for x, y < 0: {negative:?}");
+    let scaled = prove(&[false], |x| (x[0] * x[0] * 4.0).sqrt() - x[0] * 2.0);
+    assert!(is_proved(&scaled), "√(4x²) = 2x: {scaled:?}");
+    let normed = prove(&[false, false], |x| {
+        let length = (x[0] * x[0] + x[1] * x[1]).recip();
+        let (c, s) = ((x[0] * x[0] - x[1] * x[1]) * length, x[0] * x[1] * length * 2.0);
+        (c * c + s * s).sqrt() - 1.0
+    });
+    assert!(is_proved(&normed), "a point of the circle has length 1: {normed:?}");
+}
+
+#[test]
+fn constant_roots_exist_modulo_the_primes() {
+    let outcome = prove(&[false], |x| {
+        let root = number("3").sqrt();
+        (x[0] + root) * (x[0] - root) - x[0] * x[0] + 3.0
+    });
+    assert!(is_proved(&outcome), "(x + √3)(x - √3) = x² - 3: {outcome:?}");
+    let outcome = prove(&[false], |x| (number("12/5").sqrt() - number("3/5").sqrt() * 2.0) * x[0]);
+    assert!(is_proved(&outcome), "√(12/5) = 2√(3/5): {outcome:?}");
+    let outcome = prove(&[false], |x| (number("2").sqrt() - number("1.41421356237")) * x[0]);
+    assert_eq!(outcome, Outcome::NonZero, "√2 is not 1.41421356237");
+}
+
+#[test]
+fn moduli_are_tried_with_both_signs() {
+    let square = prove(&[true], |x| x[0].modulus() * x[0].modulus() - x[0] * x[0]);
+    assert!(is_proved(&square), "|x|² = x²: {square:?}");
+    let sign = |x: &[Expr]| x[0].modulus() - x[0];
+    assert!(is_proved(&prove(&[false], sign)), "|x| = x for x > 0");
+    assert_eq!(prove(&[true], sign), Outcome::NonZero, "but not for x < 0");
+}
+
+#[test]
+fn rational_powers_obey_the_power_laws() {
+    let power = |x: Expr, n: i64, d: i64| x.power(&Rational::new(n, d));
+    let outcome = prove(&[false], |x| power(x[0], 1, 3) * power(x[0], 2, 3) - x[0]);
+    assert!(is_proved(&outcome), "x^(1/3) x^(2/3) = x: {outcome:?}");
+    let outcome = prove(&[false], |x| power(x[0], 1, 4) * power(x[0], 1, 4) - x[0].sqrt());
+    assert!(is_proved(&outcome), "x^(1/4) x^(1/4) = √x: {outcome:?}");
+    let outcome = prove(&[false], |x| power(x[0], 1, 3) - power(x[0], 1, 5));
+    assert_eq!(outcome, Outcome::NonZero, "x^(1/3) is not x^(1/5)");
+}
+
+#[test]
+fn arguments_share_their_symbols() {
+    let outcome = prove(&[false], |x| (x[0] * 2.0).exp() - x[0].exp() * x[0].exp());
+    assert!(is_proved(&outcome), "exp(2x) = exp(x)²: {outcome:?}");
+    let outcome = prove(&[false], |x| (x[0] * 2.0).sin() - x[0].sin() * x[0].cos() * 2.0);
+    assert!(is_proved(&outcome), "sin 2φ = 2 sin φ cos φ: {outcome:?}");
+    let outcome = prove(&[false, false], |x| {
+        (x[0] + x[1]).cos() - x[0].cos() * x[1].cos() + x[0].sin() * x[1].sin()
+    });
+    assert!(is_proved(&outcome), "the addition theorem: {outcome:?}");
+    // δ^(1/(2κ) - 1) and δ^((2κ - 1)/κ) of one base: the second is the first to the power -2.
+    let outcome = prove(&[false, false], |x| {
+        let (delta, kappa) = (x[0], x[1]);
+        let first = delta.power_of((kappa * 2.0).recip() - 1.0);
+        first * first * delta.power_of((kappa * 2.0 - 1.0) / kappa) - 1.0
+    });
+    assert!(is_proved(&outcome), "powers with symbolic exponents: {outcome:?}");
+    let outcome = prove(&[false], |x| x[0].sin() - x[0].cos());
+    assert!(matches!(outcome, Outcome::Silent(_)), "not zero for symbols, which says nothing");
+}
+
+#[test]
+fn a_value_that_never_exists_is_not_zero() {
+    let outcome = prove(&[false], |x| {
+        let zero = (x[0] + 1.0).powi(2) - x[0] * x[0] - x[0] * 2.0 - 1.0;
+        zero.recip() * x[0]
+    });
+    assert!(matches!(outcome, Outcome::Silent(_)), "1/0: {outcome:?}");
+    let outcome = prove(&[false], |x| {
+        let root = (-(x[0] * x[0])).sqrt();
+        root - root * x[0] / x[0]
+    });
+    assert!(matches!(outcome, Outcome::Silent(_)), "√(-x²): {outcome:?}");
+}

@@ -1,0 +1,129 @@
+//! Residuals in prime fields: the claim's graph, from the draws on, handed to the prover.
+
+use super::antiderivative_value;
+use super::bench::Bench;
+use super::sampler::{LANES, Sampler};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
+use crate::mechanics::Draw;
+use crate::number::Domain;
+use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
+use crate::proof::{Outcome, Prover};
+
+/// Combinations of listed parameter values that are proved one by one.
+const MOST_COMBINATIONS: usize = 64;
+
+/// The states of one place, as elements of prime fields.
+pub struct Field<'a> {
+    bench: &'a Bench<'a>,
+    sampler: &'a Sampler,
+}
+
+impl<'a> Field<'a> {
+    /// The field side of a place.
+    pub fn new(bench: &'a Bench<'a>, sampler: &'a Sampler) -> Self {
+        Self { bench, sampler }
+    }
+
+    /// Is each group of values zero at all states of the place, whatever the parameters?
+    pub fn test(&self, groups: &[Vec<Expr>]) -> Result<Vec<Outcome>, Fault> {
+        let silent = |reason: &str| Ok(vec![Outcome::Silent(reason.to_string()); groups.len()]);
+        if groups.is_empty() {
+            return Ok(Vec::new());
+        }
+        if self.sampler.is_numerical() {
+            return silent("the level set has no parametrisation");
+        }
+        let Some(combinations) = combinations(self.sampler.recipes()) else {
+            return silent("the lists of parameter values have too many combinations");
+        };
+        let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
+        for fixed in combinations {
+            let (graph, values) = self.sampler.compose(self.bench.graph, groups, &fixed)?;
+            let signs = |graph: &Graph, values: &[Expr]| self.signs(graph, values);
+            let prover = Prover { sources: &[], signs: &signs, seed: self.bench.options.seed };
+            for (all, one) in outcomes.iter_mut().zip(prover.prove(&graph, &values)?) {
+                *all = Some(match all.take() {
+                    None => one,
+                    Some(before) => both(before, one),
+                });
+            }
+        }
+        Ok(outcomes.into_iter().flatten().collect())
+    }
+
+    /// The ranks of the first `n` rows of a matrix of values, for each n in `heights`, at a random
+    /// state of the place; the least over listed parameter values.
+    pub fn ranks(
+        &self,
+        rows: &[Vec<Expr>],
+        heights: &[usize],
+    ) -> Result<Option<Vec<usize>>, Fault> {
+        let mut least: Option<Vec<usize>> = None;
+        if self.sampler.is_numerical() {
+            return Ok(None);
+        }
+        for fixed in combinations(self.sampler.recipes()).unwrap_or_default() {
+            let (graph, rows) = self.sampler.compose(self.bench.graph, rows, &fixed)?;
+            let signs = |graph: &Graph, values: &[Expr]| self.signs(graph, values);
+            let prover = Prover { sources: &[], signs: &signs, seed: self.bench.options.seed };
+            let Some(found) = prover.ranks(&graph, &rows, heights)? else { return Ok(None) };
+            least = Some(match least {
+                None => found,
+                Some(before) => before.into_iter().zip(found).map(|(a, b)| a.min(b)).collect(),
+            });
+        }
+        Ok(least)
+    }
+
+    /// The signs of values of a composed graph at the states that balls have, where all agree.
+    fn signs(&self, graph: &Graph, values: &[Expr]) -> Vec<Option<bool>> {
+        let tape = Tape::new(graph, values);
+        let domain = Ball::<LANES>;
+        let mut inputs = self.sampler.drawn();
+        let free = graph.inputs().saturating_sub(inputs.len());
+        inputs.extend((0..free).map(|k| domain.constant(&antiderivative_value(k))));
+        let mut evaluator = Evaluator::new(&tape, domain);
+        evaluator.run(&inputs);
+        evaluator.outputs().map(common_sign).collect()
+    }
+}
+
+/// The sign at all lanes that have a value; `None` where one of them is not known or differs.
+fn common_sign(ball: &Balls<LANES>) -> Option<bool> {
+    let defined = || (0..LANES).filter(|lane| ball.is_defined(*lane));
+    let first = ball.mid[defined().next()?] > 0.0;
+    defined()
+        .all(|lane| ball.excludes_zero(lane) && (ball.mid[lane] > 0.0) == first)
+        .then_some(first)
+}
+
+/// What holds of two cases together.
+fn both(a: Outcome, b: Outcome) -> Outcome {
+    match (a, b) {
+        (Outcome::Zero(a), Outcome::Zero(b)) => Outcome::Zero(a.and(b)),
+        (Outcome::NonZero, _) | (_, Outcome::NonZero) => Outcome::NonZero,
+        (Outcome::Silent(reason), _) | (_, Outcome::Silent(reason)) => Outcome::Silent(reason),
+    }
+}
+
+/// Every choice of listed values: a proof speaks of one choice at a time.
+fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
+    let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
+    for recipe in recipes {
+        let values: Vec<Option<Rational>> = match recipe {
+            Draw::Within(_) => vec![None],
+            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
+        };
+        all = all
+            .into_iter()
+            .flat_map(|chosen| {
+                values.iter().map(move |value| [&chosen[..], std::slice::from_ref(value)].concat())
+            })
+            .collect();
+        if all.len() > MOST_COMBINATIONS {
+            return None;
+        }
+    }
+    Some(all)
+}

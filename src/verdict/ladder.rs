@@ -1,0 +1,306 @@
+//! The ladder: from the cheapest rung to the surest, until each claim is settled.
+//!
+//! ```text
+//! folding             the residual became a constant while it was recorded
+//! ball                enclosures in f64 at the first states: most false claims end here
+//! prime field         true claims end here, proved; a value that is not 0 sends the others up
+//! ball                further states, for claims on which the field is silent
+//! double-double ball  twice the digits, for what is off by little
+//! ball of n bits      ever more digits, for what the field knows to be no identity
+//! ```
+
+use super::bench::Bench;
+use super::evidence::{Proof, Verdict};
+use super::field::Field;
+use super::finding::{Finding, Look, fold, undecide, weigh};
+use super::judge::{JudgeError, Trust};
+use super::recorded::{Recorded, Span};
+use super::run::{Run, Values};
+use super::sampler::{LANES, Sampler};
+use super::witness::witness;
+use crate::claim::Place;
+use crate::graph::Expr;
+use crate::number::Enclosing;
+use crate::number::ball::Ball;
+use crate::number::precise::Precise;
+use crate::number::twofold::TwofoldBall;
+use crate::proof::Outcome;
+
+/// Precisions of the last rung.
+const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
+/// States that are tried with each of them.
+const PRECISE_STATES: u64 = 4;
+
+type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
+
+impl Bench<'_> {
+    /// Settles the claims made at one place.
+    pub fn climb<'f, 'r: 'f>(
+        &self,
+        place: &Place,
+        mut open: Open<'f, 'r>,
+    ) -> Result<(), JudgeError> {
+        let sampler = Sampler::new(self.case, place, self.options.seed)?;
+        for (item, finding) in &mut open {
+            fold(self.graph, item, finding);
+            finding.evidence.operations = self.graph.operations(&item.residual);
+        }
+        self.check_motion(place, &sampler)?;
+        self.first_states(&sampler, &mut open);
+        if self.options.trust != Trust::Float {
+            self.fields(place, &sampler, &mut open)?;
+        }
+        self.further_states(&sampler, &mut open);
+        if self.options.trust != Trust::Float && !sampler.is_numerical() {
+            self.more_digits(&sampler, &mut open);
+        }
+        for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.settled.is_none()) {
+            finding.settled = Some(Verdict::Confirmed);
+            if let Some(reason) = finding.blurred.take() {
+                undecide(finding, reason);
+            } else if finding.is_nonzero {
+                finding.settled = Some(Verdict::Refuted);
+                finding.evidence.method = "prime field";
+                finding.evidence.reason = Some(format!(
+                    "modulo a prime the residual of this {} is not 0, so it is no identity",
+                    item.claim.kind.name()
+                ));
+            }
+        }
+        let holding = open.into_iter().filter(|(_, finding)| finding.holds());
+        self.settle_signs(&sampler, holding);
+        Ok(())
+    }
+
+    /// Checks that the motion stays on a part of the level.
+    fn check_motion(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
+        let rates = self.rates_at(place);
+        if rates.is_empty() {
+            return Ok(());
+        }
+        let values = self.run(&rates).at(&Ball::<LANES>, &sampler.balls(0));
+        let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+        for (index, (equation, _)) in kept.enumerate() {
+            let rate = values.output(index);
+            if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
+                let (equation, rate) = (equation.text.clone(), rate.mid[lane]);
+                return Err(JudgeError::NotInvariant { equation, rate });
+            }
+        }
+        Ok(())
+    }
+
+    /// Balls over f64 at the first block, with what tells rounding from truth.
+    fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let (run, spans) = self.lay_out(open.iter().map(|(item, _)| *item), true);
+        let values = run.at(&Ball::<LANES>, &sampler.balls(0));
+        for ((item, finding), span) in open.iter_mut().zip(&spans) {
+            weigh(item, span, &values, finding);
+            if finding.settled.is_none() {
+                self.examine(sampler, 0, span, &values, finding);
+            }
+        }
+    }
+
+    /// Prime fields: what is zero there is proved.
+    fn fields(
+        &self,
+        place: &Place,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), JudgeError> {
+        let mut unsettled: Vec<_> =
+            open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
+        if unsettled.is_empty() {
+            return Ok(());
+        }
+        let mut groups = vec![self.ground(place)];
+        groups.extend(
+            unsettled
+                .iter()
+                .map(|(item, _)| [&item.residual[..], &item.context.quadrature_defects].concat()),
+        );
+        let mut outcomes = Field::new(self, sampler).test(&groups)?.into_iter();
+        let ground = outcomes.next();
+        for ((_, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
+            let outcome = match (&ground, outcome) {
+                (Some(Outcome::Zero(ground)), Outcome::Zero(own)) => Outcome::Zero(ground.and(own)),
+                (_, Outcome::Zero(_)) => Outcome::Silent(
+                    "it is not proved that states are on the level, and stay".to_string(),
+                ),
+                (_, outcome) => outcome,
+            };
+            match outcome {
+                Outcome::Zero(certificate) => {
+                    let proof = Proof::from(certificate);
+                    finding.rung("prime field", proof.to_string());
+                    finding.evidence.proof = Some(proof);
+                    finding.evidence.method = "prime field";
+                    finding.settled = Some(Verdict::Proved);
+                }
+                Outcome::NonZero => {
+                    finding.rung("prime field", "not 0, so no identity".to_string());
+                    finding.is_nonzero = true;
+                }
+                Outcome::Silent(reason) => {
+                    finding.rung("prime field", format!("silent: {reason}"));
+                    finding.evidence.silence = Some(reason);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What must vanish for states to be on the level and to stay there.
+    fn ground(&self, place: &Place) -> Vec<Expr> {
+        let kept = |all: &[Expr]| -> Vec<Expr> {
+            let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+            pairs.map(|(value, _)| *value).collect()
+        };
+        [kept(&self.common.level), kept(&self.common.level_rates)].concat()
+    }
+
+    /// Balls over f64 at the other blocks, for claims that the fields did not settle.
+    fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let mut laid_out: Option<(Run, Vec<Span>, usize)> = None;
+        for block in 1..self.blocks() {
+            let mut left: Vec<_> = open
+                .iter_mut()
+                .filter(|(_, finding)| finding.settled.is_none() && !finding.is_nonzero)
+                .collect();
+            if left.is_empty() {
+                return;
+            }
+            if laid_out.as_ref().is_none_or(|(_, _, count)| *count != left.len()) {
+                let (run, spans) = self.lay_out(left.iter().map(|(item, _)| *item), false);
+                laid_out = Some((run, spans, left.len()));
+            }
+            let Some((run, spans, _)) = &laid_out else { return };
+            let start = block * LANES as u64;
+            let values = run.at(&Ball::<LANES>, &sampler.balls(start));
+            for ((_, finding), span) in left.iter_mut().zip(spans) {
+                self.examine(sampler, start, span, &values, finding);
+            }
+        }
+    }
+
+    /// Balls with ever more digits, for claims that are still open.
+    fn more_digits(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let mut left: Vec<_> =
+            open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
+        if left.is_empty() {
+            return;
+        }
+        let (run, spans) = self.lay_out(left.iter().map(|(item, _)| *item), true);
+        let domain = TwofoldBall::<LANES>;
+        let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
+        for ((item, finding), span) in left.iter_mut().zip(&spans) {
+            let method = "double-double ball";
+            finding.evidence.method = method;
+            self.examine(sampler, 0, span, &values, finding);
+            let residual = values.range(span.residual.clone());
+            let scale = values.range(span.scale.clone()).first().copied();
+            let look = Look::at::<TwofoldBall<LANES>>(&residual, scale);
+            finding.blurred = look.blur(item.claim.kind.name());
+        }
+        for (item, finding) in left.iter_mut().filter(|(_, f)| f.settled.is_none() && f.is_nonzero)
+        {
+            let run = self.run(&item.residual);
+            let all = 0..item.residual.len();
+            for bits in BITS {
+                let domain = Precise::new(bits);
+                finding.evidence.method = "ball of many bits";
+                for index in 0..PRECISE_STATES {
+                    let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                    if finding.settled.is_none() {
+                        self.seek_witness(sampler, index, all.clone(), &values, finding);
+                    }
+                }
+            }
+        }
+    }
+
+    /// One tape for some claims.
+    fn lay_out<'r>(
+        &self,
+        items: impl Iterator<Item = &'r Recorded<'r>>,
+        with_context: bool,
+    ) -> (Run, Vec<Span>) {
+        let mut outputs = Vec::new();
+        let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
+        (self.run(&outputs), spans)
+    }
+
+    /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
+    fn examine<D: Enclosing>(
+        &self,
+        sampler: &Sampler,
+        start: u64,
+        span: &Span,
+        values: &Values<D>,
+        finding: &mut Finding,
+    ) {
+        if finding.evidence.method.is_empty() {
+            let numerical = sampler.is_numerical();
+            finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
+        }
+        if self.seek_witness(sampler, start, span.residual.clone(), values, finding) {
+            return;
+        }
+        let residuals = values.range(span.residual.clone());
+        let mut states = 0;
+        let (mut largest, mut scaled) = (0f64, 0f64);
+        for lane in 0..D::LANES {
+            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
+            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
+                continue;
+            };
+            states += 1;
+            for (mid, rad) in enclosures {
+                largest = largest.max(mid.abs());
+                scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
+            }
+        }
+        let evidence = &mut finding.evidence;
+        if start > 0 || evidence.samples == 0 {
+            evidence.samples += states;
+        }
+        // More digits replace what fewer digits found, more states add to it.
+        let before = |old: Option<f64>| if start > 0 { old.unwrap_or(0.0) } else { 0.0 };
+        evidence.max_residual = Some(before(evidence.max_residual).max(largest));
+        evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
+        let method = evidence.method;
+        finding.rung(method, format!("0 enclosed at {states} states, at most {largest:.1e}"));
+    }
+
+    /// Settles a claim as refuted by the first state whose enclosure excludes zero, if any.
+    fn seek_witness<D: Enclosing>(
+        &self,
+        sampler: &Sampler,
+        start: u64,
+        residual: std::ops::Range<usize>,
+        values: &Values<D>,
+        finding: &mut Finding,
+    ) -> bool {
+        let residuals = values.range(residual);
+        for lane in 0..D::LANES {
+            if residuals.iter().any(|block| D::enclosure(block, lane).is_none()) {
+                continue;
+            }
+            let away = residuals.iter().find(|block| D::excludes_zero(block, lane));
+            if let Some((mid, rad)) = away.and_then(|block| D::enclosure(block, lane)) {
+                let index = start + lane as u64;
+                let evidence = &mut finding.evidence;
+                evidence.samples = evidence.samples.max(lane + 1);
+                evidence.witness = Some(witness(self.case, sampler, index, mid, rad));
+                evidence.max_residual = None;
+                evidence.max_scaled_residual = None;
+                finding.settled = Some(Verdict::Refuted);
+                let method = finding.evidence.method;
+                finding.rung(method, format!("{mid:.3e} ± {rad:.1e} at state {index}"));
+                return true;
+            }
+        }
+        false
+    }
+}

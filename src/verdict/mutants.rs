@@ -1,0 +1,217 @@
+//! Who guards the verifier? True formulas are perturbed, and each mutant must be refuted.
+//!
+//! A mutant that is proved to hold is *equivalent* when it tells nothing new: its gradient depends
+//! on those of the level, the energy and the integrals that are known to hold (for a density, the
+//! gradient of ln ρ'/ρ does, since the quotient of two densities is an integral). Otherwise it is a
+//! *discovery*. What is neither refuted nor proved has survived: a defect of the sampling, or of
+//! the claim.
+
+use num_traits::Zero;
+use serde::Serialize;
+
+use super::bench::Bench;
+use super::evidence::ClaimReport;
+use super::field::Field;
+use super::finding::Look;
+use super::judge::{JudgeError, Options};
+use super::recorded::Common;
+use super::run::Doubles;
+use super::sampler::{LANES, Sampler};
+use crate::case::{Case, Claim, Expect};
+use crate::claim::{Kind, Place};
+use crate::formula::Mutant;
+use crate::graph::{Expr, record};
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::Jet;
+use crate::number::Enclosing;
+use crate::number::ball::Ball;
+use crate::number::twofold::TwofoldBall;
+use crate::proof::Outcome;
+
+/// What became of the mutants of a case.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct MutationReport {
+    /// Refuted, or without any value.
+    pub killed: usize,
+    /// True, and nothing new.
+    pub equivalent: usize,
+    /// Neither refuted nor proved.
+    pub survived: Vec<MutantReport>,
+    /// Proved, and independent of what is known.
+    pub discovered: Vec<MutantReport>,
+}
+
+/// A mutant that is to be shown.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MutantReport {
+    /// The claim it was made from.
+    pub claim: String,
+    /// Its formula.
+    pub formula: String,
+    /// What was changed.
+    pub change: String,
+}
+
+/// A mutant on the bench.
+struct Candidate<'c> {
+    claim: &'c Claim,
+    mutant: Mutant,
+    residual: Vec<Expr>,
+}
+
+/// Mutates every formula that is expected to hold, and does.
+pub fn mutate(
+    case: &Case,
+    reports: &[ClaimReport],
+    options: &Options,
+) -> Result<MutationReport, JudgeError> {
+    let model = &case.model;
+    let held: Vec<&Claim> = case
+        .claims
+        .iter()
+        .zip(reports)
+        .filter(|(claim, report)| claim.expect == Expect::Holds && report.agrees)
+        .map(|(claim, _)| claim)
+        .collect();
+    let inputs = model.free_components() + model.dimension();
+    let (graph, (candidates, common)) = record(inputs, |inputs| {
+        let (parameters, state) = inputs.split_at(model.free_components());
+        let jet = Jet::new(Phase::new(model, parameters, state));
+        let mut candidates = Vec::new();
+        for claim in &held {
+            let Some(formula) = claim.kind.formula() else { continue };
+            for mutant in formula.mutants(&model.vocabulary) {
+                let kind = claim.kind.about(mutant.formula.clone());
+                let residual = [
+                    kind.residual(&jet, &claim.place.kept),
+                    kind.quadrature_defects(&jet, &claim.place.kept),
+                ]
+                .concat();
+                candidates.push(Candidate { claim, mutant, residual });
+            }
+        }
+        (candidates, Common::of(&jet))
+    })?;
+    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
+    let mut report = MutationReport::default();
+    let mut places: Vec<&Place> = Vec::new();
+    for candidate in &candidates {
+        if !places.contains(&&candidate.claim.place) {
+            places.push(&candidate.claim.place);
+        }
+    }
+    for place in places {
+        let here: Vec<&Candidate<'_>> =
+            candidates.iter().filter(|candidate| candidate.claim.place == *place).collect();
+        let sampler = Sampler::new(case, place, options.seed)?;
+        let alive = bench.kill(&sampler, here, &mut report)?;
+        for (candidate, is_true) in alive {
+            match is_true {
+                false => report.survived.push(candidate.report()),
+                true if depends(case, &held, candidate, options)? => report.equivalent += 1,
+                true => report.discovered.push(candidate.report()),
+            }
+        }
+    }
+    Ok(report)
+}
+
+impl Candidate<'_> {
+    fn report(&self) -> MutantReport {
+        MutantReport {
+            claim: self.claim.name.clone(),
+            formula: self.mutant.formula.text().to_string(),
+            change: self.mutant.change.clone(),
+        }
+    }
+}
+
+impl Bench<'_> {
+    /// Refutes what can be refuted; gives the others, and whether they are proved.
+    fn kill<'k, 'c>(
+        &self,
+        sampler: &Sampler,
+        candidates: Vec<&'k Candidate<'c>>,
+        report: &mut MutationReport,
+    ) -> Result<Vec<(&'k Candidate<'c>, bool)>, JudgeError> {
+        let total = candidates.len();
+        let left = self.not_refuted::<Doubles>(&Ball::<LANES>, &sampler.balls(0), candidates);
+        let groups: Vec<Vec<Expr>> = left.iter().map(|c| c.residual.clone()).collect();
+        let outcomes = Field::new(self, sampler).test(&groups)?;
+        let (mut proved, mut silent, mut killed) = (Vec::new(), Vec::new(), total - left.len());
+        for (candidate, outcome) in left.into_iter().zip(outcomes) {
+            match outcome {
+                Outcome::Zero(_) => proved.push((candidate, true)),
+                Outcome::NonZero => killed += 1,
+                Outcome::Silent(_) => silent.push(candidate),
+            }
+        }
+        let open = silent.len();
+        let survived = match sampler.is_numerical() {
+            true => silent,
+            false => {
+                let domain = TwofoldBall::<LANES>;
+                self.not_refuted(&domain, &sampler.states(&domain, LANES, 0), silent)
+            }
+        };
+        killed += open - survived.len();
+        report.killed += killed;
+        proved.extend(survived.into_iter().map(|candidate| (candidate, false)));
+        Ok(proved)
+    }
+
+    /// Those whose residual is enclosed with 0 at all states of a block, and has a value at one.
+    fn not_refuted<'k, 'c, D: Enclosing + Clone>(
+        &self,
+        domain: &D,
+        states: &[D::Block],
+        candidates: Vec<&'k Candidate<'c>>,
+    ) -> Vec<&'k Candidate<'c>> {
+        let outputs: Vec<Expr> = candidates.iter().flat_map(|c| c.residual.clone()).collect();
+        let values = self.run(&outputs).at(domain, states);
+        let mut start = 0;
+        let mut left = Vec::new();
+        for candidate in candidates {
+            let residual = values.range(start..start + candidate.residual.len());
+            start += candidate.residual.len();
+            let look = Look::at::<D>(&residual, None);
+            if look.has_value() && !look.excludes_zero() {
+                left.push(candidate);
+            }
+        }
+        left
+    }
+}
+
+/// Does a true mutant tell nothing that its original and the other integrals do not?
+fn depends(
+    case: &Case,
+    held: &[&Claim],
+    candidate: &Candidate<'_>,
+    options: &Options,
+) -> Result<bool, JudgeError> {
+    let (model, claim) = (&case.model, candidate.claim);
+    let inputs = model.free_components() + model.dimension();
+    let (graph, (rows, common)) = record(inputs, |inputs| {
+        let (parameters, state) = inputs.split_at(model.free_components());
+        let jet = Jet::new(Phase::new(model, parameters, state));
+        let mut rows = jet.level_gradients(&claim.place.kept);
+        if model.system.energy(&jet.phase).is_some() {
+            rows.push(jet.gradient(|at| model.system.energy(at).unwrap_or_else(Zero::zero)));
+        }
+        for other in held.iter().filter(|other| matches!(other.kind, Kind::Integral(_))) {
+            rows.extend(other.kind.slope(&jet));
+        }
+        let own = claim.kind.slope(&jet).unwrap_or_default();
+        let new = claim.kind.about(candidate.mutant.formula.clone()).slope(&jet);
+        rows.push(match claim.kind {
+            Kind::Integral(_) => new.unwrap_or_default(),
+            _ => own.iter().zip(new.unwrap_or_default()).map(|(a, b)| b - *a).collect(),
+        });
+        (rows, Common::of(&jet))
+    })?;
+    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
+    let sampler = Sampler::new(case, &claim.place, options.seed)?;
+    let ranks = Field::new(&bench, &sampler).ranks(&rows, &[rows.len() - 1, rows.len()])?;
+    Ok(ranks.is_some_and(|ranks| ranks[0] == ranks[1]))
+}

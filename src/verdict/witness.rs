@@ -1,0 +1,34 @@
+//! A state at which a claim fails, written down so that it can be typed in again.
+
+use super::evidence::Witness;
+use super::point::named;
+use super::sampler::Sampler;
+use crate::case::Case;
+
+/// State `index` with the residual there and a bound on its error.
+pub fn witness(
+    case: &Case,
+    sampler: &Sampler,
+    index: u64,
+    residual: f64,
+    error_bound: f64,
+) -> Witness {
+    let (parameters, state) = named(&case.model, &sampler.printed(index));
+    let parameters = parameters.into_iter().map(|(name, value)| (name, listed(&value)));
+    let state: Vec<String> =
+        state.iter().map(|(name, value)| format!("{name}={}", listed(value))).collect();
+    let parameters = parameters.collect();
+    Witness { index, parameters, state: state.join(" "), residual, error_bound }
+}
+
+/// A value as `--set` and `--state` take it: a number, a list, rows of lists.
+fn listed(components: &[String]) -> String {
+    match components {
+        [one] => one.clone(),
+        [_, _, _] => format!("[{}]", components.join(",")),
+        _ => {
+            let rows: Vec<String> = components.chunks(3).map(listed).collect();
+            format!("[{}]", rows.join(","))
+        }
+    }
+}
