@@ -1,6 +1,6 @@
 //! One way to compute a residual, timed as a black box.
 
-use crate::number::rational::Rational;
+use crate::number::precise::Approximation;
 use crate::verdict::{LANES, Sampler, antiderivative_value};
 
 /// A block of states: one entry an input of the tape, one f64 a lane.
@@ -13,7 +13,7 @@ pub trait Candidate {
 
     /// The residual that the last run found in `lane`, exactly as it was computed; `None` where it
     /// is undefined.
-    fn value(&self, lane: usize) -> Option<Rational>;
+    fn value(&self, lane: usize) -> Option<Approximation>;
 
     /// The bound that was computed along with it, if one was.
     fn bound(&self, _lane: usize) -> Option<f64> {

@@ -7,7 +7,7 @@ use super::candidate::{Block, Candidate};
 use super::underived::{AlongAxis, AlongField, Term, Underived};
 use crate::graph::Evaluator;
 use crate::number::float::Float;
-use crate::number::rational::Rational;
+use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
 type Run<'t> = Evaluator<'t, Float<LANES>>;
@@ -93,8 +93,8 @@ impl Candidate for Central<'_> {
         }
     }
 
-    fn value(&self, lane: usize) -> Option<Rational> {
-        Rational::from_f64(self.results[lane])
+    fn value(&self, lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(self.results[lane])
     }
 }
 

@@ -7,7 +7,7 @@ use super::underived::{AlongAxis, AlongField, Underived};
 use crate::graph::Evaluator;
 use crate::number::complex::{Complex, Complexes};
 use crate::number::float::Float;
-use crate::number::rational::Rational;
+use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
 const STEP: f64 = 1e-100;
@@ -75,7 +75,7 @@ impl Candidate for ComplexStep<'_> {
         }
     }
 
-    fn value(&self, lane: usize) -> Option<Rational> {
-        Rational::from_f64(self.results[lane])
+    fn value(&self, lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(self.results[lane])
     }
 }

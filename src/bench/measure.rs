@@ -7,7 +7,7 @@ use super::candidate::Candidate;
 use super::reference::reference;
 use super::subject::{Entry, Subject};
 use super::{BenchError, Row};
-use crate::number::rational::Rational;
+use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
 /// A candidate runs at least so long in a round, so that the clock's own time is lost in it.
@@ -29,7 +29,7 @@ pub fn measure(subject: &Subject<'_>, rounds: usize) -> Result<Vec<Row>, BenchEr
         let errors =
             sorted(found.iter().zip(&truth).zip(&scales).map(|((found, truth), scale)| {
                 let (value, truth) = (found.0.as_ref()?, truth.as_ref()?);
-                Some((value - truth).abs().to_f64().0 / scale)
+                Some(value.add(&truth.neg(), u32::MAX).enclosure().0.abs() / scale)
             }));
         let bounds = sorted(found.iter().zip(&scales).map(|(found, scale)| Some(found.1? / scale)));
         Row {
@@ -55,7 +55,10 @@ fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
 }
 
 /// What a candidate finds at every state, with its bound.
-fn values(candidate: &mut dyn Candidate, blocks: usize) -> Vec<(Option<Rational>, Option<f64>)> {
+fn values(
+    candidate: &mut dyn Candidate,
+    blocks: usize,
+) -> Vec<(Option<Approximation>, Option<f64>)> {
     let mut values = Vec::with_capacity(blocks * LANES);
     for block in 0..blocks {
         candidate.run(block);

@@ -4,7 +4,7 @@ use super::candidate::{Block, Candidate};
 use crate::case::{Case, Claim};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
-use crate::number::rational::Rational;
+use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
 /// A function of one state, run over blocks.
@@ -34,8 +34,8 @@ impl<F: Fn(&[f64]) -> f64> Candidate for OneByOne<F> {
         }
     }
 
-    fn value(&self, lane: usize) -> Option<Rational> {
-        Rational::from_f64(self.results[lane])
+    fn value(&self, lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(self.results[lane])
     }
 }
 

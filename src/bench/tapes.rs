@@ -7,7 +7,9 @@ use crate::graph::{Evaluator, Tape};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
+use crate::number::precise::{Approximation, Precise};
 use crate::number::rational::Rational;
+use crate::number::twofold::{TwofoldBall, Twofolds};
 use crate::verdict::LANES;
 
 /// A domain whose results can be read off exactly.
@@ -16,7 +18,7 @@ pub trait Probe: Domain {
     const LANES: usize;
 
     /// The number that stands in a lane (the midpoint, if it is an enclosure).
-    fn exact(block: &Self::Block, lane: usize) -> Option<Rational>;
+    fn exact(block: &Self::Block, lane: usize) -> Option<Approximation>;
 
     /// The radius about it.
     fn radius(_block: &Self::Block, _lane: usize) -> Option<f64> {
@@ -27,16 +29,16 @@ pub trait Probe: Domain {
 impl<const N: usize> Probe for Float<N> {
     const LANES: usize = N;
 
-    fn exact(block: &[f64; N], lane: usize) -> Option<Rational> {
-        Rational::from_f64(block[lane])
+    fn exact(block: &[f64; N], lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(block[lane])
     }
 }
 
 impl<const N: usize> Probe for Ball<N> {
     const LANES: usize = N;
 
-    fn exact(block: &Balls<N>, lane: usize) -> Option<Rational> {
-        block.is_defined(lane).then(|| Rational::from_f64(block.mid[lane]))?
+    fn exact(block: &Balls<N>, lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(block.mid[lane]).filter(|_| block.is_defined(lane))
     }
 
     fn radius(block: &Balls<N>, lane: usize) -> Option<f64> {
@@ -44,11 +46,29 @@ impl<const N: usize> Probe for Ball<N> {
     }
 }
 
-impl Probe for crate::number::exact::Exact {
+impl<const N: usize> Probe for TwofoldBall<N> {
+    const LANES: usize = N;
+
+    fn exact(block: &Twofolds<N>, lane: usize) -> Option<Approximation> {
+        let midpoint = Approximation::from_twofold(block.hi[lane], block.lo[lane], 0.0);
+        midpoint.filter(|_| block.is_defined(lane))
+    }
+
+    fn radius(block: &Twofolds<N>, lane: usize) -> Option<f64> {
+        block.is_defined(lane).then(|| block.rad[lane])
+    }
+}
+
+impl Probe for Precise {
     const LANES: usize = 1;
 
-    fn exact(block: &Option<Rational>, _lane: usize) -> Option<Rational> {
-        block.clone()
+    fn exact(block: &Option<Approximation>, _lane: usize) -> Option<Approximation> {
+        block.as_ref().map(Approximation::midpoint)
+    }
+
+    fn radius(block: &Option<Approximation>, _lane: usize) -> Option<f64> {
+        // The distance of the midpoint from itself is 0: what is left is the radius.
+        block.as_ref().map(|ball| ball.add(&ball.midpoint().neg(), u32::MAX).enclosure().1)
     }
 }
 
@@ -60,6 +80,9 @@ pub fn all<'t>(tape: &'t Tape, states: &[Block]) -> Vec<Named<'t>> {
     vec![
         ("f64", run(tape, Float::<LANES>, states)),
         ("ball, f64", run(tape, Ball::<LANES>, states)),
+        ("ball, double-double", run(tape, TwofoldBall::<LANES>, states)),
+        ("ball, 128 bits", run(tape, Precise::new(128), states)),
+        ("ball, 256 bits", run(tape, Precise::new(256), states)),
     ]
 }
 
@@ -107,7 +130,7 @@ impl<D: Probe> Candidate for TapeRun<'_, D> {
         }
     }
 
-    fn value(&self, lane: usize) -> Option<Rational> {
+    fn value(&self, lane: usize) -> Option<Approximation> {
         D::exact(&self.results[lane / D::LANES], lane % D::LANES)
     }
 
