@@ -49,6 +49,12 @@ fn errors_are_in_the_order_that_theory_gives() {
         let tape = error(measured, Method::Tape, "f64");
         assert!(tape > 0.0 && tape <= 1e-11, "{name}: f64 rounds: {tape:e}");
         assert_eq!(tape, error(measured, Method::Tape, "ball, f64"), "{name}: the same midpoints");
+        let double = error(measured, Method::Tape, "ball, double-double");
+        assert!(double < 1e-25, "{name}: double-double has 32 digits: {double:e}");
+        for (domain, bits) in [("ball, 128 bits", 128), ("ball, 256 bits", 256)] {
+            let (found, most) = (error(measured, Method::Tape, domain), 2f64.powi(16 - bits));
+            assert!(found > 0.0 && found < most, "{name}, {domain}: {found:e}, {most:e} allowed");
+        }
         let differences = error(measured, Method::CentralDifference, "f64");
         assert!(
             differences > 100.0 * tape,
@@ -120,7 +126,7 @@ fn cases_are_measured_claim_by_claim_and_what_cannot_be_is_named() {
         I = [2.5, 3, 3.5]\n[body]\n\
         contact = '[(γ3²/5 − 2)*γ1, (γ3²/5 − 2)*γ2, γ3³/5 − 12*γ3/5 − 1/4]'\n\
         [[claim]]\nname = 'ρ'\ndensity = '1 + γ3²'\nexpect = 'fails'\n\
-        [[claim]]\nname = 'F'\nintegral = '(ω,ω) + γ3'\nexpect = 'fails'\n";
+        [[claim]]\nname = 'F'\nintegral = '(ω,ω)*γ3'\nexpect = 'fails'\n";
     fs::write(&path, text).expect("a scratch file");
     let report = json(&["--json", path.to_str().expect("UTF-8")], 0);
     let items = report["items"].as_array().expect("items");

@@ -13,7 +13,7 @@ use crate::verdict::LANES;
 /// A candidate runs at least so long in a round, so that the clock's own time is lost in it.
 const ROUND: Duration = Duration::from_micros(100);
 /// A candidate that has run so long sits out the rounds that are left.
-const ENOUGH: Duration = Duration::from_millis(200);
+const ENOUGH: Duration = Duration::from_millis(40);
 /// But nobody is judged by fewer rounds.
 const FEWEST: usize = 3;
 

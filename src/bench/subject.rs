@@ -26,6 +26,7 @@ pub struct Subject<'i> {
     pub claim: &'i Claim,
     states: Vec<Block>,
     residual: Tape,
+    antiderivatives: usize,
     recording: Duration,
     underived: Result<(Underived, Duration), Reason>,
 }
@@ -59,7 +60,7 @@ impl<'i> Subject<'i> {
             states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
         let (underived, time) = timed(|| Underived::record(case, claim))?;
         let underived = underived.map(|underived| (underived, time));
-        Ok(Self { item, claim, states, residual, recording, underived })
+        Ok(Self { item, claim, states, residual, antiderivatives, recording, underived })
     }
 
     /// The states, block by block.
@@ -88,9 +89,11 @@ impl<'i> Subject<'i> {
             entries.push(Entry { method, domain, operations, set_up, candidate });
         };
         let none = Duration::ZERO;
-        let definition = by_definition(&self.item.case, self.claim);
-        let candidate = Box::new(OneByOne::new(definition, &self.states));
-        at_f64(Method::NumDual, "f64", None, none, candidate);
+        if self.antiderivatives == 0 {
+            let definition = by_definition(&self.item.case, self.claim);
+            let candidate = Box::new(OneByOne::new(definition, &self.states));
+            at_f64(Method::NumDual, "f64", None, none, candidate);
+        }
         if let Some(by_hand) = self.item.by_hand {
             let candidate = Box::new(OneByOne::new(by_hand, &self.states));
             at_f64(Method::NumDualByHand, "f64", None, none, candidate);
@@ -108,9 +111,15 @@ impl<'i> Subject<'i> {
 
     /// The methods that are not measured, and why.
     pub fn skipped(&self) -> Vec<(Method, Reason)> {
-        let reason = self.underived.as_ref().err();
-        let differences = [Method::ComplexStep, Method::CentralDifference];
-        reason.into_iter().flat_map(|why| differences.map(|method| (method, *why))).collect()
+        let mut skipped = Vec::new();
+        if self.antiderivatives > 0 {
+            skipped.push((Method::NumDual, "an ∫ has no value at f64"));
+        }
+        if let Err(reason) = &self.underived {
+            skipped.push((Method::ComplexStep, *reason));
+            skipped.push((Method::CentralDifference, *reason));
+        }
+        skipped
     }
 
     /// What the residual is small against, at each lane of each block: |∇F||v| of an integral,

@@ -163,13 +163,23 @@ fn panel(
     if !labelled {
         out.push_str("<g fill-opacity=\"0.5\">\n");
     }
-    let mut labels = Labels::new(axes.frame(top), &points);
     for (row, (x, y)) in rows.iter().zip(&points) {
         let class = domains.iter().position(|domain| *domain == row.domain).unwrap_or(0);
         out.push_str(&marker(row.method, &format!("d{class}"), *x, *y));
-        if labelled {
-            let text = format!("{}, {}", row.method.name(), row.domain);
-            labels.put(out, (*x, *y), &text);
+    }
+    if labelled {
+        // From the right: what is there has the fewest places to choose from.
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by(|a, b| points[*b].0.total_cmp(&points[*a].0));
+        let mut labels = Labels::new(axes.frame(top), &points);
+        for index in order {
+            let row = rows[index];
+            let text = match row.method {
+                Method::Tape => format!("tape, {}", row.domain),
+                // The others run in one domain each.
+                method => method.name().to_string(),
+            };
+            labels.put(out, points[index], &text);
         }
     }
     if !labelled {

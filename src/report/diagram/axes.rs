@@ -22,9 +22,11 @@ impl Axes {
             let error = decade(row.max_error.filter(|error| *error > 0.0).unwrap_or(1e-16));
             errors = (errors.0.min(error.floor()), errors.1.max(error.ceil()));
             let time = row.ns_per_state.max(1e-1).log10();
-            times = (times.0.min(time.floor()), times.1.max(time.ceil()));
+            times = (times.0.min((time - 0.1).floor()), times.1.max((time + 0.1).ceil()));
         }
-        Self { errors: (errors.0 - 3.0, errors.1 + 3.0), times }
+        // Room for a label to the right of the largest error.
+        let room = (0.21 * (errors.1 - errors.0)).ceil().max(3.0);
+        Self { errors: (errors.0 - 3.0, errors.1 + room), times }
     }
 
     /// Left, top, right and bottom of the plot.
@@ -55,7 +57,8 @@ impl Axes {
         // A tick label is some 40 pixels wide.
         let every = ((self.errors.1 - self.errors.0) / 16.0).ceil().max(1.0) as i64;
         for exponent in self.errors.0 as i64..=self.errors.1 as i64 {
-            if exponent % every != 0 {
+            // Beyond 1 there is nothing but labels.
+            if exponent % every != 0 || exponent > 0 {
                 continue;
             }
             let x = self.across(exponent as f64);

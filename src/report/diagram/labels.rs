@@ -29,33 +29,58 @@ impl Labels {
     /// Writes a label near a point, if there is room; the legend tells the rest.
     pub fn put(&mut self, out: &mut String, (x, y): (f64, f64), text: &str) {
         let width = width(text);
-        let shifts = (0..12).flat_map(|step| [f64::from(step) * -7.0, f64::from(step) * 7.0]);
-        for shift in shifts {
+        for shift in (0..12).flat_map(|step| [f64::from(step) * -7.0, f64::from(step) * 7.0]) {
             let beside = GAP + shift.abs() * 0.6;
             for left in [x + beside, x - beside - width] {
-                let middle = y + shift;
-                let place = [left, middle - HEIGHT / 2.0, left + width, middle + HEIGHT / 2.0];
-                if !self.is_free(&place) {
-                    continue;
+                if self.try_at(out, (x, y), (left, y + shift), text) {
+                    return;
                 }
-                if shift != 0.0 {
-                    let end = if left > x { left - 2.0 } else { left + width + 2.0 };
-                    let _ = writeln!(
-                        out,
-                        "<line class=\"lead\" x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{end:.1}\" y2=\"{middle:.1}\"/>"
-                    );
+            }
+            // Above and below, as far to the right as the frame allows.
+            if shift.abs() == 14.0 {
+                let left = (x - width / 2.0).min(self.frame[2] - 4.0 - width);
+                if self.try_at(out, (x, y), (left, y + shift), text) {
+                    return;
                 }
-                let (edge, anchor) = if left > x { (left, "start") } else { (left + width, "end") };
-                let _ = writeln!(
-                    out,
-                    "<text class=\"small label\" x=\"{edge:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>",
-                    middle + 4.0,
-                    escape(text)
-                );
-                self.taken.push(place);
-                return;
             }
         }
+    }
+
+    /// Writes the label with this left end and middle height, if the place is free.
+    fn try_at(
+        &mut self,
+        out: &mut String,
+        (x, y): (f64, f64),
+        (left, middle): (f64, f64),
+        text: &str,
+    ) -> bool {
+        let right = left + width(text);
+        let place = [left, middle - HEIGHT / 2.0, right, middle + HEIGHT / 2.0];
+        if !self.is_free(&place) {
+            return false;
+        }
+        let over = left < x && x < right;
+        let after = left > x;
+        if middle != y && !over {
+            let end = if after { left - 2.0 } else { right + 2.0 };
+            let _ = writeln!(
+                out,
+                "<line class=\"lead\" x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{end:.1}\" y2=\"{middle:.1}\"/>"
+            );
+        }
+        let (edge, anchor) = match (over, after) {
+            (true, _) => ((left + right) / 2.0, "middle"),
+            (false, true) => (left, "start"),
+            (false, false) => (right, "end"),
+        };
+        let _ = writeln!(
+            out,
+            "<text class=\"small label\" x=\"{edge:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>",
+            middle + 4.0,
+            escape(text)
+        );
+        self.taken.push(place);
+        true
     }
 
     fn is_free(&self, place: &Rectangle) -> bool {
