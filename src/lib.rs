@@ -63,6 +63,7 @@
 //! # Ok::<(), liouville::graph::Fault>(())
 //! ```
 
+pub mod bench;
 pub mod case;
 pub mod claim;
 pub mod formula;

@@ -9,6 +9,7 @@ use clap::Parser;
 fn main() -> ExitCode {
     let arguments = cli::Arguments::parse();
     let answer = match arguments.command {
+        cli::Command::Bench(options) => cli::bench::run(&options),
         cli::Command::Check(options) => cli::check::run(&options),
         cli::Command::Eval(options) => cli::eval::run(&options),
         cli::Command::Table(options) => cli::table::run(&options),

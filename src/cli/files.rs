@@ -35,10 +35,7 @@ pub fn judge(
                     Ok(path) => judge_file(path, options),
                     Err((path, problem)) => failed(path, problem.clone()),
                 };
-                if bar.is_hidden() && std::io::stderr().is_terminal() && started.elapsed() > BLINK {
-                    bar.set_draw_target(ProgressDrawTarget::stderr());
-                }
-                bar.inc(1);
+                advance(&bar, started);
                 outcome
             })
             .collect()
@@ -47,7 +44,15 @@ pub fn judge(
     Ok(RunReport { seed: options.seed, outcomes, elapsed: started.elapsed() })
 }
 
-fn bar(length: u64) -> ProgressBar {
+/// One more file is done; the bar shows itself once it is worth it.
+pub(super) fn advance(bar: &ProgressBar, started: Instant) {
+    if bar.is_hidden() && std::io::stderr().is_terminal() && started.elapsed() > BLINK {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+    }
+    bar.inc(1);
+}
+
+pub(super) fn bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
     match ProgressStyle::with_template("{bar:40} {pos}/{len} cases") {
         Ok(style) => bar.with_style(style),
@@ -55,10 +60,10 @@ fn bar(length: u64) -> ProgressBar {
     }
 }
 
-type Found = Result<PathBuf, (PathBuf, Failure)>;
+pub(super) type Found = Result<PathBuf, (PathBuf, Failure)>;
 
 /// All case files under the paths, sorted within each folder; what cannot be read is kept as such.
-fn collect(paths: &[PathBuf]) -> Vec<Found> {
+pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
     let mut files = Vec::new();
     for path in paths {
         match std::fs::metadata(path) {
@@ -106,11 +111,11 @@ fn folder(path: &Path, files: &mut Vec<Found>) {
     }
 }
 
-fn plain(path: &Path, message: &str, help: &str) -> Failure {
+pub(super) fn plain(path: &Path, message: &str, help: &str) -> Failure {
     diagnostic::of_file(&path.display().to_string(), message, help, coloured())
 }
 
-fn coloured() -> bool {
+pub(super) fn coloured() -> bool {
     super::colour(std::io::stderr().is_terminal())
 }
 

@@ -1,5 +1,6 @@
 //! Commands and their options.
 
+pub mod bench;
 pub mod check;
 pub mod eval;
 mod files;
@@ -30,6 +31,8 @@ pub enum Command {
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right
     Stress(Stress),
+    /// Measure the ways to form derivatives: run time against error
+    Bench(Bench),
 }
 
 /// How states are drawn.
@@ -130,6 +133,27 @@ pub struct Table {
     pub json: bool,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// Case files, or folders of them; by default three work items, W1 to W3
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Write the work-precision diagram to this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Seed of the states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// At how many states errors are measured (rounded up to blocks of 64)
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=65536))]
+    pub states: u64,
+    /// Over how many interleaved rounds the median of the times is taken
+    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub rounds: u32,
 }
 
 #[derive(Debug, Args)]

@@ -15,20 +15,48 @@ pub(super) trait Work {
     fn run(self);
 }
 
-/// Does the work with the widest vectors there are.
-pub(super) fn with_widest_vectors(work: impl Work) {
+/// An instruction set that the work is compiled for.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "made on x86-64 only"))]
+enum Vectors {
+    Avx512,
+    Avx2,
+    Baseline,
+}
+
+/// The widest there is.
+fn widest() -> Vectors {
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-            // SAFETY: the processor has the features that the function is compiled for.
-            return unsafe { avx512(work) };
+            return Vectors::Avx512;
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // SAFETY: as above.
-            return unsafe { avx2(work) };
+            return Vectors::Avx2;
         }
     }
-    work.run();
+    Vectors::Baseline
+}
+
+/// The processor's features that tapes are run with, beyond the baseline of its architecture.
+pub fn vector_features() -> &'static [&'static str] {
+    match widest() {
+        Vectors::Avx512 => &["avx512f", "avx512dq"],
+        Vectors::Avx2 => &["avx2", "fma"],
+        Vectors::Baseline => &[],
+    }
+}
+
+/// Does the work with the widest vectors there are.
+pub(super) fn with_widest_vectors(work: impl Work) {
+    match widest() {
+        // SAFETY: the processor has the features that the function is compiled for.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 => unsafe { avx512(work) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx2 => unsafe { avx2(work) },
+        _ => work.run(),
+    }
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -22,6 +22,7 @@ use rustc_hash::FxHashMap;
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
+pub use dispatch::vector_features;
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 pub use steps::Step;

@@ -78,11 +78,14 @@ impl FlatBase {
         let constants = self.constants(phase).map(Dual::from_re);
         let still = Dual::from_re;
         let along = |x: T| Dual::new(x, T::one());
-        let k = constants.curvature;
-        // div v = -(ξ,r'): ω = (0,k) makes r' = (1,0), ω = (-k,0) makes r' = (0,1).
-        let xi1 = -constants.divergence([Dual::from_re(T::zero()), k], [still(r1), along(r2)]);
-        let xi2 = -constants.divergence([-k, Dual::from_re(T::zero())], [along(r1), still(r2)]);
-        [xi1.eps, xi2.eps]
+        [constants.xi1([still(r1), along(r2)]).eps, constants.xi2([along(r1), still(r2)]).eps]
+    }
+
+    /// (ξ₁, ξ₂) with div v = -(ξ,r').
+    pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
+        let [_, _, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        [constants.xi1([r1, r2]), constants.xi2([r1, r2])]
     }
 
     /// ½(ω,Ĩω)
@@ -133,6 +136,16 @@ impl<T: Scalar> Constants<T> {
             (inertia[(1, 1)] * torque.x - inertia[(0, 1)] * torque.y) / determinant,
             (inertia[(0, 0)] * torque.y - inertia[(0, 1)] * torque.x) / determinant,
         ]
+    }
+
+    /// ξ₁: ω = (0,k) makes r' = (1,0).
+    fn xi1(&self, r: [T; 2]) -> T {
+        -self.divergence([T::zero(), self.curvature], r)
+    }
+
+    /// ξ₂: ω = (-k,0) makes r' = (0,1).
+    fn xi2(&self, r: [T; 2]) -> T {
+        -self.divergence([-self.curvature, T::zero()], r)
     }
 
     /// ∂ω₁'/∂ω₁ + ∂ω₂'/∂ω₂

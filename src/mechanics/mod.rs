@@ -70,6 +70,17 @@ impl System {
         }
     }
 
+    /// The covector whose rotation the criterion is: w(γ) of a rubber body, ξ(r) of a flat base.
+    pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        match self {
+            System::Rubber(body) => {
+                Some(body.criterion_covector(&phase.configuration).iter().copied().collect())
+            }
+            System::FlatBase(body) => Some(body.criterion_covector(phase).to_vec()),
+            System::Field(_) => None,
+        }
+    }
+
     /// The square of what the criterion is small against: |a|² for a rubber body, the squares of
     /// both terms for a flat base.
     pub fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {

@@ -21,7 +21,7 @@ use crate::scalar::Scalar;
 
 impl Rubber {
     /// w = (s/D_T) Γᵀa, the covector whose rotation about γ decides; w = a on the plane.
-    fn criterion_covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+    pub fn criterion_covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let unit = self.inertial_normal(at);
         let Some(k) = self.curvature_at(at) else { return unit };
         let gamma = normal(at);

@@ -5,6 +5,7 @@
 //! implementation of [`Domain`]; neither the tape nor the evaluator knows which one it runs in.
 
 pub mod ball;
+pub mod complex;
 pub mod exact;
 pub mod float;
 pub mod precise;

@@ -1,6 +1,8 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
+pub mod bench;
 pub mod diagnostic;
+pub mod diagram;
 pub mod json;
 pub mod point;
 pub mod stress;

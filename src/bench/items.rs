@@ -1,0 +1,65 @@
+//! What is measured: three work items of fixed size, or the cases of a user.
+
+use super::by_hand;
+use crate::case::{Case, CaseError};
+
+/// A case to be measured.
+pub struct Item {
+    /// `W1`, or the path of a case file.
+    pub name: String,
+    /// The case; each of its claims is measured.
+    pub case: Case,
+    /// The residual as one would write it by hand with num-dual, from the state's components.
+    pub by_hand: Option<fn(&[f64]) -> f64>,
+}
+
+impl Item {
+    /// A case of a user.
+    pub fn new(name: String, case: Case) -> Self {
+        Self { name, case, by_hand: None }
+    }
+}
+
+/// A work item: a case with fixed parameters and one claim.
+struct WorkItem {
+    name: &'static str,
+    text: &'static str,
+    by_hand: fn(&[f64]) -> f64,
+}
+
+const WORK_ITEMS: [WorkItem; 3] = [
+    WorkItem {
+        name: "W1",
+        text: "title = 'W1'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nR = 3\n\
+               c = [0.7, -0.4, 1.1]\nI = [2.6, 1.2, 1.8]\n[body]\nshape = 'ball'\n[[claim]]\n\
+               integral = '|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)'\n",
+        by_hand: by_hand::second_integral_along_field,
+    },
+    WorkItem {
+        name: "W2",
+        text: "title = 'W2'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nmu = 2\n\
+               B = [1, 2, 3.5]\nI = 'm*B + mu*E'\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
+               density = '(γ,adj(Ĩ)*γ)'\n",
+        by_hand: by_hand::liouville_residual,
+    },
+    WorkItem {
+        name: "W3",
+        text: "title = 'W3'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nB = [1, 2, 3.5]\n\
+               I = [2.6, 1.2, 1.8]\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
+               analytic-density = 'exists'\nexpect = 'fails'\n",
+        by_hand: by_hand::criterion,
+    },
+];
+
+/// W1: L_vF₂ of the unbalanced ball, F₂ = |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
+/// W2: v(ln ρ) + div v of the ellipsoid with I = mB + μE, ρ = (γ,adj(Ĩ)γ).
+/// W3: (γ, rot a) of an ellipsoid with any inertia, which is not zero.
+pub fn work_items() -> Result<Vec<Item>, CaseError> {
+    WORK_ITEMS
+        .iter()
+        .map(|item| {
+            let case = Case::parse(item.text, &[])?;
+            Ok(Item { name: item.name.to_string(), case, by_hand: Some(item.by_hand) })
+        })
+        .collect()
+}

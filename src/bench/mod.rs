@@ -1,0 +1,181 @@
+//! Run time against error: every way to form the derivatives of a claim's residual, measured side
+//! by side at the same states.
+//!
+//! | method | what runs |
+//! |---|---|
+//! | tape | the recorded residual, in each number domain |
+//! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
+//! | num-dual by hand | the same for the work items, written out without formulas |
+//! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
+//! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
+//!
+//! The states are f64 numbers and taken as exact. The error of a method at a state is
+//!
+//! ```text
+//! |computed - reference| / scale
+//! ```
+//!
+//! where the reference is the same residual in a precision beyond every candidate, and the scale is
+//! what the residual is small against ([`crate::claim::Context::scale`]): many a residual is zero,
+//! and has no error relative to itself.
+
+mod by_hand;
+mod candidate;
+mod central;
+mod complex_step;
+mod items;
+mod measure;
+mod num_dual;
+mod reference;
+mod subject;
+mod tapes;
+mod underived;
+
+use serde::Serialize;
+
+pub use candidate::Candidate;
+pub use items::{Item, work_items};
+pub use subject::{Entry, Subject, record_residual};
+
+use crate::graph::Fault;
+
+/// How derivatives are formed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Method {
+    /// The recorded residual.
+    #[serde(rename = "tape")]
+    Tape,
+    /// The definitions over num-dual's numbers.
+    #[serde(rename = "num-dual")]
+    NumDual,
+    /// The residual written by hand over num-dual's numbers.
+    #[serde(rename = "num-dual by hand")]
+    NumDualByHand,
+    /// A complex step on underived tapes.
+    #[serde(rename = "complex step")]
+    ComplexStep,
+    /// Central differences on underived tapes.
+    #[serde(rename = "central difference")]
+    CentralDifference,
+}
+
+impl Method {
+    /// All methods, in the order of reports.
+    pub const ALL: [Method; 5] = [
+        Method::Tape,
+        Method::NumDual,
+        Method::NumDualByHand,
+        Method::ComplexStep,
+        Method::CentralDifference,
+    ];
+
+    /// The method's name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Tape => "tape",
+            Method::NumDual => "num-dual",
+            Method::NumDualByHand => "num-dual by hand",
+            Method::ComplexStep => "complex step",
+            Method::CentralDifference => "central difference",
+        }
+    }
+}
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// The seed of all states.
+    pub seed: u64,
+    /// Blocks of 64 states, made once.
+    pub blocks: u64,
+    /// Rounds in which every candidate runs in turn.
+    pub rounds: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { seed: 1, blocks: 4, rounds: 21 }
+    }
+}
+
+/// A claim with its rows.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The item: `W1`, or a path.
+    pub item: String,
+    /// The claim's name.
+    pub claim: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// One row for each method in each domain.
+    pub rows: Vec<Row>,
+    /// The methods that cannot be used, and why.
+    pub skipped: Vec<(Method, &'static str)>,
+}
+
+/// One method in one domain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// How derivatives are formed.
+    pub method: Method,
+    /// The arithmetic.
+    pub domain: &'static str,
+    /// Median over the rounds.
+    pub ns_per_state: f64,
+    /// Operations a state, in the arithmetic of the domain; `None` where nothing is recorded.
+    pub operations: Option<usize>,
+    /// To record and lay out the tapes.
+    pub setup_us: f64,
+    /// The largest error over scale; `None` where the residual is nowhere defined.
+    pub max_error: Option<f64>,
+    /// The median error over scale.
+    pub median_error: Option<f64>,
+    /// The largest error bound over scale, of a domain that encloses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_bound: Option<f64>,
+    /// The states at which both the result and the reference are defined.
+    pub states: usize,
+}
+
+impl Measured {
+    /// The row of a method in a domain.
+    pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
+        self.rows.iter().find(|row| row.method == method && row.domain == domain)
+    }
+}
+
+/// Why an item cannot be measured.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum BenchError {
+    /// A formula asked a recorded value for its magnitude.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+    /// No state could be drawn.
+    #[error("none of {0} states could be drawn")]
+    Unreachable(usize),
+}
+
+impl BenchError {
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            BenchError::Fault(_) => "write the formula with operations that hold for every number",
+            BenchError::Unreachable(_) => "let `liouville check` say what is wrong with the case",
+        }
+    }
+}
+
+/// Measures every claim of an item.
+pub fn measure_item(item: &Item, options: &Options) -> Result<Vec<Measured>, BenchError> {
+    let one = |claim| {
+        let subject = Subject::new(item, claim, options.seed, options.blocks)?;
+        Ok(Measured {
+            item: item.name.clone(),
+            claim: subject.claim.name.clone(),
+            kind: subject.claim.kind.name(),
+            rows: measure::measure(&subject, options.rounds)?,
+            skipped: subject.skipped(),
+        })
+    };
+    item.case.claims.iter().map(one).collect()
+}

@@ -1,0 +1,21 @@
+//! The residual as it is, to far more digits than any candidate has.
+
+use super::candidate::{Block, Candidate};
+use super::tapes::TapeRun;
+use crate::graph::Tape;
+use crate::number::precise::{Approximation, Precise};
+use crate::verdict::LANES;
+
+/// Twice the precision of the best candidate, and far beyond what cancels.
+const BITS: u32 = 512;
+
+/// The residual at every state; `None` where it is undefined.
+pub fn reference(tape: &Tape, states: &[Block]) -> Vec<Option<Approximation>> {
+    let mut run = TapeRun::new(tape, Precise::new(BITS), states);
+    let mut values = Vec::with_capacity(states.len() * LANES);
+    for block in 0..states.len() {
+        run.run(block);
+        values.extend((0..LANES).map(|lane| run.value(lane)));
+    }
+    values
+}

@@ -1,0 +1,172 @@
+//! A claim with everything that is measured about it: its tapes and its states.
+
+use std::time::{Duration, Instant};
+
+use super::candidate::{Block, Candidate, states};
+use super::central::Central;
+use super::complex_step::ComplexStep;
+use super::num_dual::{OneByOne, by_definition};
+use super::tapes;
+use super::underived::{Reason, Underived};
+use super::{BenchError, Item, Method};
+use crate::case::{Case, Claim};
+use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::Jet;
+use crate::number::float::Float;
+use crate::verdict::{LANES, Sampler};
+
+/// Set-up is timed as the shortest of so many recordings.
+const RECORDINGS: usize = 3;
+
+/// A claim on the bench.
+pub struct Subject<'i> {
+    item: &'i Item,
+    /// The claim.
+    pub claim: &'i Claim,
+    states: Vec<Block>,
+    residual: Tape,
+    antiderivatives: usize,
+    recording: Duration,
+    underived: Result<(Underived, Duration), Reason>,
+}
+
+/// A candidate with what is known of it before it runs.
+pub struct Entry<'s> {
+    /// How derivatives are formed.
+    pub method: Method,
+    /// The arithmetic.
+    pub domain: &'static str,
+    /// Operations a state, in the arithmetic of the domain, where they are counted.
+    pub operations: Option<usize>,
+    /// The time to record and lay out the tapes.
+    pub set_up: Duration,
+    /// What runs.
+    pub candidate: Box<dyn Candidate + 's>,
+}
+
+impl<'i> Subject<'i> {
+    /// Records a claim of an item and draws `blocks` blocks of states.
+    pub fn new(
+        item: &'i Item,
+        claim: &'i Claim,
+        seed: u64,
+        blocks: u64,
+    ) -> Result<Self, BenchError> {
+        let case = &item.case;
+        let sampler = Sampler::new(case, &claim.place, seed)?;
+        let ((residual, antiderivatives), recording) = timed(|| record_residual(case, claim))?;
+        let states =
+            states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
+        let (underived, time) = timed(|| Underived::record(case, claim))?;
+        let underived = underived.map(|underived| (underived, time));
+        Ok(Self { item, claim, states, residual, antiderivatives, recording, underived })
+    }
+
+    /// The states, block by block.
+    pub fn states(&self) -> &[Block] {
+        &self.states
+    }
+
+    /// The residual's tape.
+    pub fn residual(&self) -> &Tape {
+        &self.residual
+    }
+
+    /// All ways to compute the residual.
+    pub fn entries(&self) -> Vec<Entry<'_>> {
+        let mut entries: Vec<Entry<'_>> = tapes::all(&self.residual, &self.states)
+            .into_iter()
+            .map(|(domain, candidate)| Entry {
+                method: Method::Tape,
+                domain,
+                operations: Some(self.residual.operations()),
+                set_up: self.recording,
+                candidate,
+            })
+            .collect();
+        let mut at_f64 = |method, domain, operations, set_up, candidate| {
+            entries.push(Entry { method, domain, operations, set_up, candidate });
+        };
+        let none = Duration::ZERO;
+        if self.antiderivatives == 0 {
+            let definition = by_definition(&self.item.case, self.claim);
+            let candidate = Box::new(OneByOne::new(definition, &self.states));
+            at_f64(Method::NumDual, "f64", None, none, candidate);
+        }
+        if let Some(by_hand) = self.item.by_hand {
+            let candidate = Box::new(OneByOne::new(by_hand, &self.states));
+            at_f64(Method::NumDualByHand, "f64", None, none, candidate);
+        }
+        if let Ok((underived, time)) = &self.underived {
+            let candidate = Box::new(ComplexStep::new(underived, &self.states));
+            let operations = Some(underived.operations(1));
+            at_f64(Method::ComplexStep, "complex f64", operations, *time, candidate);
+            let candidate = Box::new(Central::new(underived, &self.states));
+            let operations = Some(underived.operations(2));
+            at_f64(Method::CentralDifference, "f64", operations, *time, candidate);
+        }
+        entries
+    }
+
+    /// The methods that are not measured, and why.
+    pub fn skipped(&self) -> Vec<(Method, Reason)> {
+        let mut skipped = Vec::new();
+        if self.antiderivatives > 0 {
+            skipped.push((Method::NumDual, "an ∫ has no value at f64"));
+        }
+        if let Err(reason) = &self.underived {
+            skipped.push((Method::ComplexStep, *reason));
+            skipped.push((Method::CentralDifference, *reason));
+        }
+        skipped
+    }
+
+    /// What the residual is small against, at each lane of each block: |∇F||v| of an integral,
+    /// |v|(|∇ln ρ| + 1/|x|) of a density, |a| of a criterion.
+    pub fn scales(&self) -> Result<Vec<[f64; LANES]>, BenchError> {
+        let (graph, scale) = with_jet(&self.item.case, |jet| {
+            self.claim.kind.context(jet, &self.claim.place.kept).scale
+        })?;
+        let tape = Tape::new(&graph, scale.as_slice());
+        let mut evaluator = Evaluator::new(&tape, Float::<LANES>);
+        let square = |block: &Block| {
+            evaluator.run(block);
+            scale.map_or([f64::NAN; LANES], |_| evaluator.output(0).map(f64::sqrt))
+        };
+        Ok(self.states.iter().map(square).collect())
+    }
+}
+
+/// The residual's tape, and how many antiderivatives are among its inputs.
+pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Fault> {
+    let (graph, residual) = with_jet(case, |jet| claim.kind.residual(jet, &claim.place.kept))?;
+    let inputs = case.model.free_components() + case.model.dimension();
+    Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
+}
+
+fn with_jet<R>(
+    case: &Case,
+    build: impl FnOnce(&Jet<'_, crate::graph::Expr>) -> R,
+) -> Result<(crate::graph::Graph, R), Fault> {
+    let free = case.model.free_components();
+    record(free + case.model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(free);
+        build(&Jet::new(Phase::new(&case.model, parameters, state)))
+    })
+}
+
+/// A result, and the shortest time it took.
+fn timed<R>(mut make: impl FnMut() -> Result<R, Fault>) -> Result<(R, Duration), Fault> {
+    let mut once = || {
+        let started = Instant::now();
+        make().map(|made| (made, started.elapsed()))
+    };
+    let (mut made, mut least) = once()?;
+    for _ in 1..RECORDINGS {
+        let (again, time) = once()?;
+        made = again;
+        least = least.min(time);
+    }
+    Ok((made, least))
+}

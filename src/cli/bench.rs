@@ -1,0 +1,89 @@
+//! `liouville bench`
+
+use std::io::IsTerminal;
+use std::path::Path;
+use std::time::Instant;
+
+use liouville::bench::{Item, Measured, Options, measure_item, work_items};
+use liouville::case::Case;
+use liouville::report::bench::{self, BenchRun};
+use liouville::report::{Failure, diagnostic, diagram, terminal};
+use liouville::verdict::LANES;
+
+use super::{Answer, Bench, colour, files, width};
+
+pub fn run(options: &Bench) -> Result<Answer, String> {
+    let amount = Options {
+        seed: options.seed,
+        blocks: options.states.div_ceil(LANES as u64),
+        rounds: options.rounds as usize,
+    };
+    let mut run = BenchRun::new(amount);
+    let found = items(options)?;
+    let (started, bar) = (Instant::now(), files::bar(found.len() as u64));
+    for (path, item) in found {
+        // One thread, one item at a time: candidates do not compete for the machine.
+        let measured = item.and_then(|item| measured(&item, &amount));
+        match measured {
+            Ok(measured) => run.measured.extend(measured),
+            Err(failure) => run.errors.push((path, failure)),
+        }
+        files::advance(&bar, started);
+    }
+    bar.finish_and_clear();
+    for (_, failure) in &run.errors {
+        anstream::eprintln!("{}", failure.rendered);
+    }
+    if let Some(path) = &options.svg
+        && !run.measured.is_empty()
+    {
+        write(path, &diagram::svg(&run.measured))?;
+    }
+    let text = if options.json {
+        bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"
+    } else {
+        let colour = colour(std::io::stdout().is_terminal());
+        bench::text(&run, terminal::Style { verbose: false, colour, width: width() })
+    };
+    Ok(Answer { text, code: if run.errors.is_empty() { 0 } else { 2 } })
+}
+
+type Named = (String, Result<Item, Failure>);
+
+/// The work items, or the cases under the paths.
+fn items(options: &Bench) -> Result<Vec<Named>, String> {
+    if options.paths.is_empty() {
+        let items = work_items().map_err(|error| format!("error: {}", error.message()))?;
+        return Ok(items.into_iter().map(|item| (item.name.clone(), Ok(item))).collect());
+    }
+    let found = files::collect(&options.paths).into_iter();
+    Ok(found
+        .map(|file| match file {
+            Ok(path) => (path.display().to_string(), item(&path)),
+            Err((path, failure)) => (path.display().to_string(), Err(failure)),
+        })
+        .collect())
+}
+
+fn item(path: &Path) -> Result<Item, Failure> {
+    let shown = path.display().to_string();
+    let (text, case) = Case::read(path, &[]);
+    match case {
+        Ok(case) => Ok(Item::new(shown, case)),
+        Err(error) => Err(diagnostic::of_case(&shown, &text, &error, files::coloured())),
+    }
+}
+
+fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Failure> {
+    measure_item(item, amount)
+        .map_err(|error| files::plain(Path::new(&item.name), &error.to_string(), error.help()))
+}
+
+fn write(path: &Path, svg: &str) -> Result<(), String> {
+    std::fs::write(path, svg).map_err(|error| {
+        let shown = path.display();
+        format!(
+            "error: cannot write {shown}: {error}\nhelp: give --svg a file in a folder that exists"
+        )
+    })
+}
