@@ -1,7 +1,6 @@
 //! `liouville bench`
 
 use std::io::IsTerminal;
-use std::path::Path;
 use std::time::Instant;
 
 use liouville::bench::{Item, Measured, Options, measure_item, work_items};
@@ -37,7 +36,7 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
     if let Some(path) = &options.svg
         && !run.measured.is_empty()
     {
-        write(path, &diagram::svg(&run.measured))?;
+        super::write(path, &diagram::svg(&run.measured))?;
     }
     let text = if options.json {
         bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"
@@ -77,13 +76,4 @@ fn item(path: &Path) -> Result<Item, Failure> {
 fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Failure> {
     measure_item(item, amount)
         .map_err(|error| files::plain(Path::new(&item.name), &error.to_string(), error.help()))
-}
-
-fn write(path: &Path, svg: &str) -> Result<(), String> {
-    std::fs::write(path, svg).map_err(|error| {
-        let shown = path.display();
-        format!(
-            "error: cannot write {shown}: {error}\nhelp: give --svg a file in a folder that exists"
-        )
-    })
 }
