@@ -1,6 +1,7 @@
 //! `liouville bench`
 
 use std::io::IsTerminal;
+use std::path::Path;
 use std::time::Instant;
 
 use liouville::bench::{Item, Measured, Options, measure_item, work_items};
