@@ -1,5 +1,6 @@
 //! Mechanical systems, each written once over any [`crate::scalar::Scalar`].
 
+mod across;
 mod body;
 pub mod calculus;
 mod chart;

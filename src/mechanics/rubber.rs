@@ -15,6 +15,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::across::AcrossNormal;
 use super::body::{Polynomial, Shape, axis, matrix, scalar, vector};
 use super::linear::{adjugate, determinant_with, isotropic, point_mass};
 use super::phase::{Configuration, Phase};
@@ -56,7 +57,8 @@ pub enum Potential {
 pub struct Motion<T> {
     pub(super) r: Vector3<T>,
     pub(super) slope: Matrix3<T>,
-    pub(super) gamma_matrix: Option<Matrix3<T>>,
+    /// Γ across γ; absent on the plane, where it is the identity.
+    pub(super) gamma_across: Option<AcrossNormal<T>>,
     pub(super) inertia: Matrix3<T>,
     pub(super) normal_rate: Vector3<T>,
     pub(super) contact_rate: Vector3<T>,
@@ -85,20 +87,16 @@ impl Rubber {
             let at = &phase.configuration;
             let (omega, gamma) = (angular_velocity(at), normal(at));
             let (r, slope) = self.shape.contact(at);
-            let gamma_matrix = self.curvature_at(at).map(|k| self.gamma_matrix(&slope, k));
+            let gamma_across = self.gamma_across(at, &slope);
             let free_rate = gamma.cross(&omega);
-            let normal_rate = match &gamma_matrix {
+            let normal_rate = match &gamma_across {
                 None => free_rate,
-                Some(big_gamma) => {
-                    let adjugate = adjugate(big_gamma);
-                    let determinant = determinant_with(big_gamma, &adjugate);
-                    (adjugate * free_rate).map(|x| x / determinant)
-                }
+                Some(big_gamma) => big_gamma.solve(&free_rate),
             };
             Motion {
                 r,
                 slope,
-                gamma_matrix,
+                gamma_across,
                 inertia: self.inertia_at(at, &r),
                 normal_rate,
                 contact_rate: slope * normal_rate,
@@ -114,6 +112,19 @@ impl Rubber {
     /// Γ = E - k ∂r/∂γ
     pub(super) fn gamma_matrix<T: Scalar>(&self, slope: &Matrix3<T>, k: T) -> Matrix3<T> {
         isotropic(T::one()) - slope * k
+    }
+
+    /// Γ across γ, absent on the plane.
+    pub(super) fn gamma_across<T: Scalar>(
+        &self,
+        at: &Configuration<'_, T>,
+        slope: &Matrix3<T>,
+    ) -> Option<AcrossNormal<T>> {
+        let make = match self.shape {
+            Shape::Contact(_) => AcrossNormal::general,
+            _ => AcrossNormal::symmetric,
+        };
+        self.curvature_at(at).map(|k| make(slope, k, &normal(at)))
     }
 
     pub(super) fn inertia_at<T: Scalar>(
@@ -157,13 +168,9 @@ impl Rubber {
         let potential = self.potential.as_ref()?;
         let at = &phase.configuration;
         let slope = Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps);
-        let force = match &self.motion(phase).gamma_matrix {
+        let force = match &self.motion(phase).gamma_across {
             None => slope,
-            Some(big_gamma) => {
-                let adjugate = adjugate(big_gamma);
-                let determinant = determinant_with(big_gamma, &adjugate);
-                (adjugate.transpose() * slope).map(|x| x / determinant)
-            }
+            Some(big_gamma) => big_gamma.solve_transposed(&slope),
         };
         Some(normal(at).cross(&force))
     }

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use num_dual::Dual;
 
 use super::body::axis;
-use super::linear::{across, adjugate, determinant_with};
+use super::linear::{across, adjugate};
 use super::phase::Configuration;
 use super::rubber::{NORMAL, Rubber, normal};
 use crate::scalar::Scalar;
@@ -26,9 +26,10 @@ impl Rubber {
         let Some(k) = self.curvature_at(at) else { return unit };
         let gamma = normal(at);
         let (_, slope) = self.shape.contact(at);
-        let big_gamma = self.gamma_matrix(&slope, k);
+        let Some(big_gamma) = self.gamma_across(at, &slope) else { return unit };
         let twist = T::one() - k * k * across(&slope, &gamma);
-        (big_gamma.transpose() * unit) * (twist / across(&big_gamma, &gamma))
+        let turned = self.gamma_matrix(&slope, k).transpose() * unit;
+        turned * (twist / big_gamma.determinant())
     }
 
     /// (γ, rot w): zero on the whole sphere exactly when a density ρ(γ) exists; (2.5), (2.21).
@@ -59,14 +60,9 @@ impl Rubber {
             volume.eps / volume.re
         });
         let covector = self.criterion_covector(at) - drift;
-        let turned = match self.curvature_at(at) {
+        let turned = match self.gamma_across(at, &self.shape.contact(at).1) {
             None => covector,
-            Some(k) => {
-                let big_gamma = self.gamma_matrix(&self.shape.contact(at).1, k);
-                let adjugate = adjugate(&big_gamma);
-                let determinant = determinant_with(&big_gamma, &adjugate);
-                (adjugate.transpose() * covector).map(|x| x / determinant)
-            }
+            Some(big_gamma) => big_gamma.solve_transposed(&covector),
         };
         turned.cross(&gamma)
     }
@@ -76,9 +72,9 @@ impl Rubber {
         let gamma = normal(at);
         let (r, slope) = self.shape.contact(at);
         let volume = gamma.dot(&(adjugate(&self.inertia_at(at, &r)) * gamma));
-        match self.curvature_at(at) {
+        match self.gamma_across(at, &slope) {
             None => volume,
-            Some(k) => volume * across(&self.gamma_matrix(&slope, k), &gamma),
+            Some(big_gamma) => volume * big_gamma.determinant(),
         }
     }
 

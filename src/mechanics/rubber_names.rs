@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::body::{matrix, scalar, vector};
-use super::linear::{across, isotropic, point_mass};
+use super::linear::{isotropic, point_mass};
 use super::phase::{Configuration, Phase};
 use super::quantity::Quantity;
 use super::rubber::{Rubber, normal};
@@ -20,14 +20,14 @@ impl Rubber {
             Quantity::Slope => Value::Matrix(self.motion(phase).slope),
             Quantity::InertiaAtContact => Value::Matrix(self.motion(phase).inertia),
             Quantity::NormalRate => Value::Vector(self.motion(phase).normal_rate),
-            Quantity::Gamma => Value::Matrix(
-                self.motion(phase).gamma_matrix.unwrap_or_else(|| isotropic(T::one())),
-            ),
-            Quantity::GammaDeterminant => Value::Scalar(
-                self.motion(phase)
-                    .gamma_matrix
-                    .map_or_else(T::one, |big_gamma| across(&big_gamma, &normal(at))),
-            ),
+            Quantity::Gamma => Value::Matrix(match self.curvature_at(at) {
+                None => isotropic(T::one()),
+                Some(k) => self.gamma_matrix(&self.motion(phase).slope, k),
+            }),
+            Quantity::GammaDeterminant => Value::Scalar(match &self.motion(phase).gamma_across {
+                None => T::one(),
+                Some(big_gamma) => big_gamma.determinant(),
+            }),
             Quantity::Energy => Value::Scalar(self.energy(phase)),
             Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase).0),
             Quantity::Multiplier => Value::Scalar(self.acceleration(phase).1),

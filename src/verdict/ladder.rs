@@ -193,6 +193,9 @@ impl Bench<'_> {
             let method = "double-double ball";
             finding.evidence.method = method;
             weigh(item, span, &values, finding);
+            if finding.undefined.is_some() && self.is_out_of_range(item, sampler) {
+                finding.undefined = None;
+            }
             if finding.settled.is_none() && finding.undefined.is_none() {
                 self.examine(sampler, 0, span, &values, finding);
             }
@@ -214,6 +217,18 @@ impl Bench<'_> {
                 }
             }
         }
+    }
+
+    /// Have formula and residual a value that only numbers of 64 bits are too small for?
+    fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
+        let outputs: Vec<Expr> =
+            item.residual.iter().chain(item.context.value.as_slice()).copied().collect();
+        let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
+        let is_defined = |index| {
+            let values = run.at(&domain, &sampler.states(&domain, 1, index));
+            values.range(0..outputs.len()).iter().all(|value| value.is_some())
+        };
+        item.context.quadrature_defects.is_empty() && (0..PRECISE_STATES).any(is_defined)
     }
 
     /// One tape for some claims.

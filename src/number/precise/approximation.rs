@@ -167,7 +167,10 @@ impl Approximation {
     /// x y
     pub fn mul(&self, other: &Self, bits: u32) -> Self {
         let mantissa = &self.mantissa * &other.mantissa;
-        let exponent = self.exponent + other.exponent;
+        let Some(exponent) = self.exponent.checked_add(other.exponent) else {
+            // Out of all range: nothing is known, not even the sign.
+            return Self { mantissa: BigInt::zero(), exponent: i64::MAX / 4, radius: 1 };
+        };
         // |m| s + |n| r + r s
         let mut radius = BigUint::zero();
         if other.radius > 0 {

@@ -16,7 +16,9 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::Approximation;
 
 /// Arguments of exp, sin and cos are refused beyond 2^this.
-const LARGEST: i64 = 20;
+const LARGEST: i64 = 52;
+/// Guard bits for multiples of ln 2 and π/2 as large as that.
+const GUARD: u32 = 72;
 /// Arguments of exp are halved this often before the series, and the result squared as often.
 const HALVINGS: u32 = 12;
 
@@ -76,23 +78,23 @@ fn constants(w: u32) -> (BigInt, BigInt) {
     found
 }
 
-/// e^x; `None` beyond 2^20 or where the radius exceeds 1/2.
+/// e^x; `None` beyond 2^52 or where the radius exceeds 1/2.
 pub fn exp(x: &Approximation, bits: u32) -> Option<Approximation> {
     if x.magnitude() > LARGEST {
         return None;
     }
-    // Guard bits for the terms, for the squarings, and for n ln 2 with |n| < 2^21.
+    // Guard bits for the terms and for the squarings.
     let w = bits + HALVINGS + 48;
     let units = spread(x, w);
     if units.bits() >= u64::from(w) {
         return None;
     }
-    let (ln2, _): (BigInt, BigInt) = constants(w + 32);
-    let argument: BigInt = fixed(x, w + 32);
+    let (ln2, _): (BigInt, BigInt) = constants(w + GUARD);
+    let argument: BigInt = fixed(x, w + GUARD);
     let doubled: BigInt = &argument * 2 + &ln2;
     let turns = doubled.div_floor(&(&ln2 * 2));
-    // |r| ≤ ln 2/2 + 1 unit; the error of n ln 2 stays below 2^21 (8w + 320) units of 2^-(w+32).
-    let reduced: BigInt = (argument - &turns * ln2) >> (32 + HALVINGS);
+    // |r| ≤ ln 2/2 + 1 unit; n ln 2 is off by less than 2^53 (8w + 640) units of 2^-(w+72).
+    let reduced: BigInt = (argument - &turns * ln2) >> (GUARD + HALVINGS);
     let one = BigInt::one() << w;
     let (mut sum, mut term, mut k) = (&one + &reduced, reduced.clone(), 1u32);
     while !term.is_zero() && term != BigInt::from(-1) {
@@ -147,18 +149,18 @@ pub fn ln(x: &Approximation, bits: u32) -> Option<Approximation> {
     Some(made(value, error, w, bits))
 }
 
-/// sin x and cos x; `None` beyond 2^20.
+/// sin x and cos x; `None` beyond 2^52.
 pub fn sin_cos(x: &Approximation, bits: u32) -> Option<(Approximation, Approximation)> {
     if x.magnitude() > LARGEST {
         return None;
     }
     let w = bits + 48;
-    let (_, pi) = constants(w + 32);
-    let argument = fixed(x, w + 32);
-    // x = q π/2 + r with |r| ≤ π/4; the error of q π/2 vanishes in the 32 guard bits.
+    let (_, pi) = constants(w + GUARD);
+    let argument = fixed(x, w + GUARD);
+    // x = q π/2 + r with |r| ≤ π/4; the error of q π/2 vanishes in the guard bits.
     let scaled: BigInt = &argument * 4 + &pi;
     let quarter = scaled.div_floor(&(&pi * 2));
-    let r: BigInt = (argument - ((&quarter * &pi) >> 1)) >> 32;
+    let r: BigInt = (argument - ((&quarter * &pi) >> 1)) >> GUARD;
     let one = BigInt::one() << w;
     let (mut sine, mut cosine) = (r.clone(), one.clone());
     let (mut term, mut k) = (r.clone(), 1u32);

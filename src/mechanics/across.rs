@@ -1,0 +1,97 @@
+//! Γ = E - k ∂r/∂γ on the plane across γ, and its inverse there.
+//!
+//! Where r = -∇h with h of degree 1, ∂r/∂γ is symmetric and (∂r/∂γ)γ = 0, so that Γ keeps γ and the
+//! plane across it. With A = E - γ⊗γ/γ² - k ∂r/∂γ, which is Γ on that plane and 0 on γ,
+//!
+//! ```text
+//! D_T = ½((tr A)² - tr A²),   Γ⁻¹u = (tr A u - A u)/D_T      for u across γ
+//! ```
+//!
+//! by Cayley and Hamilton in two dimensions. The cofactors of Γ itself would say the same, but where
+//! D_T is small they lose its square's digits: those of Γ's eigenvalue 1 along γ drown them.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::linear::{across, adjugate, determinant_with, isotropic};
+use crate::scalar::Scalar;
+
+/// Γ, ready to be inverted across γ.
+pub enum AcrossNormal<T> {
+    /// A, tr A and D_T.
+    Symmetric { matrix: Matrix3<T>, trace: T, determinant: T },
+    /// Γ of any r(γ), with its adjugate, det Γ and D_T.
+    General { adjugate: Matrix3<T>, determinant: T, across: T },
+}
+
+impl<T: Scalar> AcrossNormal<T> {
+    /// For ∂r/∂γ symmetric and zero on γ.
+    pub fn symmetric(slope: &Matrix3<T>, k: T, gamma: &Vector3<T>) -> Self {
+        let projection = isotropic(T::one()) - gamma * gamma.transpose() / gamma.dot(gamma);
+        let matrix = projection - slope * k;
+        let trace = matrix.trace();
+        let square: T = matrix.iter().map(|x| *x * *x).sum();
+        let determinant = (trace * trace - square) / T::from(2.0);
+        Self::Symmetric { matrix, trace, determinant }
+    }
+
+    /// For any ∂r/∂γ.
+    pub fn general(slope: &Matrix3<T>, k: T, gamma: &Vector3<T>) -> Self {
+        let matrix = isotropic(T::one()) - slope * k;
+        let adjugate = adjugate(&matrix);
+        let determinant = determinant_with(&matrix, &adjugate);
+        Self::General { adjugate, determinant, across: across(&matrix, gamma) }
+    }
+
+    /// D_T, the determinant of Γ across γ.
+    pub fn determinant(&self) -> T {
+        match self {
+            Self::Symmetric { determinant, .. } => *determinant,
+            Self::General { across, .. } => *across,
+        }
+    }
+
+    /// Γ⁻¹u for u across γ.
+    pub fn solve(&self, u: &Vector3<T>) -> Vector3<T> {
+        match self {
+            Self::Symmetric { matrix, trace, determinant } => {
+                (u * *trace - matrix * u).map(|x| x / *determinant)
+            }
+            Self::General { adjugate, determinant, .. } => (adjugate * u).map(|x| x / *determinant),
+        }
+    }
+
+    /// Γ⁻ᵀu up to a multiple of γ, for any u.
+    pub fn solve_transposed(&self, u: &Vector3<T>) -> Vector3<T> {
+        match self {
+            // A takes no notice of what u has along γ.
+            Self::Symmetric { .. } => self.solve(u),
+            Self::General { adjugate, determinant, .. } => {
+                (adjugate.transpose() * u).map(|x| x / *determinant)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_forms_agree_on_a_symmetric_tensor() {
+        let gamma = Vector3::new(0.6, -1.1, 0.4);
+        let along = gamma / gamma.dot(&gamma).sqrt();
+        let side = along.cross(&Vector3::new(0.3, 0.2, 0.9)).normalize();
+        let other = along.cross(&side);
+        let slope = side * side.transpose() * 1.7
+            + other * other.transpose() * 0.4
+            + (side * other.transpose() + other * side.transpose()) * 0.2;
+        let special = AcrossNormal::symmetric(&slope, -0.8, &gamma);
+        let general = AcrossNormal::general(&slope, -0.8, &gamma);
+        assert!((special.determinant() - general.determinant()).abs() < 1e-14, "D_T");
+        let u = side * 0.3 - other * 1.2;
+        assert!((special.solve(&u) - general.solve(&u)).norm() < 1e-14, "Γ⁻¹u");
+        let any = u + along * 2.0;
+        let apart = special.solve_transposed(&any) - general.solve_transposed(&any);
+        assert!(apart.cross(&along).norm() < 1e-14, "Γ⁻ᵀu, but for a multiple of γ");
+    }
+}
