@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn both_forms_agree_on_a_symmetric_tensor() {
-        let gamma = Vector3::new(0.6, -1.1, 0.4);
+        let gamma: Vector3<f64> = Vector3::new(0.6, -1.1, 0.4);
         let along = gamma / gamma.dot(&gamma).sqrt();
         let side = along.cross(&Vector3::new(0.3, 0.2, 0.9)).normalize();
         let other = along.cross(&side);

@@ -264,7 +264,7 @@ impl<const N: usize> Domain for Prime<N> {
 /// Is this a prime? By Miller's test with the bases that decide every number below 2^64.
 pub fn is_prime(candidate: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    if let Some(divisor) = BASES.iter().find(|base| candidate % **base == 0) {
+    if let Some(divisor) = BASES.iter().find(|base| candidate.is_multiple_of(**base)) {
         return candidate == *divisor;
     }
     if candidate < 41 {

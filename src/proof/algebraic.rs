@@ -222,7 +222,7 @@ impl Lowering<'_> {
             Form::Angle { multiples, sine } => {
                 let one = Expr::rational(&Rational::from(1));
                 // (c + i s)^n of each, multiplied: cos and sin of the sum.
-                let (mut cosine_of, mut sine_of) = (one, one - one);
+                let (mut cosine_of, mut sine_of) = (one, Expr::rational(&Rational::from(0)));
                 for (number, multiple) in multiples {
                     let t = self.symbol(*number, Source::Uniform);
                     let length = (one + t * t).apply(Function::Recip);

@@ -6,11 +6,14 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::{StressError, read};
 use crate::case::{Case, Setting};
 
+/// Parameters with their values, from x and random numbers in 0..1.
+type Setter = fn(&str, &mut dyn FnMut() -> f64) -> Vec<(&'static str, String)>;
+
 /// What x does.
 #[derive(Clone, Copy)]
 pub enum Sweep {
-    /// It enters the parameters; the function gives them from x and random numbers in 0..1.
-    Parameters(fn(&str, &mut dyn FnMut() -> f64) -> Vec<(&'static str, String)>),
+    /// It enters the parameters.
+    Parameters(Setter),
     /// It enters a formula, at the mark `{x}` of the text.
     Formula,
     /// It enters the chart's draws of the state: (u, v) by the first three factors at x, ω by the

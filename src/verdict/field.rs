@@ -127,3 +127,69 @@ fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     }
     Some(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::case::{Case, Expect};
+    use crate::graph::record;
+    use crate::mechanics::Phase;
+    use crate::mechanics::calculus::Jet;
+    use crate::verdict::Options;
+    use crate::verdict::recorded::Common;
+
+    /// What fields say about the claims of a case that are expected to fail.
+    fn outcomes_of_false_claims(case: &Case) -> Vec<(String, Outcome)> {
+        let model = &case.model;
+        let inputs = model.free_components() + model.dimension();
+        let (graph, (common, residuals)) = record(inputs, |inputs| {
+            let (parameters, state) = inputs.split_at(model.free_components());
+            let jet = Jet::new(Phase::new(model, parameters, state));
+            let residual =
+                |claim: &crate::case::Claim| claim.kind.residual(&jet, &claim.place.kept);
+            (Common::of(&jet), case.claims.iter().map(residual).collect::<Vec<_>>())
+        })
+        .expect("records");
+        let options = Options::default();
+        let bench = Bench { case, common: &common, options: &options, graph: &graph, inputs };
+        let mut found = Vec::new();
+        for (claim, residual) in case.claims.iter().zip(residuals) {
+            if claim.expect == Expect::Fails {
+                let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
+                let outcome = Field::new(&bench, &sampler).test(&[residual]).expect("tested");
+                found.push((claim.name.clone(), outcome.into_iter().next().expect("one group")));
+            }
+        }
+        found
+    }
+
+    fn visit(folder: &Path, found: &mut Vec<(String, Outcome)>) {
+        for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                visit(&path, found);
+            } else {
+                let case = Case::read(&path, &[]).1.expect("a case");
+                let outcomes = outcomes_of_false_claims(&case).into_iter();
+                let shown = path.display();
+                found.extend(outcomes.map(|(name, o)| (format!("{shown} :: {name}"), o)));
+            }
+        }
+    }
+
+    #[test]
+    fn no_false_claim_is_zero_in_prime_fields() {
+        let mut found = Vec::new();
+        visit(Path::new("cases"), &mut found);
+        assert!(found.len() > 300, "{} false claims", found.len());
+        let mut refuted = 0;
+        for (name, outcome) in &found {
+            assert!(!matches!(outcome, Outcome::Zero(_)), "{name} is false");
+            refuted += usize::from(*outcome == Outcome::NonZero);
+        }
+        // The others contain symbols of transcendental functions, or fail for listed values only.
+        assert!(refuted > 280, "{refuted} of {} are seen not to be identities", found.len());
+    }
+}
