@@ -9,6 +9,8 @@
 //! P(R = 0 at all points) ≤ ( H/(60 N) + (M d/2^60)^T )^K
 //! ```
 
+use std::cell::{OnceCell, RefCell};
+
 use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 
@@ -80,22 +82,23 @@ impl Certificate {
 /// An algebraic graph ready to be tested: its bounds, and primes that suit it.
 pub struct Trial<'a> {
     algebraic: &'a Algebraic,
-    bounds: Bounds,
+    bounds: OnceCell<Bounds>,
     moduli: [Modulus; LANES],
     seed: u64,
 }
 
 impl<'a> Trial<'a> {
-    /// Bounds all values of the graph and draws primes.
+    /// Draws primes; values are bounded when that is first asked for.
     pub fn new(algebraic: &'a Algebraic, seed: u64) -> Self {
-        let reached = vec![true; algebraic.graph.len()];
-        let bounds = Bounds::of(&algebraic.graph, &reached, &algebraic.sources);
-        let mut chance = Chance::new(seed, 0);
-        let odd = algebraic.odd_indices();
-        let primes: [Modulus; PRIMES] =
-            std::array::from_fn(|_| chance.prime(&odd, &algebraic.squares));
-        let moduli = std::array::from_fn(|lane| primes[lane * PRIMES / LANES]);
-        Self { algebraic, bounds, moduli, seed }
+        let moduli = suitable_moduli(seed, algebraic.odd_indices(), &algebraic.squares);
+        Self { algebraic, bounds: OnceCell::new(), moduli, seed }
+    }
+
+    fn bounds(&self) -> &Bounds {
+        self.bounds.get_or_init(|| {
+            let reached = vec![true; self.algebraic.graph.len()];
+            Bounds::of(&self.algebraic.graph, &reached, &self.algebraic.sources)
+        })
     }
 
     /// The moduli of the lanes.
@@ -180,7 +183,7 @@ impl<'a> Trial<'a> {
     fn certificate(&self, outputs: &[Expr], roots: &[Root], most: u64) -> Option<Certificate> {
         let (mut degree, mut height) = (0f64, 0f64);
         for output in outputs {
-            let bound = self.bounds.at(self.algebraic.graph.place(*output))?;
+            let bound = self.bounds().at(self.algebraic.graph.place(*output))?;
             (degree, height) = (degree.max(bound.degree), height.max(bound.height));
         }
         let reached = self.algebraic.graph.reached(outputs.iter().copied());
@@ -210,6 +213,28 @@ impl<'a> Trial<'a> {
             error_log2,
         })
     }
+}
+
+/// The primes of a seed with unique roots of these indices and with these squares, lane by lane.
+///
+/// The last ones are kept: one claim after the other asks for the same.
+fn suitable_moduli(seed: u64, odd: Vec<u64>, squares: &[u64]) -> [Modulus; LANES] {
+    type Known = (u64, Vec<u64>, Vec<u64>, [Modulus; LANES]);
+    thread_local! {
+        static LAST: RefCell<Option<Known>> = const { RefCell::new(None) };
+    }
+    LAST.with_borrow_mut(|last| {
+        if let Some((s, o, q, moduli)) = last
+            && (*s, &*o, &**q) == (seed, &odd, squares)
+        {
+            return *moduli;
+        }
+        let mut chance = Chance::new(seed, 0);
+        let primes: [Modulus; PRIMES] = std::array::from_fn(|_| chance.prime(&odd, squares));
+        let moduli = std::array::from_fn(|lane| primes[lane * PRIMES / LANES]);
+        *last = Some((seed, odd, squares.to_vec(), moduli));
+        moduli
+    })
 }
 
 impl Algebraic {

@@ -7,7 +7,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -203,17 +203,22 @@ fn square_is(
     roots: &[(Root, Standing)],
     seed: u64,
 ) -> Result<Option<Certificate>, Fault> {
+    let factors =
+        || roots.iter().filter(|(r, _)| r.place.is_some_and(|place| over.contains(&place)));
+    let mut needed: Vec<Expr> = factors().map(|(other, _)| other.radicand).collect();
+    needed.push(root.radicand);
+    needed.extend(base.places().filter_map(|place| algebraic.values[place]));
     let (graph, difference) = record(algebraic.sources.len(), |inputs| {
-        let reached = vec![true; algebraic.graph.len()];
+        let reached = algebraic.graph.reached(needed.iter().copied());
         let values = algebraic.graph.replay(&reached, inputs, |_, _, _| None);
         let at = |expr: Expr| values[algebraic.graph.place(expr)];
         let mut product = at(root.radicand)?;
-        for (other, _) in roots.iter().filter(|(r, _)| r.place.is_some_and(|p| over.contains(&p))) {
+        for (other, _) in factors() {
             product *= at(other.radicand)?;
         }
         let b = base.from(|place| at(algebraic.values[place]?))?;
-        let odd = algebraic.odd.iter().map(|(base, index)| Some((at(*base)?, *index)));
-        Some((product - b * b * Expr::rational(square), odd.collect::<Option<Vec<_>>>()?))
+        let odd = algebraic.odd.iter().filter_map(|(base, index)| Some((at(*base)?, *index)));
+        Some((product - b * b * Expr::rational(square), odd.collect::<Vec<_>>()))
     })?;
     let Some((difference, odd)) = difference else { return Ok(None) };
     let claim = Algebraic {
@@ -275,7 +280,12 @@ fn real_signs(
         let values = graph.replay(reached, inputs, |_, _, _| None);
         places.iter().map(|place| values[*place]).collect::<Option<Vec<Expr>>>()
     })?;
-    Ok(values.map_or(vec![None; places.len()], |values| signs(&copy, &values)))
+    let found = values.map_or(vec![None; places.len()], |values| signs(&copy, &values));
+    let constant = |place: &usize| match graph.step(*place) {
+        Step::Constant(value) => Some(!value.is_negative()),
+        _ => None,
+    };
+    Ok(places.iter().zip(found).map(|(place, sign)| constant(place).or(sign)).collect())
 }
 
 /// All values of the original graph at points where the independent roots exist.
