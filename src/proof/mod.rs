@@ -12,7 +12,8 @@
 //! | `chance` | random primes and points |
 //! | `identity` | Theorem 1: the test itself |
 //! | `elimination`, `rank` | linear algebra modulo a prime |
-//! | `roots` | independent roots certified, dependent ones eliminated |
+//! | `standing` | independent roots certified |
+//! | `squares`, `roots` | dependent roots found out and eliminated |
 
 mod algebraic;
 mod bounds;
@@ -22,6 +23,8 @@ mod identity;
 mod rank;
 mod relations;
 mod roots;
+mod squares;
+mod standing;
 mod symbols;
 
 #[cfg(test)]
@@ -36,7 +39,8 @@ use crate::graph::{Expr, Fault, Graph};
 use algebraic::Algebraic;
 use identity::Trial;
 use relations::Relations;
-use roots::{Eliminated, Standing};
+use roots::Eliminated;
+use standing::{Standing, standing};
 use symbols::Symbols;
 
 /// Rounds of eliminating roots: each takes away at least one.
@@ -116,7 +120,7 @@ impl Prover<'_> {
             };
             let trial = Trial::new(&algebraic, self.seed);
             let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
-            let standing = roots::standing(&trial, &algebraic, &roots, self.seed);
+            let standing = standing(&trial, &algebraic, &roots, self.seed);
             let roots: Vec<_> = roots.into_iter().zip(standing).collect();
             if round < MOST_ROUNDS && roots.iter().any(|(_, s)| *s == Standing::Dependent) {
                 let next = roots::eliminate(
