@@ -1,7 +1,7 @@
 //! The work-precision diagram as SVG: error to the right, time upwards, both logarithmic; a shape for
 //! each method, a colour for each domain.
 //!
-//! The layout is a function of the rows alone. Up to [`MOST_PANELS`] claims have a panel each, with
+//! The layout is a function of the rows alone. Up to six claims have a panel each, with
 //! a label at every point that has room for one; more are drawn together.
 
 mod axes;
