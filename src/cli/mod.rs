@@ -179,7 +179,7 @@ pub struct Stress {
 pub fn write(path: &Path, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| {
         format!(
-            "error: cannot write {}: {error}\nhelp: check that its folder exists",
+            "error: cannot write {}: {error}\nhelp: give --svg a file in a folder that exists",
             path.display()
         )
     })

@@ -11,7 +11,8 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use crate::graph::{Evaluator, Expr, Tape};
+use crate::graph::{Evaluator, Expr, Step, Tape};
+use crate::number::Function;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 
 use super::algebraic::{Algebraic, Root};
@@ -195,9 +196,17 @@ impl<'a> Trial<'a> {
             count += 1;
         }
         // Roots of prime numbers are independent of everything; each halves the pool.
-        let constants = self.algebraic.squares.len();
+        let graph = &self.algebraic.graph;
+        let is_constant_root = |step: Step<'_>| match step {
+            Step::Unary(Function::Sqrt, a) => matches!(graph.step(a), Step::Constant(_)),
+            _ => false,
+        };
+        let steps = graph.steps().zip(&reached);
+        let constants =
+            steps.filter(|(step, reached)| **reached && is_constant_root(*step)).count();
         conjugates *= 2f64.powi(constants as i32);
-        let pool = POOL - constants as f64 - self.algebraic.odd_indices().len() as f64;
+        let pool =
+            POOL - self.algebraic.squares.len() as f64 - self.algebraic.odd_indices().len() as f64;
         let (d, h) = (degree * conjugates, height.max(1.0) * conjugates);
         let unlucky_prime = h / 60.0 * (-pool).exp2();
         let unlucky_points = (most as f64 * d * (-60f64).exp2()).powi(POINTS as i32);
@@ -266,7 +275,7 @@ impl Algebraic {
         let reached = self.graph.reached(outputs.iter().copied());
         let mut signs = vec![false; self.sources.len()];
         for (place, step) in self.graph.steps().enumerate() {
-            if let crate::graph::Step::Input(input) = step {
+            if let Step::Input(input) = step {
                 signs[input] = reached[place];
             }
         }
@@ -277,7 +286,7 @@ impl Algebraic {
     pub fn has_symbols(&self, outputs: &[Expr]) -> bool {
         let reached = self.graph.reached(outputs.iter().copied());
         self.graph.steps().enumerate().any(|(place, step)| match step {
-            crate::graph::Step::Input(input) => {
+            Step::Input(input) => {
                 reached[place]
                     && input >= self.original_inputs
                     && self.sources[input] != Source::Sign

@@ -23,6 +23,8 @@ struct Replacement {
     base: Base,
     /// c, negative where b is.
     factor: Rational,
+    /// Is it |b|, because the sign of b is not known?
+    modulus: bool,
     over: Vec<usize>,
 }
 
@@ -69,14 +71,14 @@ pub fn eliminate(
             // An even number of negative factors.
             let sign = signs.into_iter().try_fold(true, |sign, next| Some(sign == next?));
             let proved = square_is(algebraic, root, base, &square, &over, roots, seed)?;
-            if let (Some(positive), Some(factor), Some(certificate)) =
-                (sign, square_root(&square), proved)
-            {
+            if let (Some(factor), Some(certificate)) = (square_root(&square), proved) {
                 found_certificate = Some(
                     found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)),
                 );
-                let factor = if positive { factor } else { -&factor };
-                replacements.push(Replacement { place, base, factor, over });
+                // √(b²) = |b| whatever the sign; where it is known no modulus is left.
+                let factor = if sign == Some(false) { -&factor } else { factor };
+                let modulus = sign.is_none();
+                replacements.push(Replacement { place, base, factor, modulus, over });
             }
         }
     }
@@ -86,8 +88,9 @@ pub fn eliminate(
     let (replaced, values) = record(graph.inputs(), |inputs| {
         let values = graph.replay(&reached, inputs, |place, _, values| {
             let replacement = replacements.iter().find(|r| r.place == place)?;
-            let mut value =
-                replacement.base.from(|at| values[at])? * Expr::rational(&replacement.factor);
+            let base = replacement.base.from(|at| values[at])?;
+            let base = if replacement.modulus { base.modulus() } else { base };
+            let mut value = base * Expr::rational(&replacement.factor);
             for root in &replacement.over {
                 value /= values[*root]?;
             }
@@ -170,7 +173,7 @@ fn moduli(
     let replacements = found.into_iter().zip(signs).filter_map(|((place, value), sign)| {
         let factor = Rational::from(if sign? { 1 } else { -1 });
         let base = Base { value, beside: None };
-        Some(Replacement { place, base, factor, over: Vec::new() })
+        Some(Replacement { place, base, factor, modulus: false, over: Vec::new() })
     });
     Ok(replacements.collect())
 }

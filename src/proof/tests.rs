@@ -142,6 +142,15 @@ fn moduli_are_tried_with_both_signs() {
 }
 
 #[test]
+fn roots_of_squares_are_moduli() {
+    let both = prove(&[true, false], |x| {
+        let sum = x[0] + x[1];
+        (sum * sum).sqrt() - sum.modulus()
+    });
+    assert!(is_proved(&both), "√((x + y)²) = |x + y|, of either sign: {both:?}");
+}
+
+#[test]
 fn rational_powers_obey_the_power_laws() {
     let power = |x: Expr, n: i64, d: i64| x.power(&Rational::new(n, d));
     let outcome = prove(&[false], |x| power(x[0], 1, 3) * power(x[0], 2, 3) - x[0]);
