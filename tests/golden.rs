@@ -10,7 +10,7 @@ mod formulas;
 use common::{Reference, case, claim, claim_text, exact, rational, report, strings, text};
 use formulas::{BLOB_ON_PLANE, BLOB_ON_SPHERE, formula, lets};
 use liouville::number::rational::Rational;
-use liouville::verdict::{Enclosed, PointReport};
+use liouville::verdict::{Digits, Enclosed, PointReport, evaluate_digits};
 use num_rational::BigRational;
 use serde_json::Value;
 
@@ -230,4 +230,39 @@ fn the_sphere_and_the_flat_base() {
     let candidates = 2 * 11 + 2 * 8 + 9 + 4 + 5;
     assert_eq!(compared, 3 * (6 * 16 + 7 + 2 * candidates), "nothing was left out");
     assert_eq!(refuted, 3 * (2 * 7 + 2 * 3 + 4 + 1 + 2), "false formulas were told from true ones");
+}
+
+/// All thirty digits of the reference are ours, in every component of the field and every value and
+/// residual of a claim.
+#[test]
+fn thirty_digits_are_right() {
+    let data: Value = serde_json::from_str(PLANE).expect("JSON");
+    let mut compared = 0;
+    let mut same = |digits: &Digits, reference: &Value, what: &str| {
+        let (ours, theirs) = (digits.as_deref().expect("a value"), text(reference));
+        assert_eq!(exact(ours), exact(theirs), "{what}: {ours} and {theirs}");
+        compared += 1;
+    };
+    for reference in data["cases"].as_array().expect("cases") {
+        let first = reference["states"][0]["candidates"].as_object().expect("candidates");
+        let named: Vec<_> = first.keys().map(|name| (name.clone(), "integral".into())).collect();
+        for source in case_texts(reference, &named, "rubber-plane") {
+            let case = case(&source);
+            for (i, point) in reference["states"].as_array().expect("states").iter().enumerate() {
+                let (what, state) = (format!("{} at {i}", case.title), state_of(point));
+                let found = evaluate_digits(&case, Some(&state), 1, 0, 30).expect("evaluated");
+                for (k, rate) in point["v"].as_array().expect("v").iter().enumerate() {
+                    same(&found.field[k], rate, &format!("{what}, v[{k}]"));
+                }
+                same(&found.divergence, &point["div_v"], &format!("{what}, divergence"));
+                for (name, value, residual) in &found.claims {
+                    if let Some(golden) = point["candidates"].get(name) {
+                        same(value, &golden["value"], &format!("{what}, {name}"));
+                        same(residual, &golden["residual"], &format!("{what}, {name}, residual"));
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 9 * 3 * (6 + 1 + 6), "field, divergence, three candidates");
 }
