@@ -9,7 +9,8 @@
 //! ```
 
 use crate::case::{Case, Claim};
-use crate::claim::Kind;
+use crate::claim::{Density, Integral, Kind};
+use crate::formula::Type;
 use crate::graph::{Expr, Fault, Graph, Tape, record};
 use crate::mechanics::{NORMAL, Phase, System};
 
@@ -68,27 +69,32 @@ impl Underived {
                 "the level changes beside itself: its cofactor takes second derivatives",
             ));
         }
+        let formula = match &claim.kind {
+            Kind::Integral(Integral(formula)) | Kind::Density(Density(formula)) => Some(formula),
+            Kind::AnalyticDensity(_) | Kind::PositionDensity(_) => None,
+            _ => return Ok(Err("this kind of claim is not one derivative of one function")),
+        };
+        if formula.is_some_and(|formula| formula.value_type() != Type::Scalar) {
+            return Ok(Err("only derivatives of scalars are timed by other methods"));
+        }
         let (graph, quantities) = record(inputs, |inputs| {
             let (parameters, state) = inputs.split_at(parameters);
             let phase = Phase::new(model, parameters, state);
             let covector = || model.system.criterion_covector(&phase);
-            match &claim.kind {
-                Kind::Integral(formula) | Kind::Density(formula) => {
-                    (phase.field().to_vec(), vec![phase.scalar(formula)])
-                }
-                _ => (Vec::new(), covector().unwrap_or_default()),
+            match formula {
+                Some(formula) => (phase.field().to_vec(), vec![phase.scalar(formula)]),
+                None => (Vec::new(), covector().unwrap_or_default()),
             }
         })?;
         if graph.inputs() > inputs {
             return Ok(Err("an ∫ is known by its derivative alone"));
         }
         let (field, values) = quantities;
-        let along_field =
-            matches!(claim.kind, Kind::Integral(_) | Kind::Density(_)).then(|| AlongField {
-                field: Tape::new(&graph, &field),
-                value: Tape::new(&graph, &values),
-                logarithmic: matches!(claim.kind, Kind::Density(_)),
-            });
+        let along_field = formula.is_some().then(|| AlongField {
+            field: Tape::new(&graph, &field),
+            value: Tape::new(&graph, &values),
+            logarithmic: matches!(claim.kind, Kind::Density(_)),
+        });
         let along_axes = match &claim.kind {
             Kind::Integral(_) => Vec::new(),
             Kind::Density(_) => divergence(&graph, &field, parameters),

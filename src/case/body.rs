@@ -39,7 +39,7 @@ pub fn formula(
 }
 
 /// A formula under a key, or the default text where the key is missing.
-fn formula_or(
+pub(super) fn formula_or(
     section: &Section<'_>,
     key: &'static str,
     default: &str,
@@ -99,7 +99,14 @@ pub fn rubber(
     let gyrostat = optional(section, "gyrostat", vocabulary, Type::Vector)?;
     let shape = shape(section, curved, settings, vocabulary, parameters)?;
     let potential = potential(section, settings, vocabulary, parameters)?;
-    let body = Rubber { mass, inertia, shape, curvature, gyrostat, potential };
+    let moment = match section.text("moment")? {
+        Some(text) => {
+            let (what, kind) = ("`moment`", Some(Type::Vector));
+            Some(formula(&text, vocabulary, what, kind, Reach::Phase)?)
+        }
+        None => None,
+    };
+    let body = Rubber { mass, inertia, shape, curvature, gyrostat, potential, moment };
     Ok(System::Rubber(Box::new(body)))
 }
 
@@ -123,6 +130,16 @@ fn arbitrary(
 ) -> Result<(), CaseError> {
     let small = Range::between((-1, 5), (1, 5));
     coefficients(prefix, &polynomial.exponents, &small, settings, parameters)
+}
+
+/// Any smooth surface: a residual contains derivatives of h up to the fourth at most.
+pub(super) fn arbitrary_support(
+    settings: &[Setting],
+    parameters: &mut Vec<Parameter>,
+) -> Result<Shape, CaseError> {
+    let polynomial = Polynomial::on_sphere(4, parameters.len());
+    arbitrary("h", &polynomial, settings, parameters)?;
+    Ok(Shape::Arbitrary(polynomial))
 }
 
 fn shape(

@@ -4,12 +4,12 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::{Section, Text};
 use super::{Claim, Expect, TABLE_ROWS};
-use crate::claim::{Kind, Place};
-use crate::formula::Type;
-use crate::mechanics::{Model, Reach};
+use crate::claim::{Kind, Place, Reader, STATEMENTS};
+use crate::formula::{Formula, Type, canonical_name};
+use crate::mechanics::{Model, Reach, Vocabulary};
 
-/// What a claim can state.
-const STATEMENTS: [&str; 4] = ["integral", "density", "analytic-density", "position-density"];
+/// The keys of every claim.
+const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 
 /// Reads one claim; `taken` holds the names of those before it.
 pub fn read(
@@ -18,9 +18,6 @@ pub fn read(
     taken: &[Claim],
     default_source: &str,
 ) -> Result<Claim, CaseError> {
-    section.allow(
-        &[&STATEMENTS[..], &["name", "source", "where", "expect", "cell", "note"]].concat(),
-    )?;
     let kind = kind(section, model)?;
     let (place, only_there) = place(section, model)?;
     let claim = Claim {
@@ -41,37 +38,103 @@ fn other(text: &Text, message: String, remedy: &str) -> CaseError {
 }
 
 fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
-    let scalar = |text: &Text, what: &str| {
-        formula(text, &model.vocabulary, what, Some(Type::Scalar), Reach::Phase)
+    let given: Vec<&str> =
+        STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
+    let companions = given.first().map_or(&[][..], |key| Kind::companions(key));
+    let mut known = [STATEMENTS, &COMMON].concat();
+    known.extend(companions);
+    section.allow(&known)?;
+    let entries = Entries { section, model };
+    let read = match given.as_slice() {
+        [key] => Kind::read(key, &entries),
+        _ => None,
     };
-    let exists = |text: &Text, kind: Kind| match text.value.as_str() {
-        "exists" => Ok(kind),
-        found => Err(other(
-            text,
-            format!("`{found}` is not what can be claimed here"),
-            "write \"exists\", and expect = \"fails\" where it does not",
-        )),
-    };
-    let mut found = Vec::new();
-    for key in STATEMENTS {
-        if let Some(text) = section.text(key)? {
-            found.push((key, text));
-        }
-    }
-    let [(key, text)] = found.as_slice() else {
-        let message = format!("a claim makes one statement, and this one {}", found.len());
+    let Some(kind) = read else {
+        let message = format!("a claim makes one statement, and this one {}", given.len());
         let remedy = format!("give one of {}", STATEMENTS.join(", "));
         return Err(CaseError::at(section.span.clone(), Problem::Other { message, remedy }));
     };
-    let kind = match *key {
-        "integral" => Kind::Integral(scalar(text, "an integral")?),
-        "density" => Kind::Density(scalar(text, "a density")?),
-        "analytic-density" => exists(text, Kind::AnalyticDensity)?,
-        _ => exists(text, Kind::PositionDensity)?,
-    };
+    let kind = kind?;
     match kind.objection(model) {
         None => Ok(kind),
-        Some(objection) => Err(other(text, objection, "see docs/writing-a-case.md")),
+        Some(objection) => {
+            Err(entries.complaint(kind.name(), objection, "see docs/writing-a-case.md"))
+        }
+    }
+}
+
+/// The entries of a claim in a case file.
+struct Entries<'e, 's> {
+    section: &'e Section<'s>,
+    model: &'e Model,
+}
+
+impl Reader for Entries<'_, '_> {
+    type Error = CaseError;
+
+    fn model(&self) -> &Model {
+        self.model
+    }
+
+    fn text(&self, key: &'static str) -> Result<Option<String>, CaseError> {
+        Ok(self.section.text(key)?.map(|text| text.value))
+    }
+
+    fn formula_in(
+        &self,
+        key: &'static str,
+        kind: Option<Type>,
+        scope: &Vocabulary,
+    ) -> Result<Option<Formula>, CaseError> {
+        let Some(text) = self.section.text(key)? else { return Ok(None) };
+        formula(&text, scope, &format!("`{key}`"), kind, Reach::Phase).map(Some)
+    }
+
+    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, CaseError> {
+        if self.section.value(key).is_none() {
+            return Ok(None);
+        }
+        let texts = self.section.texts(key)?;
+        let read =
+            |text: &Text| formula(text, &self.model.vocabulary, "an entry", None, Reach::Phase);
+        texts.iter().map(read).collect::<Result<_, _>>().map(Some)
+    }
+
+    fn equation(&self, key: &'static str) -> Result<(Formula, Formula), CaseError> {
+        let text = self.section.text(key)?.ok_or_else(|| self.missing(key))?;
+        let Some((left, right)) = text.value.split_once('=') else {
+            let message = format!("`{key}` has two sides");
+            return Err(other(&text, message, "write \"A = B\""));
+        };
+        let read = |side: &str, start: usize| {
+            Formula::parse(side, &self.model.vocabulary).map_err(|error| {
+                let span = error.span();
+                let place = text.locate(start + span.start..start + span.end);
+                CaseError::at(place, Problem::Formula(error))
+            })
+        };
+        Ok((read(left, 0)?, read(right, left.len() + 1)?))
+    }
+
+    fn table_in(
+        &self,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<(String, Formula)>>, CaseError> {
+        let Some(section) = self.section.section(key)? else { return Ok(None) };
+        let mut entries = Vec::new();
+        for (key, value) in section.entries() {
+            let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
+            let text = section.as_text(key.get_ref(), value)?;
+            let read = formula(&text, scope, &format!("`{name}`"), None, Reach::Phase)?;
+            entries.push((name, read));
+        }
+        Ok(Some(entries))
+    }
+
+    fn complaint(&self, key: &'static str, message: String, remedy: &str) -> CaseError {
+        let span = self.section.value(key).map_or(self.section.span.clone(), |value| value.span());
+        CaseError::at(span, Problem::Other { message, remedy: remedy.to_string() })
     }
 }
 

@@ -18,9 +18,24 @@ pub struct State {
     pub draws: Vec<Draw>,
 }
 
-/// Reads a table of names and ranges.
-pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary) -> Result<State, CaseError> {
+/// Reads a table of names and ranges; `reach` is what it means to depend on them.
+pub fn state(
+    section: &Section<'_>,
+    vocabulary: &mut Vocabulary,
+    reach: Reach,
+) -> Result<State, CaseError> {
     let mut state = State { variables: Vec::new(), draws: Vec::new() };
+    add_state(section, vocabulary, reach, &mut state)?;
+    Ok(state)
+}
+
+/// Reads further state variables.
+pub fn add_state(
+    section: &Section<'_>,
+    vocabulary: &mut Vocabulary,
+    reach: Reach,
+    state: &mut State,
+) -> Result<(), CaseError> {
     for (key, value) in section.entries() {
         let bad = |name: &str, reason: &str| {
             let (name, reason) = (name.to_string(), reason.to_string());
@@ -34,14 +49,14 @@ pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary) -> Result<State
         let described = origin(&name, value).ok().and_then(|given: Given| state_draws(&given));
         let (kind, draws) = described.ok_or_else(|| {
             let text = format!("`{name}` needs the range that its states are drawn from");
-            let remedy = "write \"-2..2\" for a scalar, \"vector(-1..1)\" for a vector".to_string();
+            let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"".to_string();
             CaseError::at(value.span(), Problem::Other { message: text, remedy })
         })?;
-        vocabulary.add(&name, Meaning::State(state.variables.len()), kind, Reach::Phase);
+        vocabulary.add(&name, Meaning::State(state.variables.len()), kind, reach);
         state.variables.push(Variable { name, kind });
         state.draws.extend(draws);
     }
-    Ok(state)
+    Ok(())
 }
 
 /// Reads the rates: one formula a state variable, under its name with or without a prime.
@@ -88,10 +103,22 @@ pub fn equations(
     section: &Section<'_>,
     vocabulary: &Vocabulary,
 ) -> Result<Vec<LevelEquation>, CaseError> {
+    let read = equations_in(section, "equations", vocabulary)?.into_iter();
+    let equation =
+        |(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) };
+    Ok(read.map(equation).collect())
+}
+
+/// Reads a list of equations: the text, and the difference of both sides.
+pub fn equations_in(
+    section: &Section<'_>,
+    key: &'static str,
+    vocabulary: &Vocabulary,
+) -> Result<Vec<(String, Formula)>, CaseError> {
     let mut level = Vec::new();
-    for text in section.texts("equations")? {
+    for text in section.texts(key)? {
         let Some((left, right)) = text.value.split_once('=') else {
-            let message = "a level equation has two sides".to_string();
+            let message = format!("each of `{key}` has two sides");
             let remedy = "write \"(γ,γ) = 1\"".to_string();
             return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
         };
@@ -106,11 +133,14 @@ pub fn equations(
         };
         read(left, 0)?;
         read(right, left.len() + 1)?;
-        let difference = Text::made(format!("({left}) − ({right})"), text.span.clone());
-        let function =
-            formula(&difference, vocabulary, "a level function", Some(Type::Scalar), Reach::Phase)?;
-        let function = LevelFunction::Formula(function);
-        level.push(LevelEquation { text: text.value.trim().to_string(), function });
+        let difference = match right.trim() {
+            "0" => left.trim().to_string(),
+            _ => format!("({left}) − ({right})"),
+        };
+        let difference = Text::made(difference, text.span.clone());
+        let scalar = Some(Type::Scalar);
+        let function = formula(&difference, vocabulary, "each side", scalar, Reach::Phase)?;
+        level.push((text.value.trim().to_string(), function));
     }
     Ok(level)
 }
@@ -126,7 +156,7 @@ pub fn chart(
     let inputs = section
         .section("inputs")?
         .ok_or_else(|| section.missing("inputs", "a chart needs inputs = { u = \"-2..2\", … }"))?;
-    let State { variables, draws } = state(&inputs, &mut names)?;
+    let State { variables, draws } = state(&inputs, &mut names, Reach::Phase)?;
     let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
     let mut abbreviations = Vec::new();
     for (key, value) in section.entries() {
@@ -162,6 +192,8 @@ pub fn chart(
         state: variables,
         abbreviations,
         level: Vec::new(),
+        extension: Vec::new(),
+        variables: None,
         ..model.clone()
     };
     let formulas = formulas.into_iter().flatten().collect();

@@ -1,6 +1,8 @@
 //! Is a typed support function homogeneous of degree 1? If not, it is meant on the unit sphere.
 
-use crate::graph::{Evaluator, Tape, record};
+use num_traits::One;
+
+use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::{Jet, dot};
 use crate::mechanics::{Chart, Draws, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
@@ -21,7 +23,8 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let (graph, defects) = record(draws.len(), |inputs| {
         let (free, state) = model.make_parameters(inputs);
         let defect = |kept: [bool; 2]| {
-            let point = Chart::Rolling.point(model, &kept, &free, state);
+            let mut point = Chart::Rolling.point(model, &kept, &free, state);
+            point.resize(model.dimension(), Expr::one());
             let jet = Jet::new(Phase::new(model, &free, &point));
             let slope = jet.gradient(|at| at.scalar(formula));
             let gamma = 3 * NORMAL..3 * NORMAL + 3;

@@ -1,14 +1,18 @@
 //! A case file becomes a [`Case`]: a model with its names, a chart, and claims.
 
+mod ball;
 mod body;
 mod build;
 mod claims;
 mod error;
 mod field;
 mod homogeneous;
+mod lagrangian;
 mod parameters;
 mod section;
 mod solvable;
+mod systems;
+mod variables;
 mod weights;
 
 use std::path::Path;
@@ -29,7 +33,8 @@ pub struct Case {
     pub title: String,
     /// Where it comes from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base` or `field`.
+    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`, `vakonomic`
+    /// or `field`.
     pub system: String,
     /// The equations and names.
     pub model: Model,
@@ -57,13 +62,14 @@ pub struct Column {
 }
 
 /// The rows of the paper's tables.
-pub const TABLE_ROWS: [&str; 8] = [
+pub const TABLE_ROWS: [&str; 9] = [
     "body",
     "inertia",
     "surface",
     "restriction",
     "measure",
     "integral",
+    "structure",
     "gyrostat",
     "generalisation",
 ];

@@ -230,6 +230,7 @@ fn described(text: &str) -> Result<Given, String> {
     let recipe = match shape {
         "" => Recipe::Scalar(draw()),
         "vector" => Recipe::Vector(draw()),
+        "matrix" => Recipe::Matrix(draw()),
         "diag" => Recipe::Diagonal(draw()),
         "spherical" => Recipe::Spherical(draw()),
         "inertia" => Recipe::Inertia(range),
@@ -266,7 +267,7 @@ pub fn constant(formula: &Formula) -> Option<Vec<Rational>> {
 /// A range for each component of a state variable.
 pub fn state_draws(given: &Given) -> Option<(Type, Vec<Draw>)> {
     match given {
-        Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(_))) => {
+        Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(_) | Recipe::Matrix(_))) => {
             Some((recipe.kind(), recipe.draws()))
         }
         _ => None,

@@ -16,7 +16,7 @@ pub fn check(
     claims: &[Claim],
 ) -> Result<(), CaseError> {
     let mut systems = Vec::new();
-    if !matches!(model.system, System::Field(_)) {
+    if matches!(model.system, System::Rubber(_) | System::FlatBase(_)) {
         systems.push(time(model));
     }
     if let Some(section) = dimensions {
@@ -35,7 +35,7 @@ pub fn check(
             LevelFunction::Formula(formula) => Some(formula),
             _ => None,
         });
-        let stated = claims.iter().filter_map(|claim| claim.kind.formula());
+        let stated = claims.iter().flat_map(|claim| claim.kind.formulas());
         for formula in of_system(&model.system).into_iter().chain(level).chain(stated) {
             checked(root, formula, weights)?;
         }
@@ -78,6 +78,11 @@ fn of_system(system: &System) -> Vec<&Formula> {
             shape.into_iter().chain(potential).collect()
         }
         System::FlatBase(_) => Vec::new(),
+        System::Ball(ball) => ball.potential.iter().collect(),
+        System::Lagrangian(lagrangian) => {
+            let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
+            energies.chain(&lagrangian.constraints).collect()
+        }
         System::Field(rates) => rates.iter().collect(),
     }
 }
@@ -88,15 +93,19 @@ fn time(model: &Model) -> WeightSystem {
     let curved = match &model.system {
         System::Rubber(body) => body.curvature.is_some(),
         System::FlatBase(_) => true,
-        System::Field(_) => false,
+        _ => false,
     };
+    let own = model.state.len() - model.extension.len();
     for (symbol, entry) in model.vocabulary.iter() {
         let weight = match entry.meaning {
+            Meaning::Quantity(Quantity::Rate(_)) => None,
             Meaning::Parameter(_) => match entry.name.as_str() {
                 "m" | "I" | "R" | "c" | "B" | "μ" => Some(0),
                 "k" if curved => Some(0),
                 _ => None,
             },
+            // What a case adds to the state has the weight that its formulas give it.
+            Meaning::State(index) if index >= own => None,
             Meaning::State(_) => Some(if entry.name.starts_with('ω') { -1 } else { 0 }),
             Meaning::Abbreviation(_) => None,
             Meaning::Quantity(
@@ -115,7 +124,7 @@ fn time(model: &Model) -> WeightSystem {
     let gyrostat = match &model.system {
         System::Rubber(body) => body.gyrostat.as_ref(),
         System::FlatBase(body) => body.gyrostat.as_ref(),
-        System::Field(_) => None,
+        _ => None,
     };
     if let Some(gyrostat) = gyrostat
         && let Some((symbol, _)) = model.vocabulary.lookup(gyrostat.text())

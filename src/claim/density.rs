@@ -6,35 +6,61 @@
 
 use num_dual::DualNum;
 
-use super::Context;
-use crate::formula::Formula;
+use super::{Context, Reader, Statement};
+use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// v(ln ρ) + div v less the cofactors of the level functions.
-pub(super) fn residual<T: Scalar>(jet: &Jet<'_, T>, formula: &Formula, kept: &[bool]) -> Vec<T> {
-    let moved = jet.along_field();
-    let along = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
-    vec![along + jet.divergence() - jet.level_cofactor(kept)]
-}
+/// ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
+#[derive(Clone, Debug)]
+pub struct Density(pub Formula);
 
-/// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
-pub(super) fn context(jet: &Jet<'_, Expr>, formula: &Formula) -> Context {
-    let slope = slope(jet, formula);
-    let (field, state) = (jet.phase.field(), jet.phase.state());
-    let rate = dot(&slope, &slope) + dot(&state, &state).recip();
-    Context {
-        scale: Some(dot(field, field) * rate),
-        value: Some(jet.phase.scalar(formula)),
-        ..Context::default()
+impl Statement for Density {
+    const NAME: &'static str = "density";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        from.required(Self::NAME, Some(Type::Scalar)).map(Self)
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        vec![&self.0]
+    }
+
+    fn about(&self, formula: Formula) -> Option<Self> {
+        Some(Self(formula))
+    }
+
+    /// v(ln ρ) + div v less the cofactors of the level functions.
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+        let moved = jet.along_field();
+        let along = self.0.logarithmic_derivative(&mut |symbol| moved.value(symbol));
+        vec![along + jet.divergence() - jet.level_cofactor(kept)]
+    }
+
+    /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        let slope = self.slope(jet);
+        let (field, state) = (jet.phase.field(), jet.phase.state());
+        let rate = dot(&slope, &slope) + dot(&state, &state).recip();
+        Context {
+            scale: Some(dot(field, field) * rate),
+            value: vec![jet.phase.scalar(&self.0)],
+            ..Context::default()
+        }
+    }
+
+    fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+        vec![self.slope(jet)]
     }
 }
 
-/// ∇ln ρ
-pub(super) fn slope(jet: &Jet<'_, Expr>, formula: &Formula) -> Vec<Expr> {
-    jet.along_axes()
-        .iter()
-        .map(|moved| formula.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
-        .collect()
+impl Density {
+    /// ∇ln ρ
+    fn slope(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        jet.along_axes()
+            .iter()
+            .map(|moved| self.0.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
+            .collect()
+    }
 }

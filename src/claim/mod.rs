@@ -5,8 +5,17 @@
 
 mod criterion;
 mod density;
+mod fixed_point;
+mod hamiltonian;
+mod identity;
+mod independence;
 mod integral;
+mod limit;
 mod place;
+mod reader;
+mod statement;
+mod symmetry_field;
+mod transformation;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -14,75 +23,126 @@ use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{Meaning, Model};
 use crate::scalar::Scalar;
 
+pub use criterion::{AnalyticDensity, PositionDensity};
+pub use density::Density;
+pub use fixed_point::FixedPoint;
+pub use hamiltonian::{Casimir, DensityInVariables, Hamiltonian, JacobiIdentity};
+pub use identity::{Identity, Rate, Relation};
+pub use independence::Independent;
+pub use integral::Integral;
+pub use limit::Limit;
 pub use place::Place;
+pub use reader::Reader;
+pub use statement::Statement;
+pub use symmetry_field::SymmetryField;
+pub use transformation::{Map, Reversor, Symmetry};
 
-/// What is claimed.
-#[derive(Clone, Debug)]
-pub enum Kind {
-    /// F is a first integral: L_vF = 0.
-    Integral(Formula),
-    /// ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
-    Density(Formula),
-    /// A density that is positive and analytic near ω = 0 exists.
+/// Lists the kinds of claims; each is one [`Statement`], written in one file.
+macro_rules! kinds {
+    ($($kind:ident),* $(,)?) => {
+        /// What is claimed.
+        #[derive(Clone, Debug)]
+        pub enum Kind {
+            $(#[allow(missing_docs)] $kind($kind),)*
+        }
+
+        /// Does the same with whatever is claimed.
+        macro_rules! of_each {
+            ($self:expr, $statement:ident => $result:expr) => {
+                match $self { $(Kind::$kind($statement) => $result,)* }
+            };
+        }
+
+        /// What a claim can state: the keys under which the statements stand.
+        pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
+
+        impl Kind {
+            /// Reads the statement that stands under `key`, one of [`STATEMENTS`].
+            pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
+                match key {
+                    $(_ if key == $kind::NAME => Some($kind::read(from).map(Kind::$kind)),)*
+                    _ => None,
+                }
+            }
+
+            /// The keys that may stand beside the statement under `key`.
+            pub fn companions(key: &str) -> &'static [&'static str] {
+                match key {
+                    $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
+                    _ => &[],
+                }
+            }
+
+            /// The kind's name in case files and reports.
+            pub fn name(&self) -> &'static str {
+                match self { $(Kind::$kind(_) => $kind::NAME,)* }
+            }
+
+            /// Is the claim that the residual is *not* identically zero?
+            pub fn is_negated(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::NEGATED,)* }
+            }
+
+            /// May the claim hold in wider places than its own, and is that worth knowing?
+            pub fn widens(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::WIDENS,)* }
+            }
+
+            /// The same claim about another formula, if it is about one.
+            pub fn about(&self, formula: Formula) -> Option<Self> {
+                match self {
+                    $(Kind::$kind(statement) => statement.about(formula).map(Kind::$kind),)*
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    Integral,
+    Density,
     AnalyticDensity,
-    /// A density of the configuration alone, ρ(γ) or ρ(r₁,r₂), exists.
     PositionDensity,
+    Identity,
+    Rate,
+    Relation,
+    SymmetryField,
+    Symmetry,
+    Reversor,
+    Map,
+    Independent,
+    FixedPoint,
+    Limit,
+    Hamiltonian,
+    Casimir,
+    JacobiIdentity,
+    DensityInVariables,
 }
 
 impl Kind {
-    /// The kind's name in case files and reports.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Kind::Integral(_) => "integral",
-            Kind::Density(_) => "density",
-            Kind::AnalyticDensity => "analytic-density",
-            Kind::PositionDensity => "position-density",
-        }
-    }
-
     /// The formula that the claim is about, if it has one.
     pub fn formula(&self) -> Option<&Formula> {
-        match self {
-            Kind::Integral(formula) | Kind::Density(formula) => Some(formula),
-            Kind::AnalyticDensity | Kind::PositionDensity => None,
-        }
+        self.formulas().into_iter().next()
     }
 
-    /// The same claim about another formula; a claim about none stays as it is.
-    pub fn about(&self, formula: Formula) -> Self {
-        match self {
-            Kind::Integral(_) => Kind::Integral(formula),
-            Kind::Density(_) => Kind::Density(formula),
-            Kind::AnalyticDensity => Kind::AnalyticDensity,
-            Kind::PositionDensity => Kind::PositionDensity,
-        }
+    /// All formulas in the names of the case.
+    pub fn formulas(&self) -> Vec<&Formula> {
+        of_each!(self, statement => statement.formulas())
     }
 
-    /// The gradient of F, or of ln ρ.
-    pub fn slope(&self, jet: &Jet<'_, Expr>) -> Option<Vec<Expr>> {
-        match self {
-            Kind::Integral(formula) => Some(jet.gradient(|at| at.scalar(formula))),
-            Kind::Density(formula) => Some(density::slope(jet, formula)),
-            Kind::AnalyticDensity | Kind::PositionDensity => None,
-        }
+    /// The gradients of F, or of ln ρ.
+    pub fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+        of_each!(self, statement => statement.slopes(jet))
     }
 
     /// The scalars that vanish where the claim holds.
     pub fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
-        match self {
-            Kind::Integral(formula) => integral::residual(jet, formula),
-            Kind::Density(formula) => density::residual(jet, formula, kept),
-            Kind::AnalyticDensity | Kind::PositionDensity => criterion::residual(&jet.phase),
-        }
+        of_each!(self, statement => statement.residual(jet, kept))
     }
 
     /// What is asked beside the residual, on a few states only.
     pub fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
-        let mut context = match self {
-            Kind::Integral(formula) => integral::context(jet, formula, kept),
-            Kind::Density(formula) => density::context(jet, formula),
-            Kind::AnalyticDensity | Kind::PositionDensity => criterion::context(&jet.phase),
-        };
+        let mut context = of_each!(self, statement => statement.context(jet, kept));
         context.quadrature_defects = self.quadrature_defects(jet, kept);
         context
     }
@@ -90,28 +150,29 @@ impl Kind {
     /// What vanishes exactly when the integrand of each ∫ is a function of its variable there:
     /// ∇f less its part along ∇x and the level functions.
     pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
-        self.formula().map_or(Vec::new(), |formula| quadrature_defects(jet, formula, kept))
+        let defects = |formula| quadrature_defects(jet, formula, kept);
+        self.formulas().into_iter().flat_map(defects).collect()
     }
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.
     pub fn objection(&self, model: &Model) -> Option<String> {
-        let criterion = matches!(self, Kind::AnalyticDensity | Kind::PositionDensity);
-        (criterion && matches!(model.system, crate::mechanics::System::Field(_))).then(|| {
-            format!(
-                "`{}` is decided by a criterion that is known for the rubber systems and the flat \
-                 base only; state a density instead",
-                self.name()
-            )
-        })
+        of_each!(self, statement => statement.objection(model))
     }
 
     /// What a non-zero residual excludes, where that is less than the whole claim.
     pub fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
-        (matches!(self, Kind::AnalyticDensity) && !model.system.is_free()).then_some(
-            "the criterion is not zero, which excludes every density of the configuration alone; with \
-             a potential or a gyrostat one that depends on ω as well stays open",
-        )
+        of_each!(self, statement => statement.limit_of_refutation(model))
     }
+
+    /// What to add to a claim that holds.
+    pub fn remark(&self, model: &Model) -> Option<String> {
+        of_each!(self, statement => statement.remark(model))
+    }
+}
+
+/// a - b, component by component.
+fn difference<T: Scalar>(a: Vec<T>, b: Vec<T>) -> Vec<T> {
+    a.into_iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// Quantities that tell what a vanishing residual means.
@@ -121,7 +182,7 @@ pub struct Context {
     /// bound is far below the root of this.
     pub scale: Option<Expr>,
     /// F or ρ itself: a claim about a formula that has no value is no claim.
-    pub value: Option<Expr>,
+    pub value: Vec<Expr>,
     /// Of an integral: |∇F|².
     pub slope: Option<Expr>,
     /// Zero exactly when the integral is constant on the level.

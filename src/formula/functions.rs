@@ -4,6 +4,7 @@ use super::arena::{Arena, Function, NodeId, Operation};
 use super::error::{FormulaError, Span};
 use super::typing::Operand;
 use super::value::Type::{self, Matrix, Scalar, Vector};
+use crate::number::rational::Rational;
 
 /// Builds the nodes of a function whose arguments have the right number and types.
 type Build = fn(&mut Arena, &[NodeId], Span) -> NodeId;
@@ -50,6 +51,7 @@ const FUNCTIONS: &[Overload] = &[
         let entries = vector(f, a, s.clone());
         f.push(Operation::Diagonal(entries), Matrix, s)
     }),
+    overload(&["hat"], &[Vector], hat),
     overload(&["vec"], &[Scalar; 3], vector),
     overload(&["mat"], &[Vector; 3], |f, a, s| {
         f.push(Operation::Rows([a[0], a[1], a[2]]), Matrix, s)
@@ -77,6 +79,18 @@ fn scalar(arena: &mut Arena, function: Function, a: &[NodeId], span: Span) -> No
 
 fn vector(arena: &mut Arena, a: &[NodeId], span: Span) -> NodeId {
     arena.push(Operation::Vector([a[0], a[1], a[2]]), Vector, span)
+}
+
+/// `[a]×`, the matrix with `[a]× b = a × b`.
+fn hat(arena: &mut Arena, a: &[NodeId], span: Span) -> NodeId {
+    let zero = arena.push(Operation::Number(Rational::from(0)), Scalar, span.clone());
+    let [x, y, z] =
+        [0, 1, 2].map(|k| arena.push(Operation::Component(a[0], k), Scalar, span.clone()));
+    let [minus_x, minus_y, minus_z] =
+        [x, y, z].map(|k| arena.push(Operation::Negate(k), Scalar, span.clone()));
+    let rows = [[zero, minus_z, y], [z, zero, minus_x], [minus_y, x, zero]]
+        .map(|row| vector(arena, &row, span.clone()));
+    arena.push(Operation::Rows(rows), Matrix, span)
 }
 
 /// Every spelling of every function.

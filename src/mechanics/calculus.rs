@@ -7,6 +7,7 @@ use num_dual::Dual;
 
 use super::model::{LevelFunction, Model};
 use super::phase::Phase;
+use crate::formula::Formula;
 use crate::scalar::Scalar;
 
 /// A point of phase space with the points next to it, made once for all derivatives that are taken.
@@ -49,6 +50,22 @@ impl<'m, T: Scalar> Jet<'m, T> {
     /// The partial derivatives of f by the state's components.
     pub fn gradient(&self, f: impl Fn(&Phase<'m, Dual<T>>) -> Dual<T>) -> Vec<T> {
         self.along_axes().iter().map(|phase| f(phase).eps).collect()
+    }
+
+    /// L_vF, component by component.
+    pub fn rates(&self, formula: &Formula) -> Vec<T> {
+        self.along_field().evaluate(formula).components().iter().map(|x| x.eps).collect()
+    }
+
+    /// The gradients of the components of F.
+    pub fn gradients(&self, formula: &Formula) -> Vec<Vec<T>> {
+        let columns: Vec<Vec<T>> = self
+            .along_axes()
+            .iter()
+            .map(|phase| phase.evaluate(formula).components().iter().map(|x| x.eps).collect())
+            .collect();
+        let count = formula.value_type().size();
+        (0..count).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
     }
 
     /// Σ ∂v_i/∂x_i over all components of the state.
@@ -112,12 +129,66 @@ pub fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).map(|(a, b)| *a * *b).sum()
 }
 
+/// The Gram determinant of some vectors: zero exactly when they are dependent.
+///
+/// Expanded by minors of the first rows, since a pivot may vanish where the vectors are dependent.
+pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
+    let matrix = gram(vectors);
+    let n = matrix.len();
+    // minors[columns]: the determinant of the first rows with these columns
+    let mut minors = vec![T::zero(); 1 << n];
+    minors[0] = T::one();
+    for columns in 1usize..1 << n {
+        let row = columns.count_ones() as usize - 1;
+        let mut sum = T::zero();
+        let inside = (0..n).filter(|j| columns >> j & 1 == 1);
+        for (place, j) in inside.enumerate() {
+            let term = matrix[row][j] * minors[columns & !(1 << j)];
+            sum = if (row + place) % 2 == 0 { sum + term } else { sum - term };
+        }
+        minors[columns] = sum;
+    }
+    minors[(1 << n) - 1]
+}
+
+/// The coefficients of λ^(n-1), …, 1 in det(λE - A), A given by its columns; Faddeev, LeVerrier.
+pub fn characteristic_polynomial<T: Scalar>(columns: &[Vec<T>]) -> Vec<T> {
+    let n = columns.len();
+    let mut coefficients = Vec::new();
+    // power is A^k + c_1 A^(k-1) + … + c_k E, by columns
+    let unit = |i: usize, j: usize| if i == j { T::one() } else { T::zero() };
+    let mut power: Vec<Vec<T>> = (0..n).map(|j| (0..n).map(|i| unit(i, j)).collect()).collect();
+    for k in 1..=n {
+        let next: Vec<Vec<T>> = power
+            .iter()
+            .map(|column| (0..n).map(|i| (0..n).map(|l| columns[l][i] * column[l]).sum()).collect())
+            .collect();
+        let trace: T = (0..n).map(|i| next[i][i]).sum();
+        let coefficient = -(trace / T::from(k as f64));
+        coefficients.push(coefficient);
+        power = next;
+        for (i, column) in power.iter_mut().enumerate() {
+            column[i] += coefficient;
+        }
+    }
+    coefficients
+}
+
+/// tr(B A⁻¹) for matrices given by their columns, by the normal equations of A.
+pub fn trace_of_quotient<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> T {
+    let solved = |j: usize| {
+        let side = a.iter().map(|column| dot(column, &b[j])).collect();
+        solve_positive(gram(a), side)[j]
+    };
+    (0..a.len()).map(solved).sum()
+}
+
 fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
     vectors.iter().map(|a| vectors.iter().map(|b| dot(a, b)).collect()).collect()
 }
 
 /// Solves A x = b for a positive definite A: elimination needs no pivots there.
-fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
+pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     for k in 0..b.len() {
         let (above, below) = a.split_at_mut(k + 1);
         let (pivot_row, pivot_value) = (&above[k], b[k]);

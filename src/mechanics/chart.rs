@@ -17,6 +17,8 @@ pub enum Chart {
     /// The rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where s = 1 on
     /// γ² = 1 and t = 0 on (ω,γ) = 0.
     Rolling,
+    /// A ball on a surface: M free, γ as for the rubber systems.
+    Sphere,
     /// Every component of the state by itself; there is no level set, or it is left.
     Free,
     /// The user's parametrisation.
@@ -51,13 +53,14 @@ impl Chart {
     /// The draws that make a state; `kept[i]` says whether level equation i is to hold.
     pub fn draws(&self, free: &[Draw], kept: &[bool]) -> Vec<Draw> {
         match self {
-            Chart::Rolling => {
+            Chart::Rolling | Chart::Sphere => {
                 let within =
                     |low, high, count| vec![Draw::Within(Range::between(low, high)); count];
                 let mut draws = within((-8, 5), (8, 5), 2);
                 draws.extend(within((-2, 1), (2, 1), 3));
                 let off_level = kept.iter().filter(|kept| !**kept).count();
                 draws.extend(within((1, 2), (3, 2), off_level));
+                draws.extend(free.iter().cloned());
                 draws
             }
             Chart::Given(chart) if kept.iter().all(|kept| *kept) => chart.draws.clone(),
@@ -75,7 +78,7 @@ impl Chart {
     ) -> Vec<T> {
         let on_level = kept.iter().all(|kept| *kept);
         match self {
-            Chart::Rolling => rolling(kept, draws),
+            Chart::Rolling | Chart::Sphere => on_sphere(self, kept, draws),
             Chart::Given(chart) if on_level => {
                 let phase = Phase::new(&chart.model, parameters, draws);
                 chart.formulas.iter().flat_map(|f| phase.evaluate(f).components()).collect()
@@ -86,18 +89,24 @@ impl Chart {
     }
 }
 
-fn rolling<T: Scalar>(kept: &[bool], draws: &[T]) -> Vec<T> {
-    let [u, v, a1, a2, a3, off_level @ ..] = draws else { return draws.to_vec() };
-    let mut off_level = off_level.iter();
+fn on_sphere<T: Scalar>(chart: &Chart, kept: &[bool], draws: &[T]) -> Vec<T> {
+    let [u, v, a1, a2, a3, others @ ..] = draws else { return draws.to_vec() };
+    let mut others = others.iter();
     let mut unless = |kept: bool, default: T| {
-        if kept { default } else { off_level.next().copied().unwrap_or(default) }
+        if kept { default } else { others.next().copied().unwrap_or(default) }
     };
-    let (length, spin) = (unless(kept[0], T::one()), unless(kept[1], T::zero()));
+    let mut kept = kept.iter().copied();
+    let length = unless(kept.next().unwrap_or(true), T::one());
+    let spin = unless(kept.next().unwrap_or(true), T::zero());
     let (one, two, square) = (T::one(), T::from(2.0), *u * *u + *v * *v);
     let scale = length / (one + square);
     let gamma = Vector3::new(two * *u, two * *v, one - square).map(|x| x * scale);
-    let omega = gamma.cross(&Vector3::new(*a1, *a2, *a3)) + gamma * spin;
-    omega.iter().chain(gamma.iter()).copied().collect()
+    let free = Vector3::new(*a1, *a2, *a3);
+    let first = match chart {
+        Chart::Sphere => free,
+        _ => gamma.cross(&free) + gamma * spin,
+    };
+    first.iter().chain(gamma.iter()).chain(others).copied().collect()
 }
 
 /// Fills in the components that the equations determine; the later equations' variables first,

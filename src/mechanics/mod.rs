@@ -1,11 +1,13 @@
 //! Mechanical systems, each written once over any [`crate::scalar::Scalar`].
 
 mod across;
+mod ball;
 mod body;
 pub mod calculus;
 mod chart;
 mod draws;
 mod flat_base;
+mod lagrangian;
 mod linear;
 mod model;
 mod phase;
@@ -14,17 +16,21 @@ mod recipe;
 mod rubber;
 mod rubber_measure;
 mod rubber_names;
+mod variables;
 mod vocabulary;
 
+pub use ball::{BallOnSurface, Surface};
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart, Step};
 pub use draws::Draws;
 pub use flat_base::FlatBase;
+pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{LevelEquation, LevelFunction, Model, Origin, Parameter, Variable, components};
 pub use phase::{Configuration, Phase};
-pub use quantity::{Features, Quantity, of_flat_base, of_rubber};
+pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
 pub use recipe::{Draw, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
+pub use variables::{Block, Variables};
 pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
 
 use crate::formula::{Formula, Value};
@@ -37,6 +43,10 @@ pub enum System {
     Rubber(Box<Rubber>),
     /// A body with a flat part on a sphere.
     FlatBase(Box<FlatBase>),
+    /// A homogeneous ball on a surface.
+    Ball(Box<BallOnSurface>),
+    /// A Lagrangian with constraints that are linear in the velocities.
+    Lagrangian(Box<Lagrangian>),
     /// The user's own field: the rate of each state variable.
     Field(Vec<Formula>),
 }
@@ -47,19 +57,28 @@ impl System {
         match self {
             System::Rubber(body) => body.field(phase),
             System::FlatBase(body) => body.field(phase),
+            System::Ball(ball) => ball.field(phase),
+            System::Lagrangian(lagrangian) => lagrangian.field(phase),
             System::Field(rates) => {
                 rates.iter().flat_map(|rate| phase.evaluate(rate).components()).collect()
             }
         }
     }
 
-    /// ½(ω,Ĩω) + U, for the systems that are bodies.
+    /// ½(ω,Ĩω) + U, for the systems that are bodies, or have a Lagrangian.
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) => Some(body.energy(phase)),
             System::FlatBase(body) => Some(body.energy(phase)),
+            System::Ball(ball) => Some(ball.energy(&phase.configuration)),
+            System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
             System::Field(_) => None,
         }
+    }
+
+    /// Is there a criterion for densities of the configuration alone?
+    pub fn has_criterion(&self) -> bool {
+        matches!(self, System::Rubber(_) | System::FlatBase(_))
     }
 
     /// Zero everywhere exactly when a density of the configuration alone exists.
@@ -67,7 +86,7 @@ impl System {
         match self {
             System::Rubber(body) => Some(body.criterion(&phase.configuration)),
             System::FlatBase(body) => Some(body.criterion(phase)),
-            System::Field(_) => None,
+            _ => None,
         }
     }
 
@@ -78,7 +97,7 @@ impl System {
                 Some(body.criterion_covector(&phase.configuration).iter().copied().collect())
             }
             System::FlatBase(body) => Some(body.criterion_covector(phase).to_vec()),
-            System::Field(_) => None,
+            _ => None,
         }
     }
 
@@ -94,7 +113,7 @@ impl System {
                 let [a, b] = body.criterion_terms(phase);
                 a * a + b * b
             }
-            System::Field(_) => T::zero(),
+            _ => T::zero(),
         }
     }
 
@@ -105,7 +124,7 @@ impl System {
         match self {
             System::Rubber(body) => !matches!(body.shape, Shape::Contact(_)),
             System::FlatBase(_) => true,
-            System::Field(_) => false,
+            _ => false,
         }
     }
 
@@ -113,7 +132,7 @@ impl System {
     pub fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
         match self {
             System::Rubber(body) => Some(body.chi(&phase.configuration).into()),
-            System::FlatBase(_) | System::Field(_) => None,
+            _ => None,
         }
     }
 
@@ -123,7 +142,7 @@ impl System {
         match self {
             System::Rubber(body) => body.potential.is_none() && body.gyrostat.is_none(),
             System::FlatBase(body) => body.gyrostat.is_none(),
-            System::Field(_) => false,
+            _ => false,
         }
     }
 
@@ -131,6 +150,11 @@ impl System {
         match self {
             System::Rubber(body) => body.quantity(quantity, phase),
             System::FlatBase(body) => body.quantity(quantity, phase),
+            System::Ball(ball) => ball.quantity(quantity, &phase.configuration),
+            System::Lagrangian(lagrangian) => Value::Scalar(match quantity {
+                Quantity::Reaction(index) => lagrangian.reaction(phase, index),
+                _ => lagrangian.energy(&phase.configuration),
+            }),
             System::Field(_) => Value::Scalar(T::zero()),
         }
     }
@@ -142,7 +166,8 @@ impl System {
     ) -> Value<T> {
         match self {
             System::Rubber(body) => body.configuration_quantity(quantity, at),
-            System::FlatBase(_) | System::Field(_) => Value::Scalar(T::zero()),
+            System::Ball(ball) => ball.configuration_quantity(quantity, at),
+            _ => Value::Scalar(T::zero()),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::System;
 use super::recipe::{Draw, Recipe};
+use super::variables::Variables;
 use super::vocabulary::Vocabulary;
 use crate::formula::{Formula, Type, Value};
 use crate::number::rational::Rational;
@@ -90,8 +91,12 @@ pub struct Model {
     pub vocabulary: Vocabulary,
     /// Parameters in the order of the file, then those of arbitrary functions.
     pub parameters: Vec<Parameter>,
-    /// State variables in order.
+    /// State variables in order: the system's own, then those that a case adds.
     pub state: Vec<Variable>,
+    /// The rates of the variables that a case adds to a built-in system.
+    pub extension: Vec<Formula>,
+    /// New variables as functions of the state, with a bracket for them.
+    pub variables: Option<Box<Variables>>,
     /// `let` abbreviations.
     pub abbreviations: Vec<Formula>,
     /// The equations of the level set.
@@ -99,6 +104,20 @@ pub struct Model {
 }
 
 impl Model {
+    /// A model with the same parameters and abbreviations, whose state is only named.
+    pub fn with_names(&self, vocabulary: Vocabulary, state: Vec<Variable>) -> Self {
+        Self {
+            system: System::Field(Vec::new()),
+            vocabulary,
+            state,
+            parameters: self.parameters.clone(),
+            extension: Vec::new(),
+            variables: None,
+            abbreviations: self.abbreviations.clone(),
+            level: Vec::new(),
+        }
+    }
+
     /// The dimension of phase space.
     pub fn dimension(&self) -> usize {
         self.state.iter().map(Variable::len).sum()

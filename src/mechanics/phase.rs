@@ -11,7 +11,8 @@ use std::rc::Rc;
 use num_dual::Dual;
 use rustc_hash::FxHashMap;
 
-use super::model::{LevelFunction, Model, Origin};
+use super::model::{LevelFunction, Model, Origin, Variable};
+use super::quantity::Quantity;
 use super::rubber::{Motion, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
@@ -102,6 +103,26 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
     }
 
+    /// The components of all state variables in order.
+    pub fn components(&self) -> Vec<T> {
+        self.state.iter().flat_map(|value| value.components()).collect()
+    }
+
+    /// The same point with the derivative part `direction`, one entry a component of the state.
+    pub fn lift_state(&self, direction: &[T]) -> Configuration<'m, Dual<T>> {
+        let mut rest = direction;
+        let state = self
+            .state
+            .iter()
+            .map(|value| {
+                let (own, others) = rest.split_at(value.value_type().size());
+                rest = others;
+                dual_value(*value, Value::from_components(value.value_type(), own))
+            })
+            .collect();
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+
     /// The same point with all derivative parts 0.
     pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
         let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
@@ -150,7 +171,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
 
     /// The state's components in order.
     pub fn state(&self) -> Vec<T> {
-        self.configuration.state.iter().flat_map(|value| value.components()).collect()
+        self.configuration.components()
     }
 
     /// The value of a formula.
@@ -172,15 +193,28 @@ impl<'m, T: Scalar> Phase<'m, T> {
         let value = match model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(_) | Meaning::State(_) => self.configuration.value(symbol),
             Meaning::Abbreviation(index) => self.evaluate(&model.abbreviations[index]),
+            Meaning::Quantity(Quantity::Rate(index)) => self.rate(index),
             Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
         };
         self.known.borrow_mut().insert(symbol, value);
         value
     }
 
+    /// The rate of state variable `index`.
+    fn rate(&self, index: usize) -> Value<T> {
+        let state = &self.model().state;
+        let start: usize = state[..index].iter().map(Variable::len).sum();
+        Value::from_components(state[index].kind, &self.field()[start..])
+    }
+
     /// The vector field: the time derivatives of the state's components, in order.
     pub fn field(&self) -> &[T] {
-        self.field.get_or_init(|| self.model().system.field(self))
+        self.field.get_or_init(|| {
+            let mut field = self.model().system.field(self);
+            let further = self.model().extension.iter();
+            field.extend(further.flat_map(|rate| self.evaluate(rate).components()));
+            field
+        })
     }
 
     /// The intermediate results of a rubber system's equations.
@@ -201,6 +235,33 @@ impl<'m, T: Scalar> Phase<'m, T> {
             }
             LevelFunction::Formula(formula) => self.scalar(formula),
         }
+    }
+
+    /// Another point, with other values of some parameters.
+    pub fn with(&self, parameters: &[(usize, Value<T>)], state: &[T]) -> Self {
+        let mut all = Rc::clone(&self.configuration.parameters);
+        if !parameters.is_empty() {
+            let mut changed = all.to_vec();
+            for (index, value) in parameters {
+                changed[*index] = Some(*value);
+            }
+            all = changed.into();
+        }
+        Self::with_parameters(self.model(), all, state)
+    }
+
+    /// A point of another model that has the same parameters.
+    pub fn in_model<'n>(&self, model: &'n Model, state: &[T]) -> Phase<'n, T> {
+        Phase::with_parameters(model, Rc::clone(&self.configuration.parameters), state)
+    }
+
+    /// The same point with a derivative part of one scalar parameter.
+    pub fn lift_parameter(&self, index: usize, direction: T) -> Phase<'m, Dual<T>> {
+        let mut parameters = lift_parameters(&self.configuration.parameters).to_vec();
+        let value = self.configuration.parameter(index);
+        parameters[index] = Some(value.map(|x| Dual::new(x, direction)));
+        let state: Vec<_> = self.state().into_iter().map(Dual::from_re).collect();
+        Phase::with_parameters(self.model(), parameters.into(), &state)
     }
 
     /// The same point with the derivative part `direction`, one entry a component of the state.

@@ -38,6 +38,16 @@ pub enum Quantity {
     NormalRate,
     /// `λ0`: the multiplier of (ω,γ) = 0.
     Multiplier,
+    /// `γ`, where it is not a state variable itself.
+    Normal,
+    /// `n`: ∇F of the surface F(r) = const.
+    SurfaceGradient,
+    /// `D`: mR² of a rolling ball.
+    RollingMoment,
+    /// `μ1`, …: the reaction of a constraint, by its number.
+    Reaction(usize),
+    /// `x'`: the rate of a state variable, by its number.
+    Rate(usize),
     /// `z`: the cosine γ₃/|γ| of the angle to the axis of a body of revolution.
     AxisCosine,
     /// `p`: a profile's support function on the unit sphere, p(z).
@@ -134,4 +144,41 @@ pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
         ("Ĩ", InertiaAtContact, Type::Matrix, Reach::Phase),
         ("energy", Energy, Type::Scalar, Reach::Phase),
     ]
+}
+
+/// The quantities of a ball on a surface that is given by a support function, or as a level.
+pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
+    use Quantity::*;
+    let mut all = vec![
+        ("ω", AngularVelocity, Type::Vector, Reach::Phase),
+        ("D", RollingMoment, Type::Scalar, Reach::Parameters),
+        ("energy", Energy, Type::Scalar, Reach::Phase),
+    ];
+    all.extend(match by_support {
+        true => [
+            ("r", Contact, Type::Vector, Reach::Phase),
+            ("r'", ContactRate, Type::Vector, Reach::Phase),
+            ("∂r", Slope, Type::Matrix, Reach::Phase),
+            ("h", Support, Type::Scalar, Reach::Configuration),
+        ],
+        false => [
+            ("γ", Normal, Type::Vector, Reach::Phase),
+            ("γ'", NormalRate, Type::Vector, Reach::Phase),
+            ("n", SurfaceGradient, Type::Vector, Reach::Phase),
+            ("r'", ContactRate, Type::Vector, Reach::Phase),
+        ],
+    });
+    all
+}
+
+/// The quantities of a Lagrangian system with some constraints.
+pub fn of_lagrangian(constraints: usize) -> Vec<(String, Quantity, Type, Reach)> {
+    let mut all = vec![("energy".to_string(), Quantity::Energy, Type::Scalar, Reach::Phase)];
+    let reaction =
+        |name: String, index| (name, Quantity::Reaction(index), Type::Scalar, Reach::Phase);
+    if constraints == 1 {
+        all.push(reaction("μ".to_string(), 0));
+    }
+    all.extend((0..constraints).map(|index| reaction(format!("μ{}", index + 1), index)));
+    all
 }

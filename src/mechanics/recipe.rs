@@ -44,6 +44,8 @@ pub enum Recipe {
     Scalar(Draw),
     /// A vector with independent components.
     Vector(Draw),
+    /// A matrix with independent entries.
+    Matrix(Draw),
     /// A matrix with independent positive entries on the diagonal.
     Diagonal(Draw),
     /// μE
@@ -75,6 +77,7 @@ impl Recipe {
         match self {
             Recipe::Scalar(draw) | Recipe::Spherical(draw) => vec![draw.clone()],
             Recipe::Vector(draw) | Recipe::Diagonal(draw) => vec![draw.clone(); 3],
+            Recipe::Matrix(draw) => vec![draw.clone(); 9],
             Recipe::Inertia(range) => halves(range, 3),
             Recipe::AxisymmetricInertia(range) => halves(range, 2),
             Recipe::FullInertia(range) => [halves(range, 3), rotation_draws()].concat(),
@@ -89,6 +92,7 @@ impl Recipe {
             (Recipe::Scalar(_), [x, ..]) => Value::Scalar(*x),
             (Recipe::Vector(_), [x, y, z, ..]) => Value::Vector([*x, *y, *z].into()),
             (Recipe::Diagonal(_), [x, y, z, ..]) => Value::Matrix(diagonal([*x, *y, *z])),
+            (Recipe::Matrix(_), entries) => Value::from_components(Type::Matrix, entries),
             (Recipe::Spherical(_), [x, ..]) => Value::Matrix(isotropic(*x)),
             (Recipe::Inertia(_), [x, y, z, ..]) => Value::Matrix(principal([*x, *y, *z])),
             (Recipe::AxisymmetricInertia(_), [x, z, ..]) => Value::Matrix(principal([*x, *x, *z])),

@@ -42,6 +42,8 @@ pub struct Rubber {
     pub gyrostat: Option<Formula>,
     /// U(γ)
     pub potential: Option<Potential>,
+    /// A moment of forces that have no U(γ).
+    pub moment: Option<Formula>,
 }
 
 /// A potential U(γ).
@@ -148,8 +150,11 @@ impl Rubber {
         }
         let slide = omega.cross(&motion.contact_rate);
         let mut torque = momentum.cross(&omega) - motion.r.cross(&slide) * mass;
-        if let Some(moment) = self.moment(phase) {
+        if let Some(moment) = self.moment_of_potential(phase) {
             torque += moment;
+        }
+        if let Some(moment) = &self.moment {
+            torque += vector(phase.evaluate(moment));
         }
         let adjugate = adjugate(&motion.inertia);
         let determinant = determinant_with(&motion.inertia, &adjugate);
@@ -164,7 +169,7 @@ impl Rubber {
     }
 
     /// M_P = γ × Γ⁻ᵀ ∂U/∂γ
-    fn moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vector3<T>> {
+    fn moment_of_potential<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vector3<T>> {
         let potential = self.potential.as_ref()?;
         let at = &phase.configuration;
         let slope = Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps);

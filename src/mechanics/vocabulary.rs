@@ -56,6 +56,31 @@ impl Vocabulary {
         self.entries.push(Entry { name: name.to_string(), meaning, kind, reach });
     }
 
+    /// Adds an entry that no name finds; gives its symbol.
+    pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) -> Symbol {
+        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach });
+        Symbol(self.entries.len() as u32 - 1)
+    }
+
+    /// Lets a name find an entry.
+    pub fn bind(&mut self, name: &str, symbol: Symbol) {
+        self.by_name.insert(name.to_string(), symbol.0);
+    }
+
+    /// The same entries, of which only those are found by name that depend on parameters alone.
+    ///
+    /// Symbols keep their meaning, so that abbreviations can still be evaluated.
+    pub fn only_parameters(&self) -> Self {
+        self.only(|entry| entry.reach == Reach::Parameters)
+    }
+
+    /// The same entries, of which only some are found by name.
+    pub fn only(&self, keep: impl Fn(&Entry) -> bool) -> Self {
+        let mut kept = self.clone();
+        kept.by_name.retain(|_, index| keep(&self.entries[*index as usize]));
+        kept
+    }
+
     /// The entry behind a symbol.
     pub fn entry(&self, symbol: Symbol) -> &Entry {
         &self.entries[symbol.0 as usize]

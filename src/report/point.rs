@@ -46,8 +46,8 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
         .claims
         .iter()
         .map(|(name, value, residual)| {
-            let mut entry = json!({ "value": number(value), "residual": number(residual) });
-            if let Some(error) = residual.error() {
+            let mut entry = json!({ "value": numbers(value), "residual": numbers(residual) });
+            if let Some(error) = residual.iter().filter_map(Written::error).reduce(f64::max) {
                 entry["residual_error"] = decimal(error).into();
             }
             (name.clone(), entry)
@@ -103,11 +103,22 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
         line("energy", shown(energy));
     }
     for (name, value, residual) in &report.claims {
-        let value = value.number().map_or(String::new(), |_| format!("  value {}", shown(value)));
+        let all = |values: &[N]| values.iter().map(|x| shown(x)).collect::<Vec<_>>().join(", ");
+        let known = value.iter().any(|value| value.number().is_some());
+        let value = if known { format!("  value {}", all(value)) } else { String::new() };
         line("claim", name.to_string());
-        line("", format!("residual {}{value}", shown(residual)));
+        line("", format!("residual {}{value}", all(residual)));
     }
     out
+}
+
+/// A number, a list of components, or null.
+fn numbers<N: Written>(values: &[N]) -> Value {
+    match values {
+        [] => Value::Null,
+        [value] => number(value),
+        _ => values.iter().map(number).collect(),
+    }
 }
 
 fn number(value: &impl Written) -> Value {

@@ -15,9 +15,25 @@ pub fn report(
     options: &Options,
 ) -> ClaimReport {
     let claim = item.claim;
-    let holds = finding.holds();
     let mut verdict = finding.settled.unwrap_or(Verdict::Undecided);
     let mut evidence = finding.evidence;
+    if claim.kind.is_negated() {
+        // The claim is that the residual is not zero everywhere: one state shows it.
+        verdict = match verdict {
+            Verdict::Refuted => Verdict::Proved,
+            Verdict::Proved => Verdict::Refuted,
+            other => other,
+        };
+        if verdict == Verdict::Confirmed {
+            verdict = Verdict::Undecided;
+            evidence.reason = Some("to rounding it does not hold, without a proof".to_string());
+        }
+        evidence.holds.clear();
+    }
+    let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
+    if holds {
+        evidence.remark = claim.kind.remark(&case.model);
+    }
     if !holds {
         evidence.independence = None;
     }

@@ -164,7 +164,10 @@ pub struct Evidence {
     /// What a density on a level set refers to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,
-    /// Where a claim is refuted.
+    /// What else follows where a claim holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remark: Option<String>,
+    /// Where a claim is refuted; where functions are independent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
     /// All rungs, in order.
@@ -182,7 +185,7 @@ pub struct ClaimReport {
     /// The formula, if the claim is about one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub formula: Option<String>,
-    /// `integral`, `density`, `analytic-density` or `position-density`.
+    /// The statement's key in case files: `integral`, `density`, …
     pub kind: &'static str,
     /// Equation number, table, section.
     pub source: String,

@@ -221,8 +221,7 @@ impl Bench<'_> {
 
     /// Have formula and residual a value that only numbers of 64 bits are too small for?
     fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
-        let outputs: Vec<Expr> =
-            item.residual.iter().chain(item.context.value.as_slice()).copied().collect();
+        let outputs: Vec<Expr> = item.residual.iter().chain(&item.context.value).copied().collect();
         let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
         let is_defined = |index| {
             let values = run.at(&domain, &sampler.states(&domain, 1, index));

@@ -81,7 +81,7 @@ pub fn mutate(
         for claim in &held {
             let Some(formula) = claim.kind.formula() else { continue };
             for mutant in formula.mutants(&model.vocabulary) {
-                let kind = claim.kind.about(mutant.formula.clone());
+                let Some(kind) = claim.kind.about(mutant.formula.clone()) else { continue };
                 let residual = [
                     kind.residual(&jet, &claim.place.kept),
                     kind.quadrature_defects(&jet, &claim.place.kept),
@@ -192,6 +192,7 @@ fn depends(
 ) -> Result<bool, JudgeError> {
     let (model, claim) = (&case.model, candidate.claim);
     let inputs = model.free_components() + model.dimension();
+    let mut known_rows = 0;
     let (graph, (rows, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = Jet::new(Phase::new(model, parameters, state));
@@ -203,18 +204,26 @@ fn depends(
             rows.push(jet.gradient(|at| model.system.energy(at).unwrap_or_else(Zero::zero)));
         }
         for other in held.iter().filter(|other| matches!(other.kind, Kind::Integral(_))) {
-            rows.extend(other.kind.slope(&jet));
+            rows.extend(other.kind.slopes(&jet));
         }
-        let own = claim.kind.slope(&jet).unwrap_or_default();
-        let new = claim.kind.about(candidate.mutant.formula.clone()).slope(&jet);
-        rows.push(match claim.kind {
-            Kind::Integral(_) => new.unwrap_or_default(),
-            _ => own.iter().zip(new.unwrap_or_default()).map(|(a, b)| b - *a).collect(),
-        });
+        known_rows = rows.len();
+        let own = claim.kind.slopes(&jet);
+        let mutant = claim.kind.about(candidate.mutant.formula.clone());
+        let new = mutant.map_or(Vec::new(), |mutant| mutant.slopes(&jet));
+        match claim.kind {
+            Kind::Integral(_) => rows.extend(new),
+            _ => rows.extend(own.iter().zip(&new).map(|(own, new)| -> Vec<Expr> {
+                own.iter().zip(new).map(|(a, b)| *b - *a).collect()
+            })),
+        }
         (rows, Common::of(&jet))
     })?;
+    // What is no integral and no density is equivalent to whatever else is true in its place.
+    if rows.len() == known_rows {
+        return Ok(true);
+    }
     let bench = Bench { case, common: &common, options, graph: &graph, inputs };
     let sampler = Sampler::new(case, &claim.place, options.seed)?;
-    let ranks = Field::new(&bench, &sampler).ranks(&rows, &[rows.len() - 1, rows.len()])?;
+    let ranks = Field::new(&bench, &sampler).ranks(&rows, &[known_rows, rows.len()])?;
     Ok(ranks.is_some_and(|ranks| ranks[0] == ranks[1]))
 }

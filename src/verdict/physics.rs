@@ -19,7 +19,7 @@ pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
             let mass = at.evaluate(&body.mass).scalar();
             return mass.into_iter().chain(at.evaluate(&body.inertia).components()).collect();
         }
-        System::Field(_) => return Vec::new(),
+        _ => return Vec::new(),
     };
     let mass = at.evaluate(&body.mass).scalar();
     let inertia = at.evaluate(&body.inertia).components();

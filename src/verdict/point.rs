@@ -41,8 +41,8 @@ pub struct PointReport<N = Enclosed> {
     pub criterion: Option<N>,
     /// ½(ω,Ĩω) + U, for bodies.
     pub energy: Option<N>,
-    /// Name, value and residual of each claim; a claim may be about no formula.
-    pub claims: Vec<(String, N, N)>,
+    /// Name, value and residual of each claim, by components; a claim may be about no formula.
+    pub claims: Vec<(String, Vec<N>, Vec<N>)>,
 }
 
 /// Bits in which enclosures are computed: near misses of 10⁻²⁰ and less show.
@@ -149,7 +149,8 @@ impl<'c> Scene<'c> {
             groups.push(model.system.criterion(phase).into_iter().collect());
             groups.push(model.system.energy(phase).into_iter().collect());
             for claim in &case.claims {
-                groups.push(claim.kind.formula().map(|f| phase.scalar(f)).into_iter().collect());
+                let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
+                groups.push(value.unwrap_or_default());
                 groups.push(claim.kind.residual(&jet, &claim.place.kept));
             }
             counts = groups.iter().map(Vec::len).collect();
@@ -185,9 +186,8 @@ impl<'c> Scene<'c> {
         let divergences = next();
         let chi = next();
         let (criterion, energy) = (next().first().cloned(), next().first().cloned());
-        let mut first = || next().first().cloned().unwrap_or_default();
         let claims =
-            self.case.claims.iter().map(|claim| (claim.name.clone(), first(), first())).collect();
+            self.case.claims.iter().map(|claim| (claim.name.clone(), next(), next())).collect();
         let shown: Vec<String> = self.point.iter().map(|value| value.to_string()).collect();
         let (parameters, state) = named(model, &shown);
         PointReport {

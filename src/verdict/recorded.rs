@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::physics;
 use crate::case::{Claim, Expect};
-use crate::claim::{Context, Kind, Place};
+use crate::claim::{Context, Place};
 use crate::graph::Expr;
 use crate::mechanics::System;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -28,11 +28,9 @@ impl<'c> Recorded<'c> {
     /// Records the residual of a claim, there and in wider places, and its context.
     pub fn new(claim: &'c Claim, jet: &Jet<'_, Expr>) -> Self {
         let residual = |place: &Place| claim.kind.residual(jet, &place.kept);
-        let wider = match claim.kind {
-            Kind::Integral(_) | Kind::Density(_) if claim.expect != Expect::Fails => {
-                claim.place.wider(jet.phase.model())
-            }
-            _ => Vec::new(),
+        let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
+            true => claim.place.wider(jet.phase.model()),
+            false => Vec::new(),
         };
         Self {
             claim,
@@ -67,7 +65,7 @@ impl Common {
     pub fn of(jet: &Jet<'_, Expr>) -> Self {
         let rate = |function| jet.lie_derivative(|at| at.level_function(function));
         let phase = &jet.phase;
-        let own = matches!(phase.model().system, System::Field(_));
+        let own = matches!(phase.model().system, System::Field(_) | System::Lagrangian(_));
         let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {
             field: phase.field().to_vec(),
@@ -106,7 +104,7 @@ impl Span {
         Self {
             residual,
             scale: extend(context.scale.as_slice()),
-            value: extend(context.value.as_slice()),
+            value: extend(&context.value),
             slope: extend(context.slope.as_slice()),
             off_level: extend(&context.off_level),
             off_general: extend(&context.off_general),

@@ -47,7 +47,7 @@ impl Sampler {
         let some = place.kept.iter().any(|kept| *kept);
         let all = place.kept.iter().all(|kept| *kept);
         let newton = match &case.chart {
-            Chart::Rolling | Chart::Free => None,
+            Chart::Rolling | Chart::Sphere | Chart::Free => None,
             // A chart of the whole level knows nothing of its equations one by one.
             Chart::Given(_) | Chart::Solved(_) if all => None,
             _ => some.then(|| Newton::new(model, &place.kept)).transpose()?,

@@ -25,7 +25,7 @@ impl Bench<'_> {
     ) {
         let (densities, mut findings): (Vec<Expr>, Vec<&mut Finding>) = items
             .filter(|(item, _)| matches!(item.claim.kind, Kind::Density(_)))
-            .filter_map(|(item, finding)| Some((item.context.value?, finding)))
+            .filter_map(|(item, finding)| Some((*item.context.value.first()?, finding)))
             .unzip();
         if densities.is_empty() {
             return;

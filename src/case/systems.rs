@@ -1,0 +1,357 @@
+//! `system = "…"`: which equations of motion, with their names, states and level sets.
+
+use toml::de::DeTable;
+
+use super::error::{CaseError, Problem};
+use super::field::{self, State};
+use super::parameters::Setting;
+use super::section::{Section, Text};
+use super::{ball, body, lagrangian};
+use crate::formula::{Formula, Type, canonical_name};
+use crate::mechanics::{
+    Chart, Draw, LevelEquation, LevelFunction, Meaning, Model, Parameter, Quantity, Range, Reach,
+    System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
+};
+
+const SYSTEMS: &str =
+    "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic or field";
+
+/// A model with the way its states are made.
+pub struct Parts {
+    /// The model.
+    pub model: Model,
+    /// How its states are made.
+    pub chart: Chart,
+    /// The draws of what the chart leaves free.
+    pub free_draws: Vec<Draw>,
+}
+
+/// What is read on the way to a model.
+pub(super) struct Reading<'r, 's> {
+    pub root: &'r Section<'s>,
+    pub settings: &'r [Setting],
+    pub vocabulary: Vocabulary,
+    pub parameters: Vec<Parameter>,
+    pub state: State,
+    pub abbreviations: Vec<Formula>,
+    /// Abbreviations that use rates, which are known in the end only.
+    waiting: Vec<String>,
+    pub level: Vec<LevelEquation>,
+    pub extension: Vec<Formula>,
+}
+
+/// Reads what the kind of system asks for; gives its name too.
+pub fn read(
+    root: &Section<'_>,
+    vocabulary: Vocabulary,
+    parameters: Vec<Parameter>,
+    settings: &[Setting],
+) -> Result<(String, Parts), CaseError> {
+    let text = match (root.text("system")?, root.section("field")?) {
+        (Some(text), _) => text,
+        (None, Some(_)) => Text::made("field".to_string(), 0..0),
+        (None, None) => {
+            let remedy = format!("add system = \"…\" with {SYSTEMS}");
+            return Err(root.missing("system", &remedy));
+        }
+    };
+    let mut reading = Reading {
+        root,
+        settings,
+        vocabulary,
+        parameters,
+        state: State { variables: Vec::new(), draws: Vec::new() },
+        abbreviations: Vec::new(),
+        waiting: Vec::new(),
+        level: Vec::new(),
+        extension: Vec::new(),
+    };
+    let (system, chart) = match text.value.as_str() {
+        "rubber-plane" => reading.rubber(&text, false)?,
+        "rubber-sphere" => reading.rubber(&text, true)?,
+        "flat-base" => reading.flat_base(&text)?,
+        "ball-on-surface" => reading.ball(&text)?,
+        "nonholonomic" => reading.lagrangian(false)?,
+        "vakonomic" => reading.lagrangian(true)?,
+        "field" => reading.field()?,
+        found => {
+            let (message, remedy) = (format!("`{found}` is no system"), format!("write {SYSTEMS}"));
+            return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
+        }
+    };
+    reading.name_rates();
+    reading.read_waiting()?;
+    let model = Model {
+        system,
+        vocabulary: reading.vocabulary,
+        parameters: reading.parameters,
+        state: reading.state.variables,
+        extension: reading.extension,
+        variables: None,
+        abbreviations: reading.abbreviations,
+        level: reading.level,
+    };
+    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws }))
+}
+
+fn equation(text: &str, function: LevelFunction) -> LevelEquation {
+    LevelEquation { text: text.to_string(), function }
+}
+
+impl Reading<'_, '_> {
+    fn rubber(&mut self, name: &Text, curved: bool) -> Result<(System, Chart), CaseError> {
+        let nothing = DeTable::new();
+        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let features = body::features(&section, curved, &self.vocabulary);
+        let own = [("ω", Type::Vector), ("γ", Type::Vector)];
+        self.declare(&own, &[], of_rubber(features), name)?;
+        self.further_state()?;
+        self.read_abbreviations()?;
+        let names = &self.vocabulary;
+        let system = body::rubber(&section, curved, self.settings, names, &mut self.parameters)?;
+        self.no_feedback(&section, &system)?;
+        section.finish()?;
+        self.further_rates(own.len())?;
+        self.level = vec![
+            equation("|γ| = 1", LevelFunction::UnitNormal),
+            equation("(ω,γ) = 0", LevelFunction::NoSpin),
+        ];
+        Ok((system, Chart::Rolling))
+    }
+
+    fn flat_base(&mut self, name: &Text) -> Result<(System, Chart), CaseError> {
+        let nothing = DeTable::new();
+        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let near = Draw::Within(Range::between((-3, 2), (3, 2)));
+        let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
+        self.declare(
+            &own,
+            &[near.clone(), near.clone(), near.clone(), near],
+            of_flat_base(),
+            name,
+        )?;
+        self.further_state()?;
+        self.read_abbreviations()?;
+        let system = body::flat_base(&section, &self.vocabulary)?;
+        section.finish()?;
+        self.further_rates(own.len())?;
+        Ok((system, Chart::Free))
+    }
+
+    fn ball(&mut self, name: &Text) -> Result<(System, Chart), CaseError> {
+        let nothing = DeTable::new();
+        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let by_support = section.value("surface").is_none();
+        let second = if by_support { "γ" } else { "r" };
+        let own = [("M", Type::Vector), (second, Type::Vector)];
+        let near = Draw::Within(Range::between((-2, 1), (2, 1)));
+        let draws = if by_support { Vec::new() } else { vec![near; 6] };
+        self.declare(&own, &draws, of_ball(by_support), name)?;
+        if section.value("potential").is_some() {
+            let (meaning, reach) = (Meaning::Quantity(Quantity::Potential), Reach::Phase);
+            self.vocabulary.add("U", meaning, Type::Scalar, reach);
+        }
+        self.further_state()?;
+        self.read_abbreviations()?;
+        let settings = self.settings;
+        let system = ball::read(&section, settings, &mut self.vocabulary, &mut self.parameters)?;
+        section.finish()?;
+        self.further_rates(own.len())?;
+        if by_support {
+            self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
+        }
+        Ok((system, if by_support { Chart::Sphere } else { Chart::Free }))
+    }
+
+    fn lagrangian(&mut self, vakonomic: bool) -> Result<(System, Chart), CaseError> {
+        let ranges = self.root.section("state")?.ok_or_else(|| {
+            let remedy =
+                "add a table [state] with q = \"-2..2\", \"q'\" = \"-2..2\" for each variable";
+            self.root.missing("state", remedy)
+        })?;
+        self.state = field::state(&ranges, &mut self.vocabulary, Reach::Configuration)?;
+        let section = self.root.section("lagrangian")?.ok_or_else(|| {
+            self.root.missing("lagrangian", "add a table [lagrangian] with kinetic = \"…\"")
+        })?;
+        let constraints = section.texts("constraints")?.len();
+        for (name, quantity, kind, reach) in of_lagrangian(constraints) {
+            if self.vocabulary.find(&name).is_none() {
+                self.vocabulary.add(&name, Meaning::Quantity(quantity), kind, reach);
+            }
+        }
+        self.read_abbreviations()?;
+        let system = lagrangian::read(self, &section, vakonomic)?;
+        section.finish()?;
+        if let Some(section) = self.root.section("level")? {
+            self.level.extend(field::equations(&section, &self.vocabulary)?);
+        }
+        Ok((system, Chart::Free))
+    }
+
+    fn field(&mut self) -> Result<(System, Chart), CaseError> {
+        let section = self.root.section("field")?.ok_or_else(|| {
+            let remedy = "add a table [field] with \"x'\" = \"…\" for each variable";
+            self.root.missing("field", remedy)
+        })?;
+        let ranges = self.root.section("state")?.ok_or_else(|| {
+            let remedy = "add a table [state] with x = \"-2..2\" for each variable";
+            self.root.missing("state", remedy)
+        })?;
+        self.state = field::state(&ranges, &mut self.vocabulary, Reach::Phase)?;
+        self.read_abbreviations()?;
+        let rates = field::rates(&section, &self.state.variables, &self.vocabulary)?;
+        if let Some(section) = self.root.section("level")? {
+            self.level = field::equations(&section, &self.vocabulary)?;
+        }
+        Ok((System::Field(rates), Chart::Free))
+    }
+
+    /// Adds the system's own state and quantities; a parameter may hide a quantity, not a variable.
+    fn declare(
+        &mut self,
+        own: &[(&str, Type)],
+        draws: &[Draw],
+        quantities: Vec<(&'static str, Quantity, Type, Reach)>,
+        system: &Text,
+    ) -> Result<(), CaseError> {
+        let given = self.root.section("parameters")?;
+        let place = |name: &str| {
+            let entries = given.as_ref().map(Section::entries).unwrap_or_default();
+            let named = |(key, _): &(&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
+                canonical_name(key.get_ref()).as_deref() == Some(name)
+            };
+            entries.iter().find(|entry| named(entry)).map(|(key, _)| key.span())
+        };
+        for (index, (name, kind)) in own.iter().enumerate() {
+            if self.vocabulary.find(name).is_some() {
+                let reason = format!("it is a state variable of {}", system.value);
+                let problem = Problem::BadName { name: name.to_string(), reason };
+                return Err(CaseError { problem, span: place(name) });
+            }
+            let position = matches!(*name, "γ" | "r");
+            let reach = if position { Reach::Configuration } else { Reach::Phase };
+            self.vocabulary.add(name, Meaning::State(index), *kind, reach);
+            self.state.variables.push(Variable { name: name.to_string(), kind: *kind });
+        }
+        self.state.draws.extend(draws.iter().cloned());
+        for (name, quantity, kind, reach) in quantities {
+            if self.vocabulary.find(name).is_none() {
+                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
+            }
+        }
+        Ok(())
+    }
+
+    /// The variables that `[state]` adds to a built-in system.
+    fn further_state(&mut self) -> Result<(), CaseError> {
+        let Some(section) = self.root.section("state")? else { return Ok(()) };
+        let first = self.state.variables.len();
+        field::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state)?;
+        for variable in &self.state.variables[first..] {
+            let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
+            if self.root.section("field")?.is_none() {
+                return Err(self.root.missing("field", &remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// Their rates.
+    fn further_rates(&mut self, own: usize) -> Result<(), CaseError> {
+        let Some(section) = self.root.section("field")? else { return Ok(()) };
+        let further = &self.state.variables[own..];
+        self.extension = field::rates(&section, further, &self.vocabulary)?;
+        Ok(())
+    }
+
+    /// A moment of forces may not depend on the acceleration that it causes.
+    fn no_feedback(&self, section: &Section<'_>, system: &System) -> Result<(), CaseError> {
+        let System::Rubber(body) = system else { return Ok(()) };
+        let Some(moment) = &body.moment else { return Ok(()) };
+        let mut formulas = vec![moment];
+        while let Some(formula) = formulas.pop() {
+            for symbol in formula.symbols() {
+                match self.vocabulary.entry(symbol).meaning {
+                    Meaning::Abbreviation(index) => formulas.push(&self.abbreviations[index]),
+                    Meaning::Quantity(Quantity::AngularAcceleration | Quantity::Multiplier) => {
+                        let name = &self.vocabulary.entry(symbol).name;
+                        return Err(section.complaint(Problem::Other {
+                            message: format!("`moment` depends on `{name}`, which it determines"),
+                            remedy: "write it by the state, r, r' and γ'".to_string(),
+                        }));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the rate of each state variable a name, unless the name is taken.
+    fn name_rates(&mut self) {
+        for (index, variable) in self.state.variables.iter().enumerate() {
+            let name = format!("{}'", variable.name);
+            if self.vocabulary.find(&name).is_none() {
+                let meaning = Meaning::Quantity(Quantity::Rate(index));
+                self.vocabulary.add(&name, meaning, variable.kind, Reach::Phase);
+            }
+        }
+    }
+
+    /// Reads `[let]`: each abbreviation may use those before it.
+    fn read_abbreviations(&mut self) -> Result<(), CaseError> {
+        let Some(section) = self.root.section("let")? else { return Ok(()) };
+        let rates: Vec<String> =
+            self.state.variables.iter().map(|variable| format!("{}'", variable.name)).collect();
+        for (key, value) in section.entries() {
+            let text = section.as_text(key.get_ref(), value)?;
+            let uses = |name: &String| text.value.contains(name.as_str());
+            let unknown = |name: &String| self.vocabulary.find(name).is_none();
+            if rates.iter().any(|name| unknown(name) && uses(name)) || self.waiting.iter().any(uses)
+            {
+                self.waiting.push(key.get_ref().to_string());
+            } else {
+                self.abbreviate(&section, key.get_ref(), key.span(), &text)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the abbreviations that use rates.
+    fn read_waiting(&mut self) -> Result<(), CaseError> {
+        let Some(section) = self.root.section("let")? else { return Ok(()) };
+        for (key, value) in section.entries() {
+            if self.waiting.iter().any(|name| name == key.get_ref().as_ref()) {
+                let text = section.as_text(key.get_ref(), value)?;
+                self.abbreviate(&section, key.get_ref(), key.span(), &text)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn abbreviate(
+        &mut self,
+        _: &Section<'_>,
+        key: &str,
+        place: std::ops::Range<usize>,
+        text: &Text,
+    ) -> Result<(), CaseError> {
+        let bad = |reason: &str| {
+            let (name, reason) = (key.to_string(), reason.to_string());
+            CaseError::at(place.clone(), Problem::BadName { name, reason })
+        };
+        let name = canonical_name(key)
+            .ok_or_else(|| bad("a name is letters, then digits, primes or _"))?;
+        if let Some(entry) = self.vocabulary.find(&name)
+            && !matches!(entry.meaning, Meaning::Quantity(_))
+        {
+            return Err(bad("it is taken already"));
+        }
+        let read = body::formula(text, &self.vocabulary, &name, None, Reach::Phase)?;
+        let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
+        let meaning = Meaning::Abbreviation(self.abbreviations.len());
+        self.vocabulary.add(&name, meaning, read.value_type(), reach);
+        self.abbreviations.push(read);
+        Ok(())
+    }
+}

@@ -1,0 +1,172 @@
+//! `[variables]` and `[poisson]`: new variables, and a bracket for them.
+
+use super::body::formula;
+use super::error::{CaseError, Problem};
+use super::section::Section;
+use crate::formula::{Formula, Type, canonical_name};
+use crate::mechanics::{
+    Block, Meaning, Model, Quantity, Reach, System, Variable, Variables, Vocabulary,
+};
+
+/// Reads both tables into the model, if they are there.
+pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
+    let Some(section) = root.section("variables")? else {
+        return match root.section("poisson")? {
+            None => Ok(()),
+            Some(section) => Err(section.complaint(Problem::Other {
+                message: "[poisson] is a bracket for new variables".to_string(),
+                remedy: "add [variables], e.g. M = \"Ĩ*ω\", \"γ\" = \"γ\"".to_string(),
+            })),
+        };
+    };
+    let (mut state, mut images) = (Vec::new(), Vec::new());
+    for (key, value) in section.entries() {
+        let name = canonical_name(key.get_ref()).ok_or_else(|| {
+            let reason = "a name is letters, then digits, primes or _".to_string();
+            CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
+        })?;
+        let text = section.as_text(key.get_ref(), value)?;
+        let image = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+        state.push(Variable { name, kind: image.value_type() });
+        images.push(image);
+    }
+    let target = target(root, model, state, &images)?;
+    let blocks = match root.section("poisson")? {
+        Some(section) => blocks(&section, &target)?,
+        None => vec![vec![None; target.state.len()]; target.state.len()],
+    };
+    model.variables = Some(Box::new(Variables { model: target, images, blocks }));
+    Ok(())
+}
+
+/// The model in whose names functions of the new variables are written.
+fn target(
+    root: &Section<'_>,
+    model: &Model,
+    state: Vec<Variable>,
+    images: &[Formula],
+) -> Result<Model, CaseError> {
+    // A body's quantities depend on the second state variable alone: they mean the same as long as
+    // that variable stays.
+    let stays = |index: usize| {
+        let own = model.state.get(index);
+        own.is_some_and(|own| {
+            state.get(index).is_some_and(|new| new.name == own.name && new.kind == own.kind)
+                && images[index].text().trim() == own.name
+        })
+    };
+    let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
+    let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
+    let mut names = model.vocabulary.only(|entry| match entry.meaning {
+        Meaning::Quantity(quantity) => keeps_body && is_of_position(quantity),
+        Meaning::Parameter(_) => true,
+        _ => entry.reach == Reach::Parameters,
+    });
+    for (index, variable) in state.iter().enumerate() {
+        let position = keeps_body && index == 1;
+        let reach = if position { Reach::Configuration } else { Reach::Phase };
+        names.add(&variable.name, Meaning::State(index), variable.kind, reach);
+    }
+    let mut target = model.with_names(names, state);
+    if keeps_body {
+        target.system = model.system.clone();
+    }
+    abbreviate_again(root, &mut target)?;
+    Ok(target)
+}
+
+/// Abbreviations that can be read in the new names mean the same function of them.
+fn abbreviate_again(root: &Section<'_>, target: &mut Model) -> Result<(), CaseError> {
+    let Some(section) = root.section("let")? else { return Ok(()) };
+    for (key, value) in section.entries() {
+        let Some(name) = canonical_name(key.get_ref()) else { continue };
+        let text = section.as_text(key.get_ref(), value)?;
+        if target.vocabulary.find(&name).is_some() {
+            continue;
+        }
+        if let Ok(read) = Formula::parse(&text.value, &target.vocabulary) {
+            let reach = target.vocabulary.reach(&read).map_or(Reach::Parameters, |e| e.reach);
+            let meaning = Meaning::Abbreviation(target.abbreviations.len());
+            target.vocabulary.add(&name, meaning, read.value_type(), reach);
+            target.abbreviations.push(read);
+        }
+    }
+    Ok(())
+}
+
+fn is_of_position(quantity: Quantity) -> bool {
+    use Quantity::*;
+    !matches!(
+        quantity,
+        ContactRate
+            | Energy
+            | AngularAcceleration
+            | AngularVelocity
+            | NormalRate
+            | Multiplier
+            | Reaction(_)
+            | Rate(_)
+    )
+}
+
+/// The blocks of a Poisson tensor.
+fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>>>, CaseError> {
+    let count = target.state.len();
+    let mut blocks: Vec<Vec<Option<Block>>> = vec![vec![None; count]; count];
+    if let Some(text) = section.text("structure")? {
+        let vectors = target.state.iter().filter(|v| v.kind == Type::Vector).count();
+        let pairs: &[(usize, usize)] = match (text.value.as_str(), vectors) {
+            ("e(3)", 2..) if target.state[1].kind == Type::Vector => &[(0, 0), (0, 1)],
+            ("so(3)", 1..) => &[(0, 0)],
+            (found, _) => {
+                let message = format!("`{found}` is no bracket of these variables");
+                let remedy =
+                    "write \"e(3)\" for two vectors, \"so(3)\" for one, or give blocks".to_string();
+                return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
+            }
+        };
+        for (i, j) in pairs {
+            let hat = format!("hat({})", target.state[*j].name);
+            place(&mut blocks, (*i, *j), parse(&hat, &target.vocabulary)?);
+        }
+    }
+    for (key, value) in section.entries().into_iter().filter(|(k, _)| k.get_ref() != "structure") {
+        let text = section.as_text(key.get_ref(), value)?;
+        let index = |name: &str| {
+            let name = canonical_name(name.trim())?;
+            target.state.iter().position(|variable| variable.name == name)
+        };
+        let pair = key.get_ref().split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
+        let Some((i, j)) = pair else {
+            let message = format!("`{}` is no pair of new variables", key.get_ref());
+            let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
+            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+        };
+        let kind = match (target.state[i].kind, target.state[j].kind) {
+            (Type::Vector, Type::Vector) => Type::Matrix,
+            (Type::Scalar, Type::Scalar) => Type::Scalar,
+            (Type::Matrix, _) | (_, Type::Matrix) => {
+                let message = "a bracket of matrices cannot be given".to_string();
+                let remedy = "take the columns as variables".to_string();
+                return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+            }
+            _ => Type::Vector,
+        };
+        let what = format!("the block {}", key.get_ref());
+        let block = formula(&text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
+        place(&mut blocks, (i, j), block);
+    }
+    Ok(blocks)
+}
+
+fn parse(text: &str, names: &Vocabulary) -> Result<Formula, CaseError> {
+    Formula::parse(text, names).map_err(|error| CaseError::whole(Problem::Formula(error)))
+}
+
+/// Enters a block, and its opposite.
+fn place(blocks: &mut [Vec<Option<Block>>], (i, j): (usize, usize), block: Formula) {
+    if i != j {
+        blocks[j][i] = Some(Block::Opposite(block.clone()));
+    }
+    blocks[i][j] = Some(Block::Given(block));
+}

@@ -1,0 +1,85 @@
+//! Fixed points, with the spectrum of the linear part.
+
+use num_dual::Dual;
+
+use super::{Reader, Statement, difference};
+use crate::formula::Formula;
+use crate::mechanics::calculus::{Jet, characteristic_polynomial};
+use crate::mechanics::{Meaning, Phase};
+use crate::scalar::Scalar;
+
+/// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.
+#[derive(Clone, Debug)]
+pub struct FixedPoint {
+    /// One entry a state variable; 0 where none is given.
+    point: Vec<Option<Formula>>,
+    spectrum: Option<Vec<Formula>>,
+}
+
+impl Statement for FixedPoint {
+    const NAME: &'static str = "fixed-point";
+    const COMPANIONS: &'static [&'static str] = &["spectrum"];
+    const WIDENS: bool = false;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let model = from.model();
+        let parameters = model.vocabulary.only_parameters();
+        let mut point = vec![None; model.state.len()];
+        let given = from.table_in(Self::NAME, &parameters)?;
+        for (name, formula) in given.ok_or_else(|| from.missing(Self::NAME))? {
+            let entry = model.vocabulary.find(&name);
+            let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
+                let message = format!("`{name}` is no state variable");
+                return Err(from.complaint(Self::NAME, message, "name state variables"));
+            };
+            if model.state[index].kind != formula.value_type() {
+                return Err(from.unlike(Self::NAME, model.state[index].kind, formula.value_type()));
+            }
+            point[index] = Some(formula);
+        }
+        let spectrum = from.list("spectrum")?;
+        if let Some(eigenvalues) = &spectrum
+            && eigenvalues.len() > model.dimension()
+        {
+            let message = format!("{} eigenvalues are too many", eigenvalues.len());
+            let remedy = "list those that are not 0, each as often as it occurs";
+            return Err(from.complaint("spectrum", message, remedy));
+        }
+        Ok(Self { point, spectrum })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let mut state = Vec::new();
+        for (formula, variable) in self.point.iter().zip(&jet.phase.model().state) {
+            match formula {
+                Some(formula) => state.extend(jet.phase.evaluate(formula).components()),
+                None => state.extend(vec![T::zero(); variable.len()]),
+            }
+        }
+        let at: Phase<'_, T> = jet.phase.with(&[], &state);
+        let mut residual = at.field().to_vec();
+        if let Some(spectrum) = &self.spectrum {
+            let dimension = state.len();
+            let columns: Vec<Vec<T>> = (0..dimension)
+                .map(|j| at.lift_along(j).field().iter().map(|x: &Dual<T>| x.eps).collect())
+                .collect();
+            let eigenvalues = spectrum.iter().map(|f| at.scalar(f)).collect::<Vec<T>>();
+            let claimed = coefficients(&eigenvalues, dimension);
+            residual.extend(difference(characteristic_polynomial(&columns), claimed));
+        }
+        residual
+    }
+}
+
+/// The coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) λ^(n-k).
+fn coefficients<T: Scalar>(eigenvalues: &[T], dimension: usize) -> Vec<T> {
+    let mut polynomial = vec![T::zero(); dimension + 1];
+    polynomial[0] = T::one();
+    for eigenvalue in eigenvalues {
+        for k in (1..=dimension).rev() {
+            let above = polynomial[k - 1];
+            polynomial[k] -= above * *eigenvalue;
+        }
+    }
+    polynomial.split_off(1)
+}

@@ -1,0 +1,168 @@
+//! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
+
+use super::{Reader, Statement, difference};
+use crate::formula::{Formula, Type};
+use crate::mechanics::calculus::{Jet, trace_of_quotient};
+use crate::mechanics::{Model, Phase, Variables};
+use crate::scalar::Scalar;
+
+/// N⁻¹y' = P ∂H/∂y
+#[derive(Clone, Debug)]
+pub struct Hamiltonian {
+    hamiltonian: Formula,
+    multiplier: Option<Formula>,
+}
+
+/// P ∂C/∂y = 0
+#[derive(Clone, Debug)]
+pub struct Casimir(Formula);
+
+/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0
+#[derive(Clone, Debug)]
+pub struct JacobiIdentity;
+
+/// The measure ρ dy is kept: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
+#[derive(Clone, Debug)]
+pub struct DensityInVariables(Formula);
+
+/// The variables of the case, or the complaint that there are none.
+fn variables<'r, R: Reader>(from: &'r R, key: &'static str) -> Result<&'r Variables, R::Error> {
+    from.model().variables.as_deref().ok_or_else(|| {
+        let message = format!("`{key}` is a claim about new variables, and the case has none");
+        from.complaint(key, message, "add [variables], and [poisson] for a bracket")
+    })
+}
+
+/// A scalar in the new variables.
+fn scalar_in<R: Reader>(from: &R, key: &'static str) -> Result<Formula, R::Error> {
+    let names = &variables(from, key)?.model.vocabulary;
+    from.formula_in(key, Some(Type::Scalar), names)?.ok_or_else(|| from.missing(key))
+}
+
+fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Error> {
+    if variables(from, key)?.has_bracket() {
+        return Ok(());
+    }
+    let message = format!("`{key}` needs a bracket");
+    Err(from.complaint(key, message, "add [poisson], e.g. structure = \"e(3)\""))
+}
+
+/// The variables of a model; claims about them were refused where there are none.
+fn of(model: &Model) -> &Variables {
+    match &model.variables {
+        Some(variables) => variables,
+        None => unreachable!("checked when the claim was read"),
+    }
+}
+
+/// ∂F/∂y
+fn slope<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<T> {
+    (0..there.model().dimension()).map(|i| there.lift_along(i).scalar(function).eps).collect()
+}
+
+/// P u
+fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
+    tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
+}
+
+impl Statement for Hamiltonian {
+    const NAME: &'static str = "hamiltonian";
+    const COMPANIONS: &'static [&'static str] = &["multiplier"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        bracket_is_given(from, Self::NAME)?;
+        let hamiltonian = scalar_in(from, Self::NAME)?;
+        let names = &variables(from, Self::NAME)?.model.vocabulary;
+        let multiplier = from.formula_in("multiplier", Some(Type::Scalar), names)?;
+        Ok(Self { hamiltonian, multiplier })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        let there = variables.point(&jet.phase);
+        let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
+        let gradient = slope(&there, &self.hamiltonian);
+        let claimed = turned(&variables.tensor(&there), &gradient);
+        let claimed = claimed.into_iter().map(|x| x * multiplier).collect();
+        difference(variables.rates(jet), claimed)
+    }
+}
+
+impl Statement for Casimir {
+    const NAME: &'static str = "casimir";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        bracket_is_given(from, Self::NAME)?;
+        scalar_in(from, Self::NAME).map(Self)
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        let there = variables.point(&jet.phase);
+        turned(&variables.tensor(&there), &slope(&there, &self.0))
+    }
+}
+
+impl Statement for JacobiIdentity {
+    const NAME: &'static str = "jacobi-identity";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        bracket_is_given(from, Self::NAME)?;
+        from.word(Self::NAME, "holds").map(|()| Self)
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        let there = variables.point(&jet.phase);
+        let tensor = variables.tensor(&there);
+        let n = tensor.len();
+        // slopes[l] is ∂P/∂y_l
+        let slopes: Vec<Vec<Vec<T>>> = (0..n)
+            .map(|l| {
+                let moved = variables.tensor(&there.lift_along(l));
+                moved.iter().map(|row| row.iter().map(|p| p.eps).collect()).collect()
+            })
+            .collect();
+        let term = |i: usize, j: usize, k: usize| -> T {
+            (0..n).map(|l| tensor[i][l] * slopes[l][j][k]).sum()
+        };
+        let mut residual = Vec::new();
+        for i in 0..n {
+            for j in i + 1..n {
+                residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));
+            }
+        }
+        residual
+    }
+}
+
+impl Statement for DensityInVariables {
+    const NAME: &'static str = "density-in-variables";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let variables = variables(from, Self::NAME)?;
+        let (old, new) = (from.model().dimension(), variables.model.dimension());
+        if old != new {
+            let message = format!("{new} new variables take the place of {old}");
+            let remedy = "a density needs as many new variables as old ones";
+            return Err(from.complaint(Self::NAME, message, remedy));
+        }
+        scalar_in(from, Self::NAME).map(Self)
+    }
+
+    /// v(ln ρ∘φ) + tr(dφ⁻¹ d(L_vφ)): the divergence of the motion in the new variables.
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        let moved = jet.phase.lift(jet.phase.field());
+        let along = variables.point(&moved);
+        let growth = self.0.logarithmic_derivative(&mut |symbol| along.value(symbol));
+        let mut columns = Vec::new();
+        let mut rates = Vec::new();
+        for beside in jet.along_axes() {
+            columns.push(variables.image(beside).iter().map(|y| y.eps).collect::<Vec<T>>());
+            let further = variables.image(&beside.lift(beside.field()));
+            rates.push(further.iter().map(|y| y.eps.eps).collect::<Vec<T>>());
+        }
+        vec![growth + trace_of_quotient(&columns, &rates) - jet.level_cofactor(kept)]
+    }
+}

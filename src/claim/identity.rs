@@ -1,0 +1,124 @@
+//! Identities: two formulas are the same, as they stand or as a rate.
+
+use super::{Context, Reader, Statement, difference};
+use crate::formula::Formula;
+use crate::graph::Expr;
+use crate::mechanics::calculus::{Jet, dot};
+use crate::scalar::Scalar;
+
+/// A = B
+#[derive(Clone, Debug)]
+pub struct Identity {
+    left: Formula,
+    right: Formula,
+}
+
+/// L_vF = G
+#[derive(Clone, Debug)]
+pub struct Rate {
+    function: Formula,
+    rate: Formula,
+}
+
+/// L_vF = κF, so that F = 0 is kept.
+#[derive(Clone, Debug)]
+pub struct Relation {
+    function: Formula,
+    cofactor: Formula,
+}
+
+impl Statement for Identity {
+    const NAME: &'static str = "identity";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let (left, right) = from.equation(Self::NAME)?;
+        match (left.value_type(), right.value_type()) {
+            (a, b) if a == b => Ok(Self { left, right }),
+            (a, b) => Err(from.unlike(Self::NAME, a, b)),
+        }
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        vec![&self.right, &self.left]
+    }
+
+    fn about(&self, right: Formula) -> Option<Self> {
+        Some(Self { right, ..self.clone() })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let value = |formula| jet.phase.evaluate(formula).components();
+        difference(value(&self.left), value(&self.right))
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        let value = |formula| jet.phase.evaluate(formula).components();
+        size_of_sides(value(&self.left), value(&self.right))
+    }
+}
+
+impl Statement for Rate {
+    const NAME: &'static str = "rate";
+    const COMPANIONS: &'static [&'static str] = &["equals"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let function = from.required(Self::NAME, None)?;
+        let rate = from.required("equals", Some(function.value_type()))?;
+        Ok(Self { function, rate })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        vec![&self.rate, &self.function]
+    }
+
+    fn about(&self, rate: Formula) -> Option<Self> {
+        Some(Self { rate, ..self.clone() })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        difference(jet.rates(&self.function), jet.phase.evaluate(&self.rate).components())
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        let steepness: Expr = jet.gradients(&self.function).iter().map(|g| dot(g, g)).sum();
+        let (field, rate) = (jet.phase.field(), jet.phase.evaluate(&self.rate).components());
+        Context {
+            scale: Some(steepness * dot(field, field) + dot(&rate, &rate)),
+            value: rate,
+            ..Context::default()
+        }
+    }
+}
+
+impl Statement for Relation {
+    const NAME: &'static str = "invariant-relation";
+    const COMPANIONS: &'static [&'static str] = &["cofactor"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let function = from.required(Self::NAME, Some(crate::formula::Type::Scalar))?;
+        let cofactor = from.required("cofactor", Some(function.value_type()))?;
+        Ok(Self { function, cofactor })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        vec![&self.cofactor, &self.function]
+    }
+
+    fn about(&self, cofactor: Formula) -> Option<Self> {
+        Some(Self { cofactor, ..self.clone() })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let value = jet.phase.scalar(&self.cofactor) * jet.phase.scalar(&self.function);
+        difference(jet.rates(&self.function), vec![value])
+    }
+}
+
+/// The scale |A|² + |B|², and A for its value.
+fn size_of_sides(left: Vec<Expr>, right: Vec<Expr>) -> Context {
+    Context {
+        scale: Some(dot(&left, &left) + dot(&right, &right)),
+        value: left,
+        ..Context::default()
+    }
+}

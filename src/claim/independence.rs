@@ -1,0 +1,54 @@
+//! Functional independence: the gradients of some functions and of the level functions.
+
+use super::{Reader, Statement};
+use crate::formula::Formula;
+use crate::mechanics::Model;
+use crate::mechanics::calculus::{Jet, gram_determinant};
+use crate::scalar::Scalar;
+
+/// The gradients of these functions and of the level functions are linearly independent.
+#[derive(Clone, Debug)]
+pub struct Independent(Vec<Formula>);
+
+/// The expansion of the Gram determinant doubles with each function.
+const MOST: usize = 12;
+
+impl Statement for Independent {
+    const NAME: &'static str = "independent";
+    const NEGATED: bool = true;
+    const WIDENS: bool = false;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let formulas = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
+        if formulas.is_empty() || formulas.len() + from.model().level.len() > MOST {
+            let message = format!("{} functions cannot be compared", formulas.len());
+            return Err(from.complaint(Self::NAME, message, "list between 1 and 10 functions"));
+        }
+        Ok(Self(formulas))
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        self.0.iter().collect()
+    }
+
+    /// The Gram determinant of the gradients: zero exactly where they are dependent.
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+        let mut gradients = jet.level_gradients(kept);
+        for formula in &self.0 {
+            gradients.extend(jet.gradients(formula));
+        }
+        vec![gram_determinant(&gradients)]
+    }
+
+    /// Euler and Jacobi: with an invariant density, n - 2 independent integrals on an
+    /// n-dimensional level integrate the system by quadratures.
+    fn remark(&self, model: &Model) -> Option<String> {
+        let functions: usize = self.0.iter().map(|f| f.value_type().size()).sum();
+        let level = model.dimension().checked_sub(model.level.len())?;
+        let needed = level.checked_sub(2)?;
+        Some(format!(
+            "{functions} independent functions on a level of dimension {level}; if they are integrals \
+             and there is a density, Euler and Jacobi's theorem needs {needed}"
+        ))
+    }
+}

@@ -1,0 +1,62 @@
+//! Limits with a rate: A = B + ε C + O(ε²).
+
+use super::{Reader, Statement, difference};
+use crate::formula::{Formula, Type, Value};
+use crate::mechanics::Meaning;
+use crate::mechanics::calculus::Jet;
+use crate::scalar::Scalar;
+
+/// A → B as the parameter goes to 0, with the slope C if one is given. A has to be analytic in the
+/// parameter near 0, as what is built without dividing by it is.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    function: Formula,
+    value: Formula,
+    slope: Option<Formula>,
+    parameter: usize,
+}
+
+impl Statement for Limit {
+    const NAME: &'static str = "limit";
+    const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let function = from.required(Self::NAME, None)?;
+        let kind = Some(function.value_type());
+        let value = from.required("equals", kind)?;
+        let slope = from.formula("slope", kind)?;
+        let name = from.text("parameter")?.ok_or_else(|| from.missing("parameter"))?;
+        let entry = from.model().vocabulary.find(name.trim());
+        let parameter = match entry.map(|entry| (entry.meaning, entry.kind)) {
+            Some((Meaning::Parameter(index), Type::Scalar)) => index,
+            _ => {
+                let message = format!("`{name}` is no scalar parameter");
+                let remedy = "name the parameter that goes to 0";
+                return Err(from.complaint("parameter", message, remedy));
+            }
+        };
+        Ok(Self { function, value, slope, parameter })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        [&self.value, &self.function].into_iter().chain(&self.slope).collect()
+    }
+
+    fn about(&self, value: Formula) -> Option<Self> {
+        Some(Self { value, ..self.clone() })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let zero = [(self.parameter, Value::Scalar(T::zero()))];
+        let at = jet.phase.with(&zero, &jet.phase.state());
+        let near = at.lift_parameter(self.parameter, T::one());
+        let values = near.evaluate(&self.function).components();
+        let limit = values.iter().map(|x| x.re).collect();
+        let mut residual = difference(limit, at.evaluate(&self.value).components());
+        if let Some(slope) = &self.slope {
+            let slopes = values.iter().map(|x| x.eps).collect();
+            residual.extend(difference(slopes, at.evaluate(slope).components()));
+        }
+        residual
+    }
+}

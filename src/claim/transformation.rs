@@ -1,0 +1,199 @@
+//! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
+
+use super::{Reader, Statement, difference};
+use crate::formula::{Formula, Type};
+use crate::mechanics::calculus::Jet;
+use crate::mechanics::{Meaning, Model, Phase, Reach, Variable};
+use crate::scalar::Scalar;
+
+/// A map σ of phase space to itself, which may change parameters too.
+#[derive(Clone, Debug)]
+struct Transformation {
+    /// One image a state variable; what is not named stays.
+    state: Vec<Option<Formula>>,
+    /// Images of parameters, by their indices.
+    parameters: Vec<(usize, Formula)>,
+}
+
+/// σ takes solutions to solutions: dσ·v = λ v∘σ, where t → λt.
+#[derive(Clone, Debug)]
+pub struct Symmetry {
+    map: Transformation,
+    time: Option<Formula>,
+}
+
+/// σ reverses time: dσ·v = -v∘σ, and σ∘σ = id.
+#[derive(Clone, Debug)]
+pub struct Reversor(Transformation);
+
+/// In new variables y = φ(x) the motion obeys N⁻¹y' = g(y).
+#[derive(Clone, Debug)]
+pub struct Map {
+    /// The new variables with their names; its parameters are the case's.
+    target: Box<Model>,
+    images: Vec<Formula>,
+    rates: Vec<Formula>,
+    multiplier: Option<Formula>,
+}
+
+impl Transformation {
+    fn read<R: Reader>(from: &R, key: &'static str) -> Result<Self, R::Error> {
+        let model = from.model();
+        let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
+        for (name, image) in from.table(key)? {
+            let expected = match model.vocabulary.find(&name) {
+                Some(entry) => entry,
+                None => return Err(unknown(from, key, &name)),
+            };
+            if expected.kind != image.value_type() {
+                let message = format!(
+                    "`{name}` is a {}, and its image a {}",
+                    expected.kind,
+                    image.value_type()
+                );
+                return Err(from.complaint(key, message, "give an image of the same kind"));
+            }
+            match expected.meaning {
+                Meaning::State(index) => map.state[index] = Some(image),
+                Meaning::Parameter(index) => map.parameters.push((index, image)),
+                _ => return Err(unknown(from, key, &name)),
+            }
+        }
+        Ok(map)
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        let parameters = self.parameters.iter().map(|(_, image)| image);
+        self.state.iter().flatten().chain(parameters).collect()
+    }
+
+    /// σ(x)
+    fn image<T: Scalar>(&self, at: &Phase<'_, T>) -> Vec<T> {
+        let values = self.state.iter().enumerate().map(|(index, image)| match image {
+            Some(image) => at.evaluate(image),
+            None => at.configuration.variable(index),
+        });
+        values.flat_map(|value| value.components()).collect()
+    }
+
+    /// The point σ(x), with the parameters that σ gives it.
+    fn point<'m, T: Scalar>(&self, at: &Phase<'m, T>) -> Phase<'m, T> {
+        let parameters: Vec<_> =
+            self.parameters.iter().map(|(index, image)| (*index, at.evaluate(image))).collect();
+        at.with(&parameters, &self.image(at))
+    }
+
+    /// dσ·v
+    fn pushed<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+        self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
+    }
+}
+
+fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
+    let message = format!("`{name}` is neither a state variable nor a parameter");
+    from.complaint(key, message, "name state variables, and parameters if they change")
+}
+
+impl Statement for Symmetry {
+    const NAME: &'static str = "symmetry";
+    const COMPANIONS: &'static [&'static str] = &["time"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let map = Transformation::read(from, Self::NAME)?;
+        Ok(Self { map, time: from.formula("time", Some(Type::Scalar))? })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        self.map.formulas().into_iter().chain(&self.time).collect()
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let time = self.time.as_ref().map_or_else(T::one, |time| jet.phase.scalar(time));
+        let there = self.map.point(&jet.phase);
+        let rates = there.field().iter().map(|rate| time * *rate).collect();
+        difference(self.map.pushed(jet), rates)
+    }
+}
+
+impl Statement for Reversor {
+    const NAME: &'static str = "reversor";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        Transformation::read(from, Self::NAME).map(Self)
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        self.0.formulas()
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let there = self.0.point(&jet.phase);
+        let rates = there.field().iter().map(|rate| -*rate).collect();
+        let twice = self.0.point(&there);
+        let mut residual = difference(self.0.pushed(jet), rates);
+        residual.extend(difference(twice.state(), jet.phase.state()));
+        for (index, _) in &self.0.parameters {
+            let value = |at: &Phase<'_, T>| at.configuration.parameter(*index).components();
+            residual.extend(difference(value(&twice), value(&jet.phase)));
+        }
+        residual
+    }
+}
+
+impl Statement for Map {
+    const NAME: &'static str = "map";
+    const COMPANIONS: &'static [&'static str] = &["field", "multiplier"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let model = from.model();
+        let (names, images): (Vec<String>, Vec<Formula>) =
+            from.table(Self::NAME)?.into_iter().unzip();
+        // In the equations of the new variables their names hide those of the old ones.
+        let mut vocabulary = model.vocabulary.only_parameters();
+        let mut state = Vec::new();
+        for (index, (name, image)) in names.iter().zip(&images).enumerate() {
+            let kind = image.value_type();
+            vocabulary.add(name, Meaning::State(index), kind, Reach::Phase);
+            state.push(Variable { name: name.clone(), kind });
+        }
+        let target = model.with_names(vocabulary, state);
+        let mut rates = vec![None; names.len()];
+        let given = from.table_in("field", &target.vocabulary)?;
+        for (name, rate) in given.ok_or_else(|| from.missing("field"))? {
+            let plain = name.strip_suffix('\'').unwrap_or(&name);
+            let Some(index) = names.iter().position(|known| known == plain) else {
+                let message = format!("`{name}` is the rate of no new variable");
+                return Err(from.complaint("field", message, "name the variables of `map`"));
+            };
+            if rate.value_type() != images[index].value_type() {
+                return Err(from.unlike("field", images[index].value_type(), rate.value_type()));
+            }
+            rates[index] = Some(rate);
+        }
+        let Some(rates) = rates.into_iter().collect::<Option<Vec<Formula>>>() else {
+            let message = "`field` has no rate for one of the new variables".to_string();
+            return Err(from.complaint("field", message, "give one for each name in `map`"));
+        };
+        let multiplier = from.formula("multiplier", Some(Type::Scalar))?;
+        Ok(Self { target: Box::new(target), images, rates, multiplier })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        self.images.iter().chain(&self.multiplier).collect()
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let images: Vec<T> =
+            self.images.iter().flat_map(|image| jet.phase.evaluate(image).components()).collect();
+        let there = jet.phase.in_model(&self.target, &images);
+        let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| jet.phase.scalar(n));
+        let pairs = self.images.iter().zip(&self.rates);
+        pairs
+            .flat_map(|(image, rate)| {
+                let claimed = there.evaluate(rate).components();
+                let claimed = claimed.into_iter().map(|x| x * multiplier).collect();
+                difference(jet.rates(image), claimed)
+            })
+            .collect()
+    }
+}

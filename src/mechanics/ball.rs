@@ -1,0 +1,239 @@
+//! A homogeneous ball that rolls, with spin, on a surface that is fixed or turns about e₃.
+//!
+//! Vectors in the fixed frame. r is the centre of the ball, which moves on the surface Σ parallel
+//! to the one it touches; γ the normal of Σ from the point of contact to the centre, μ the central
+//! moment of inertia, D = mR², Ω = Ωe₃ the angular velocity of the surface:
+//!
+//! ```text
+//! M  = μω + Dγ×(ω×γ),    ω = (M + (D/μ)(M,γ)γ)/(μ + D)
+//! r' = Rω×γ + Ω×(r - Rγ)
+//! M' = Dγ'×(ω×γ) - mRγ×(Ω×(r' - Rγ')) - Rγ×∂U/∂r
+//! ```
+//!
+//! Borisov, Mamaev, Nonholonomic dynamical systems, the ball on a surface; the sign of the moment
+//! is that with which the energy is conserved.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual;
+
+use super::body::{Shape, axis, scalar, vector};
+use super::linear::{adjugate, determinant_with};
+use super::phase::{Configuration, Phase};
+use super::quantity::Quantity;
+use super::rubber::NORMAL;
+use crate::formula::{Formula, Value};
+use crate::scalar::Scalar;
+
+/// A homogeneous ball on a surface.
+#[derive(Clone, Debug)]
+pub struct BallOnSurface {
+    /// m
+    pub mass: Formula,
+    /// R
+    pub radius: Formula,
+    /// μ
+    pub moment: Formula,
+    /// Σ
+    pub surface: Surface,
+    /// U, a formula in r, which stands in the place of the second state variable.
+    pub potential: Option<Formula>,
+    /// Ω
+    pub rotation: Option<Formula>,
+    /// Are components taken in the frame of the turning surface?
+    pub rotating_frame: bool,
+}
+
+/// How the surface of the centre is given.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// The level surfaces of F(r); the state is (M, r).
+    Level(Formula),
+    /// By a support function; the state is (M, γ).
+    Support(Shape),
+}
+
+/// What the equations compute on their way.
+struct Motion<T> {
+    normal: Vector3<T>,
+    centre: Vector3<T>,
+    omega: Vector3<T>,
+    centre_rate: Vector3<T>,
+    normal_rate: Vector3<T>,
+}
+
+impl BallOnSurface {
+    /// (M', r') or (M', γ')
+    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
+        let momentum = vector(at.variable(0));
+        let Motion { normal, centre, omega, centre_rate, normal_rate } = self.motion(at);
+        let (mass, radius) = (self.value(at, &self.mass), self.value(at, &self.radius));
+        let turn = self.turn(at);
+        let turned = self.rotating_frame;
+        // Rates in the fixed frame, from those in a frame that turns.
+        let absolute = |x: Vector3<T>, rate: Vector3<T>| {
+            if turned { rate + turn.cross(&x) } else { rate }
+        };
+        let normal_moves = absolute(normal, normal_rate);
+        let mut rate = normal_moves.cross(&omega.cross(&normal)) * (mass * radius * radius);
+        if self.rotation.is_some() {
+            let contact_moves = absolute(centre, centre_rate) - normal_moves * radius;
+            rate -= normal.cross(&turn.cross(&contact_moves)) * (mass * radius);
+        }
+        if let Some(force) = self.slope_of_potential(at, &centre) {
+            rate -= normal.cross(&force) * radius;
+        }
+        if turned {
+            rate -= turn.cross(&momentum);
+        }
+        let second = match self.surface {
+            Surface::Level(_) => centre_rate,
+            Surface::Support(_) => normal_rate,
+        };
+        rate.iter().chain(second.iter()).copied().collect()
+    }
+
+    /// (M,ω)/2 + U
+    pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let motion = self.motion(at);
+        let kinetic = vector(at.variable(0)).dot(&motion.omega) / T::from(2.0);
+        match &self.potential {
+            None => kinetic,
+            Some(potential) => kinetic + self.potential_at(at, potential, &motion.centre),
+        }
+    }
+
+    /// A quantity that a formula names.
+    pub fn quantity<T: Scalar>(&self, quantity: Quantity, at: &Configuration<'_, T>) -> Value<T> {
+        match (quantity, &self.surface) {
+            (Quantity::Energy, _) => Value::Scalar(self.energy(at)),
+            (Quantity::Potential, _) => {
+                let (centre, potential) = (self.motion(at).centre, self.potential.as_ref());
+                let value = potential.map(|u| self.potential_at(at, u, &centre));
+                Value::Scalar(value.unwrap_or_else(T::zero))
+            }
+            (Quantity::AngularVelocity, _) => Value::Vector(self.motion(at).omega),
+            (Quantity::Normal, _) => Value::Vector(self.motion(at).normal),
+            (Quantity::NormalRate, _) => Value::Vector(self.motion(at).normal_rate),
+            (Quantity::Contact, _) => Value::Vector(self.motion(at).centre),
+            (Quantity::ContactRate, _) => Value::Vector(self.motion(at).centre_rate),
+            (Quantity::SurfaceGradient, Surface::Level(f)) => Value::Vector(gradient(at, f)),
+            (Quantity::Slope, Surface::Support(shape)) => Value::Matrix(-shape.contact(at).1),
+            _ => self.configuration_quantity(quantity, at),
+        }
+    }
+
+    /// A quantity that needs no derivative.
+    pub fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        match (quantity, &self.surface) {
+            (Quantity::RollingMoment, _) => {
+                let radius = self.value(at, &self.radius);
+                Value::Scalar(self.value(at, &self.mass) * radius * radius)
+            }
+            (Quantity::Support, Surface::Support(shape)) => Value::Scalar(shape.support(at)),
+            _ => Value::Scalar(T::zero()),
+        }
+    }
+
+    fn value<T: Scalar>(&self, at: &Configuration<'_, T>, formula: &Formula) -> T {
+        scalar(at.evaluate(formula))
+    }
+
+    /// Ω e₃
+    fn turn<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+        let rate = self.rotation.as_ref().map_or_else(T::zero, |rate| self.value(at, rate));
+        Vector3::new(T::zero(), T::zero(), rate)
+    }
+
+    fn potential_at<T: Scalar>(
+        &self,
+        at: &Configuration<'_, T>,
+        potential: &Formula,
+        centre: &Vector3<T>,
+    ) -> T {
+        scalar(at.moved(NORMAL, Value::Vector(*centre)).evaluate(potential))
+    }
+
+    fn slope_of_potential<T: Scalar>(
+        &self,
+        at: &Configuration<'_, T>,
+        centre: &Vector3<T>,
+    ) -> Option<Vector3<T>> {
+        let potential = self.potential.as_ref()?;
+        Some(gradient(&at.moved(NORMAL, Value::Vector(*centre)), potential))
+    }
+
+    fn motion<T: Scalar>(&self, at: &Configuration<'_, T>) -> Motion<T> {
+        let momentum = vector(at.variable(0));
+        let (moment, radius) = (self.value(at, &self.moment), self.value(at, &self.radius));
+        let rolling = self.value(at, &self.mass) * radius * radius;
+        let spin = |normal: &Vector3<T>| {
+            let along = normal * (momentum.dot(normal) * rolling / moment);
+            (momentum + along).map(|x| x / (moment + rolling))
+        };
+        let turn = self.turn(at);
+        let rolled = |omega: &Vector3<T>, normal: &Vector3<T>, centre: &Vector3<T>| match (
+            &self.rotation,
+            self.rotating_frame,
+        ) {
+            (None, _) => omega.cross(normal) * radius,
+            (Some(_), true) => (omega - turn).cross(normal) * radius,
+            (Some(_), false) => {
+                omega.cross(normal) * radius + turn.cross(&(centre - normal * radius))
+            }
+        };
+        match &self.surface {
+            Surface::Level(f) => {
+                let centre = vector(at.variable(NORMAL));
+                let (slope, hessian) = second_order(at, f);
+                let length = slope.dot(&slope).sqrt();
+                let normal = slope.map(|x| x / length);
+                let omega = spin(&normal);
+                let centre_rate = rolled(&omega, &normal, &centre);
+                let change = hessian * centre_rate;
+                let across = change - normal * normal.dot(&change);
+                let normal_rate = across.map(|x| x / length);
+                Motion { normal, centre, omega, centre_rate, normal_rate }
+            }
+            Surface::Support(shape) => {
+                let normal = vector(at.variable(NORMAL));
+                // The body's r = -∇h is the point with outward normal -γ; here r = ∇h.
+                let (opposite, slope) = shape.contact(at);
+                let centre = -opposite;
+                let omega = spin(&normal);
+                let centre_rate = rolled(&omega, &normal, &centre);
+                let matrix = normal * normal.transpose() - slope;
+                let adjugate = adjugate(&matrix);
+                let determinant = determinant_with(&matrix, &adjugate);
+                let normal_rate = (adjugate * centre_rate).map(|x| x / determinant);
+                Motion { normal, centre, omega, centre_rate, normal_rate }
+            }
+        }
+    }
+}
+
+/// ∂f/∂r
+fn gradient<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> Vector3<T> {
+    Vector3::from_fn(|i, _| scalar(at.lift(NORMAL, axis(i)).evaluate(f)).eps)
+}
+
+/// ∂f/∂r and ∂²f/∂r²
+fn second_order<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> (Vector3<T>, Matrix3<T>) {
+    let zero = T::zero();
+    let (mut slope, mut hessian) = (Vector3::repeat(zero), Matrix3::repeat(zero));
+    for i in 0..3 {
+        let outer = at.lift(NORMAL, axis(i));
+        for j in i..3 {
+            let direction = axis::<T>(j).map(Dual::from_re);
+            let value = scalar(outer.lift(NORMAL, direction).evaluate(f));
+            hessian[(i, j)] = value.eps.eps;
+            hessian[(j, i)] = value.eps.eps;
+            slope[i] = value.re.eps;
+        }
+    }
+    (slope, hessian)
+}

@@ -1,0 +1,264 @@
+//! A Lagrangian with constraints that are linear in the velocities: nonholonomic and vakonomic
+//! motion, in coordinates or quasi-velocities.
+//!
+//! Velocities w, coordinates q with q' = Σ w_i X_i(q), constraints f_k = (a_k,w) + b_k = 0:
+//!
+//! ```text
+//! P_i' + c^b_ia w_a P_b = X_i(𝓛) + Q_i + Σ μ_k a_ki,   P = ∂𝓛/∂w,   [X_i,X_a] = c^b_ia X_b
+//! nonholonomic: 𝓛 = L          vakonomic: 𝓛 = L - Σ λ_k f_k, λ_k' = μ_k
+//! ```
+//!
+//! and f_k' = 0 gives the reactions μ. In coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov,
+//! Dynamics of systems with nonintegrable constraints II: (27), (28), (33).
+
+use num_dual::Dual;
+
+use super::calculus::{dot, solve_positive};
+use super::model::Variable;
+use super::phase::{Configuration, Phase};
+use crate::formula::Formula;
+use crate::scalar::Scalar;
+
+/// A Lagrangian system with constraints.
+#[derive(Clone, Debug)]
+pub struct Lagrangian {
+    /// T
+    pub kinetic: Formula,
+    /// U
+    pub potential: Option<Formula>,
+    /// f_k
+    pub constraints: Vec<Formula>,
+    /// What each state variable is.
+    pub roles: Vec<Role>,
+    /// How the fields X_i commute.
+    pub algebra: Algebra,
+    /// Generalised forces, by the components of the state that are their velocities.
+    pub forces: Vec<(usize, Formula)>,
+    /// Are the multipliers part of the state?
+    pub vakonomic: bool,
+}
+
+/// What a state variable is.
+#[derive(Clone, Debug)]
+pub enum Role {
+    /// A coordinate whose rate is this state variable.
+    Coordinate(usize),
+    /// A coordinate whose rate is given.
+    Carried(Formula),
+    /// A velocity or quasi-velocity.
+    Velocity,
+    /// The multiplier of the next constraint.
+    Multiplier,
+}
+
+/// How the fields X_i commute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Algebra {
+    /// They do: velocities are those of coordinates.
+    Commuting,
+    /// The three components from this one on are an angular velocity in the body: P' = P × ω.
+    Rotations(usize),
+    /// They are as many as the coordinates, and their commutators are computed.
+    Frame,
+}
+
+/// The pieces of the equations at a point.
+struct Motion<T> {
+    /// The components of the state that are velocities.
+    velocities: Vec<usize>,
+    acceleration: Vec<T>,
+    reactions: Vec<T>,
+    /// The rates of the coordinates, 0 in the other components.
+    drift: Vec<T>,
+}
+
+impl Lagrangian {
+    /// The rates of all components of the state.
+    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let motion = self.motion(phase);
+        let mut field = motion.drift;
+        for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
+            field[*component] = rate;
+        }
+        for (component, rate) in self.multipliers(&phase.model().state).zip(motion.reactions) {
+            field[component] = rate;
+        }
+        field
+    }
+
+    /// μ_k, the reaction of a constraint.
+    pub fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
+        self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::zero)
+    }
+
+    /// (w, ∂L/∂w) - L
+    pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let state = at.components();
+        let mut stretch = vec![T::zero(); state.len()];
+        for component in self.velocities(&at.model.state) {
+            stretch[component] = state[component];
+        }
+        let scaled = self.lagrangian(&at.lift_state(&stretch), false);
+        scaled.eps - scaled.re
+    }
+
+    fn velocities(&self, state: &[Variable]) -> Vec<usize> {
+        self.components(state, |role| matches!(role, Role::Velocity)).collect()
+    }
+
+    fn multipliers<'a>(&'a self, state: &'a [Variable]) -> impl Iterator<Item = usize> + 'a {
+        self.components(state, |role| matches!(role, Role::Multiplier))
+    }
+
+    /// The components of the variables with some role.
+    fn components<'a>(
+        &'a self,
+        state: &'a [Variable],
+        keep: impl Fn(&Role) -> bool + 'a,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let mut start = 0;
+        let places = state.iter().zip(&self.roles).map(move |(variable, role)| {
+            start += variable.len();
+            (start - variable.len()..start, role)
+        });
+        places.filter(move |(_, role)| keep(role)).flat_map(|(place, _)| place)
+    }
+
+    /// L, or L - Σ λ_k f_k.
+    fn lagrangian<T: Scalar>(&self, at: &Configuration<'_, T>, with_multipliers: bool) -> T {
+        let scalar = |formula| at.evaluate(formula).scalar().unwrap_or_else(T::zero);
+        let mut value = scalar(&self.kinetic);
+        if let Some(potential) = &self.potential {
+            value -= scalar(potential);
+        }
+        if with_multipliers {
+            let state = at.components();
+            for (component, f) in self.multipliers(&at.model.state).zip(&self.constraints) {
+                value -= state[component] * scalar(f);
+            }
+        }
+        value
+    }
+
+    /// The rates of the coordinates as functions of the state; 0 in the other components.
+    fn drift<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+        let mut rates = Vec::new();
+        for (role, variable) in self.roles.iter().zip(&at.model.state) {
+            match role {
+                Role::Coordinate(velocity) => rates.extend(at.variable(*velocity).components()),
+                Role::Carried(rate) => rates.extend(at.evaluate(rate).components()),
+                Role::Velocity | Role::Multiplier => {
+                    rates.extend(vec![T::zero(); variable.len()]);
+                }
+            }
+        }
+        rates
+    }
+
+    fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Motion<T> {
+        let at = &phase.configuration;
+        let velocities = self.velocities(&at.model.state);
+        let dimension = at.model.dimension();
+        let units: Vec<Vec<T>> = velocities
+            .iter()
+            .map(|component| {
+                let mut unit = vec![T::zero(); dimension];
+                unit[*component] = T::one();
+                unit
+            })
+            .collect();
+        let drift = self.drift(at);
+        let moved: Vec<Configuration<'_, Dual<T>>> =
+            units.iter().map(|unit| at.lift_state(unit)).collect();
+        // ∂²𝓛 along w_i and a direction
+        let mixed = |i: usize, direction: &[T]| {
+            let direction: Vec<Dual<T>> = direction.iter().map(|x| Dual::from_re(*x)).collect();
+            self.lagrangian(&moved[i].lift_state(&direction), self.vakonomic).eps.eps
+        };
+        let momenta: Vec<T> =
+            moved.iter().map(|at| self.lagrangian(at, self.vakonomic).eps).collect();
+        let fields: Vec<Vec<T>> =
+            moved.iter().map(|at| self.drift(at).iter().map(|x| x.eps).collect()).collect();
+        let turning = self.turning(at, &moved, &drift, &fields, &momenta);
+        let force = |i: usize| {
+            let given = self.forces.iter().find(|(component, _)| *component == velocities[i]);
+            given.map_or_else(T::zero, |(_, force)| phase.scalar(force))
+        };
+        let drive: Vec<T> = (0..velocities.len())
+            .map(|i| {
+                let along = self.lagrangian(&at.lift_state(&fields[i]), self.vakonomic).eps;
+                along + force(i) - turning[i] - mixed(i, &drift)
+            })
+            .collect();
+        let mass: Vec<Vec<T>> = (0..velocities.len())
+            .map(|i| units.iter().map(|unit| mixed(i, unit)).collect())
+            .collect();
+        let along = at.lift_state(&drift);
+        let slope = |at: &Configuration<'_, Dual<T>>, f| at.evaluate(f).scalar().map(|x| x.eps);
+        let slopes: Vec<Vec<T>> = self
+            .constraints
+            .iter()
+            .map(|f| moved.iter().filter_map(|at| slope(at, f)).collect())
+            .collect();
+        let free = solve_positive(mass.clone(), drive);
+        let responses: Vec<Vec<T>> =
+            slopes.iter().map(|a| solve_positive(mass.clone(), a.clone())).collect();
+        let gram = slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
+        let defects = self
+            .constraints
+            .iter()
+            .zip(&slopes)
+            .map(|(f, a)| -(slope(&along, f).unwrap_or_else(T::zero) + dot(a, &free)))
+            .collect();
+        let reactions = solve_positive(gram, defects);
+        let acceleration = free
+            .iter()
+            .enumerate()
+            .map(|(i, free)| {
+                reactions.iter().zip(&responses).map(|(m, r)| *m * r[i]).sum::<T>() + *free
+            })
+            .collect();
+        Motion { velocities, acceleration, reactions, drift }
+    }
+
+    /// c^b_ia w_a P_b = (p, [X_i, Y]) with Y = Σ w_a X_a and (p, X_i) = P_i.
+    fn turning<T: Scalar>(
+        &self,
+        at: &Configuration<'_, T>,
+        moved: &[Configuration<'_, Dual<T>>],
+        drift: &[T],
+        fields: &[Vec<T>],
+        momenta: &[T],
+    ) -> Vec<T> {
+        let mut turning = vec![T::zero(); momenta.len()];
+        match self.algebra {
+            Algebra::Commuting => {}
+            Algebra::Rotations(first) => {
+                let w = &at.components()[first..first + 3];
+                let start = self.velocities(&at.model.state).iter().position(|c| *c == first);
+                let start = start.unwrap_or(0);
+                for k in 0..3 {
+                    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                    let (p, q) = (momenta[start + i], momenta[start + j]);
+                    turning[start + k] = q * w[i] - p * w[j];
+                }
+            }
+            Algebra::Frame => {
+                let gram = fields.iter().map(|a| fields.iter().map(|b| dot(a, b)).collect());
+                let weights = solve_positive(gram.collect(), momenta.to_vec());
+                let covector: Vec<T> = (0..drift.len())
+                    .map(|k| weights.iter().zip(fields).map(|(w, x)| *w * x[k]).sum())
+                    .collect();
+                let direction: Vec<Dual<T>> = drift.iter().map(|x| Dual::from_re(*x)).collect();
+                for (i, (field, moved)) in fields.iter().zip(moved).enumerate() {
+                    let forward: Vec<T> =
+                        self.drift(&at.lift_state(field)).iter().map(|x| x.eps).collect();
+                    let back = self.drift(&moved.lift_state(&direction));
+                    let back: Vec<T> = back.iter().map(|x| x.eps.eps).collect();
+                    turning[i] = dot(&covector, &forward) - dot(&covector, &back);
+                }
+            }
+        }
+        turning
+    }
+}

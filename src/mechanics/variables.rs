@@ -1,0 +1,74 @@
+//! New variables y = φ(x) with a bracket: what a Hamiltonian form is written in.
+
+use super::calculus::Jet;
+use super::model::Model;
+use super::phase::Phase;
+use crate::formula::Formula;
+use crate::scalar::Scalar;
+
+/// New variables as functions of the state, and a bracket for them.
+#[derive(Clone, Debug)]
+pub struct Variables {
+    /// The names that formulas in the new variables use; its parameters are the case's.
+    pub model: Model,
+    /// One formula a new variable, in the names of the case.
+    pub images: Vec<Formula>,
+    /// The blocks of the Poisson tensor, by pairs of variables; 0 where none is given.
+    pub blocks: Vec<Vec<Option<Block>>>,
+}
+
+/// A block of a Poisson tensor.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// As given.
+    Given(Formula),
+    /// The negative transpose of what is given for the opposite pair.
+    Opposite(Formula),
+}
+
+impl Variables {
+    /// Is a bracket given?
+    pub fn has_bracket(&self) -> bool {
+        self.blocks.iter().flatten().any(Option::is_some)
+    }
+
+    /// φ(x), component by component.
+    pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
+    }
+
+    /// The point φ(x), where formulas in the new variables are evaluated.
+    pub fn point<T: Scalar>(&self, phase: &Phase<'_, T>) -> Phase<'_, T> {
+        phase.in_model(&self.model, &self.image(phase))
+    }
+
+    /// L_vφ
+    pub fn rates<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+        self.images.iter().flat_map(|image| jet.rates(image)).collect()
+    }
+
+    /// P at a point of the new variables, by rows.
+    pub fn tensor<T: Scalar>(&self, there: &Phase<'_, T>) -> Vec<Vec<T>> {
+        let state = &self.model.state;
+        let mut rows = Vec::new();
+        for (variable, blocks) in state.iter().zip(&self.blocks) {
+            let start = rows.len();
+            rows.resize(start + variable.len(), Vec::new());
+            for (block, across) in blocks.iter().zip(state) {
+                // (i, j) of a block that is given for the opposite pair stands at (j, i).
+                let (values, strides) = match block {
+                    None => (vec![T::zero(); variable.len() * across.len()], (across.len(), 1)),
+                    Some(Block::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),
+                    Some(Block::Opposite(p)) => {
+                        let values = there.evaluate(p).components().into_iter().map(|x| -x);
+                        (values.collect(), (1, variable.len()))
+                    }
+                };
+                for (i, row) in rows[start..].iter_mut().enumerate() {
+                    row.extend((0..across.len()).map(|j| values[i * strides.0 + j * strides.1]));
+                }
+            }
+        }
+        rows
+    }
+}
