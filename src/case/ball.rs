@@ -1,6 +1,6 @@
 //! `[body]` of a homogeneous ball on a surface.
 
-use super::body::{arbitrary_support, formula, formula_or};
+use super::body::{arbitrary_support, formula, formula_or, potential};
 use super::error::{CaseError, Problem};
 use super::parameters::Setting;
 use super::section::Section;
@@ -43,12 +43,7 @@ pub fn read(
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();
     of_centre.bind("r", centre);
-    let potential = match section.text("potential")? {
-        Some(text) => {
-            Some(formula(&text, &of_centre, "the potential", Some(scalar), Reach::Configuration)?)
-        }
-        None => None,
-    };
+    let potential = potential(section, settings, &of_centre, parameters)?;
     let rotation = match section.text("rotation")? {
         Some(text) => Some(formula(&text, vocabulary, "Ω", Some(scalar), Reach::Parameters)?),
         None => None,

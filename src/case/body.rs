@@ -228,7 +228,8 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> 
     Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
 }
 
-fn potential(
+/// U, typed or arbitrary.
+pub(super) fn potential(
     section: &Section<'_>,
     settings: &[Setting],
     vocabulary: &Vocabulary,

@@ -78,7 +78,10 @@ fn of_system(system: &System) -> Vec<&Formula> {
             shape.into_iter().chain(potential).collect()
         }
         System::FlatBase(_) => Vec::new(),
-        System::Ball(ball) => ball.potential.iter().collect(),
+        System::Ball(ball) => match &ball.potential {
+            Some(Potential::Formula(formula)) => vec![formula],
+            _ => Vec::new(),
+        },
         System::Lagrangian(lagrangian) => {
             let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
             energies.chain(&lagrangian.constraints).collect()

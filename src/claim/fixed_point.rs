@@ -1,11 +1,11 @@
-//! Fixed points, with the spectrum of the linear part.
+//! Fixed points on the level, with the spectrum of the linear part.
 
 use num_dual::Dual;
 
 use super::{Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
-use crate::mechanics::{Meaning, Phase};
+use crate::mechanics::Meaning;
 use crate::scalar::Scalar;
 
 /// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.
@@ -48,7 +48,7 @@ impl Statement for FixedPoint {
         Ok(Self { point, spectrum })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let mut state = Vec::new();
         for (formula, variable) in self.point.iter().zip(&jet.phase.model().state) {
             match formula {
@@ -56,8 +56,9 @@ impl Statement for FixedPoint {
                 None => state.extend(vec![T::zero(); variable.len()]),
             }
         }
-        let at: Phase<'_, T> = jet.phase.with(&[], &state);
+        let at = jet.phase.with(&[], &state);
         let mut residual = at.field().to_vec();
+        residual.extend(jet.level_at(&at, kept));
         if let Some(spectrum) = &self.spectrum {
             let dimension = state.len();
             let columns: Vec<Vec<T>> = (0..dimension)

@@ -1,9 +1,9 @@
-//! Symmetry fields: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
+//! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
 use super::{Reader, Statement};
 use crate::formula::{Formula, Type};
 use crate::mechanics::Meaning;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
 /// [u,v] = c v; c = 0 unless a weight is given.
@@ -39,7 +39,7 @@ impl Statement for SymmetryField {
         self.components.iter().flatten().chain(&self.weight).collect()
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let moved = jet.along_field();
         let (mut field, mut rate) = (Vec::new(), Vec::new());
         for (formula, variable) in self.components.iter().zip(&jet.phase.model().state) {
@@ -57,11 +57,11 @@ impl Statement for SymmetryField {
         }
         let weight = self.weight.as_ref().map_or_else(T::zero, |c| jet.phase.scalar(c));
         let beside = jet.phase.lift(&field);
-        beside
-            .field()
-            .iter()
-            .zip(rate)
-            .map(|(along, rate)| along.eps - rate - weight * along.re)
-            .collect()
+        let commutator = beside.field().iter().zip(rate);
+        let mut residual: Vec<T> =
+            commutator.map(|(along, rate)| along.eps - rate - weight * along.re).collect();
+        // u is tangent to the level.
+        residual.extend(jet.level_gradients(kept).iter().map(|gradient| dot(gradient, &field)));
+        residual
     }
 }

@@ -15,14 +15,14 @@ struct Transformation {
     parameters: Vec<(usize, Formula)>,
 }
 
-/// σ takes solutions to solutions: dσ·v = λ v∘σ, where t → λt.
+/// σ takes solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t → λt.
 #[derive(Clone, Debug)]
 pub struct Symmetry {
     map: Transformation,
     time: Option<Formula>,
 }
 
-/// σ reverses time: dσ·v = -v∘σ, and σ∘σ = id.
+/// σ reverses time and takes the level to itself: dσ·v = -v∘σ, and σ∘σ = id.
 #[derive(Clone, Debug)]
 pub struct Reversor(Transformation);
 
@@ -107,11 +107,13 @@ impl Statement for Symmetry {
         self.map.formulas().into_iter().chain(&self.time).collect()
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let time = self.time.as_ref().map_or_else(T::one, |time| jet.phase.scalar(time));
         let there = self.map.point(&jet.phase);
         let rates = there.field().iter().map(|rate| time * *rate).collect();
-        difference(self.map.pushed(jet), rates)
+        let mut residual = difference(self.map.pushed(jet), rates);
+        residual.extend(jet.level_at(&there, kept));
+        residual
     }
 }
 
@@ -126,12 +128,13 @@ impl Statement for Reversor {
         self.0.formulas()
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let there = self.0.point(&jet.phase);
         let rates = there.field().iter().map(|rate| -*rate).collect();
         let twice = self.0.point(&there);
         let mut residual = difference(self.0.pushed(jet), rates);
         residual.extend(difference(twice.state(), jet.phase.state()));
+        residual.extend(jet.level_at(&there, kept));
         for (index, _) in &self.0.parameters {
             let value = |at: &Phase<'_, T>| at.configuration.parameter(*index).components();
             residual.extend(difference(value(&twice), value(&jet.phase)));

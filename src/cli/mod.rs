@@ -122,17 +122,31 @@ pub struct Eval {
 
 #[derive(Debug, Args)]
 pub struct Table {
-    /// The number of the table: 1 for the plane, 2 for the sphere
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=2))]
+    /// The number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=3))]
     pub number: u32,
     /// Case files, or folders of them
     #[arg(default_value = "cases")]
     pub paths: Vec<PathBuf>,
     /// Print JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with = "format")]
     pub json: bool,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+/// How a table is printed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum TableFormat {
+    /// For a terminal
+    Text,
+    /// Markdown
+    Markdown,
+    /// LaTeX, for XeLaTeX or LuaLaTeX
+    Latex,
 }
 
 #[derive(Debug, Args)]

@@ -2,7 +2,7 @@
 
 use liouville::report::table;
 
-use super::{Answer, Table, files, width};
+use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
     let run = files::judge(&options.paths, &options.sampling.options(), options.sampling.threads)?;
@@ -18,7 +18,11 @@ pub fn run(options: &Table) -> Result<Answer, String> {
     let text = if options.json {
         table.json().map_err(|error| format!("error: {error}"))? + "\n"
     } else {
-        table.text(width())
+        match options.format {
+            TableFormat::Text => table.text(width()),
+            TableFormat::Markdown => table.markdown(),
+            TableFormat::Latex => table.latex(),
+        }
     };
     Ok(Answer { text, code: run.exit_code() })
 }

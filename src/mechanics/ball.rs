@@ -20,7 +20,7 @@ use super::body::{Shape, axis, scalar, vector};
 use super::linear::{adjugate, determinant_with};
 use super::phase::{Configuration, Phase};
 use super::quantity::Quantity;
-use super::rubber::NORMAL;
+use super::rubber::{NORMAL, Potential};
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
@@ -35,8 +35,8 @@ pub struct BallOnSurface {
     pub moment: Formula,
     /// Σ
     pub surface: Surface,
-    /// U, a formula in r, which stands in the place of the second state variable.
-    pub potential: Option<Formula>,
+    /// U, a function of r, which stands in the place of the second state variable.
+    pub potential: Option<Potential>,
     /// Ω
     pub rotation: Option<Formula>,
     /// Are components taken in the frame of the turning surface?
@@ -99,7 +99,7 @@ impl BallOnSurface {
         let kinetic = vector(at.variable(0)).dot(&motion.omega) / T::from(2.0);
         match &self.potential {
             None => kinetic,
-            Some(potential) => kinetic + self.potential_at(at, potential, &motion.centre),
+            Some(potential) => kinetic + potential.value(&at_centre(at, &motion.centre)),
         }
     }
 
@@ -108,8 +108,8 @@ impl BallOnSurface {
         match (quantity, &self.surface) {
             (Quantity::Energy, _) => Value::Scalar(self.energy(at)),
             (Quantity::Potential, _) => {
-                let (centre, potential) = (self.motion(at).centre, self.potential.as_ref());
-                let value = potential.map(|u| self.potential_at(at, u, &centre));
+                let centre = at_centre(at, &self.motion(at).centre);
+                let value = self.potential.as_ref().map(|potential| potential.value(&centre));
                 Value::Scalar(value.unwrap_or_else(T::zero))
             }
             (Quantity::AngularVelocity, _) => Value::Vector(self.motion(at).omega),
@@ -149,22 +149,14 @@ impl BallOnSurface {
         Vector3::new(T::zero(), T::zero(), rate)
     }
 
-    fn potential_at<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        potential: &Formula,
-        centre: &Vector3<T>,
-    ) -> T {
-        scalar(at.moved(NORMAL, Value::Vector(*centre)).evaluate(potential))
-    }
-
     fn slope_of_potential<T: Scalar>(
         &self,
         at: &Configuration<'_, T>,
         centre: &Vector3<T>,
     ) -> Option<Vector3<T>> {
         let potential = self.potential.as_ref()?;
-        Some(gradient(&at.moved(NORMAL, Value::Vector(*centre)), potential))
+        let at = at_centre(at, centre);
+        Some(Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps))
     }
 
     fn motion<T: Scalar>(&self, at: &Configuration<'_, T>) -> Motion<T> {
@@ -214,6 +206,14 @@ impl BallOnSurface {
             }
         }
     }
+}
+
+/// The point with r in the place of the second state variable, where U is evaluated.
+fn at_centre<'m, T: Scalar>(
+    at: &Configuration<'m, T>,
+    centre: &Vector3<T>,
+) -> Configuration<'m, T> {
+    at.moved(NORMAL, Value::Vector(*centre))
 }
 
 /// ∂f/∂r

@@ -99,6 +99,11 @@ impl<'m, T: Scalar> Jet<'m, T> {
         sum
     }
 
+    /// The level functions that are kept, at another point.
+    pub fn level_at(&self, there: &Phase<'m, T>, kept: &[bool]) -> Vec<T> {
+        kept_functions(there.model(), kept).map(|f| there.level_function(f)).collect()
+    }
+
     /// The gradients of the level functions that are kept.
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
         kept_functions(self.phase.model(), kept)

@@ -91,14 +91,14 @@ impl Lagrangian {
         self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::zero)
     }
 
-    /// (w, ∂L/∂w) - L
+    /// (w, ∂𝓛/∂w) - 𝓛, which is L₂ - L₀ + Σ λ_k b_k in a vakonomic system.
     pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let state = at.components();
         let mut stretch = vec![T::zero(); state.len()];
         for component in self.velocities(&at.model.state) {
             stretch[component] = state[component];
         }
-        let scaled = self.lagrangian(&at.lift_state(&stretch), false);
+        let scaled = self.lagrangian(&at.lift_state(&stretch), self.vakonomic);
         scaled.eps - scaled.re
     }
 

@@ -46,12 +46,12 @@ pub struct Rubber {
     pub moment: Option<Formula>,
 }
 
-/// A potential U(γ).
+/// A potential U(γ), or U(r) of a ball on a surface.
 #[derive(Clone, Debug)]
 pub enum Potential {
     /// As typed.
     Formula(Formula),
-    /// A polynomial in γ with free coefficients: reaches every jet a residual can contain.
+    /// A polynomial with free coefficients: reaches every jet a residual can contain.
     Arbitrary(Polynomial),
 }
 

@@ -1,5 +1,7 @@
 //! The paper's tables, filled from verdicts.
 
+mod markup;
+
 use std::collections::BTreeMap;
 
 use comfy_table::{Cell, ContentArrangement, Table, presets};
@@ -95,7 +97,10 @@ pub fn regenerate(run: &RunReport, number: u32) -> Regenerated {
             .map(|column| cells.get(&(row, *column)).cloned().unwrap_or_default())
             .collect(),
     };
-    Regenerated { table: number, rows: TABLE_ROWS.into_iter().map(row).collect(), columns }
+    // A row in which no column says anything belongs to another table.
+    let said = |row: &Row| row.cells.iter().any(|cell| !cell.is_empty());
+    let rows = TABLE_ROWS.into_iter().map(row).filter(said).collect();
+    Regenerated { table: number, rows, columns }
 }
 
 fn status(claims: &[CellClaim]) -> Status {
@@ -111,6 +116,16 @@ impl Regenerated {
     /// Has the catalogue no case for this table?
     pub fn is_empty(&self) -> bool {
         self.columns.is_empty()
+    }
+
+    /// As a Markdown table; each verdict is a link to the case that gave it.
+    pub fn markdown(&self) -> String {
+        markup::markdown(self)
+    }
+
+    /// As a LaTeX table for XeLaTeX or LuaLaTeX with hyperref.
+    pub fn latex(&self) -> String {
+        markup::latex(self)
     }
 
     /// As JSON.
@@ -135,16 +150,26 @@ impl Regenerated {
     }
 }
 
+impl CellClaim {
+    /// As expected, against it, or open.
+    fn mark(&self) -> &'static str {
+        match (self.agrees, self.expect) {
+            (false, _) => "✗",
+            (true, "open") => "?",
+            (true, _) => "✓",
+        }
+    }
+}
+
 impl Filled {
+    fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.claims.is_empty()
+    }
+
     fn text(&self) -> String {
         let mut lines = self.words.clone();
         for claim in &self.claims {
-            let mark = match (claim.agrees, claim.expect) {
-                (false, _) => "✗",
-                (true, "open") => "?",
-                (true, _) => "✓",
-            };
-            lines.push(format!("{mark} {}: {}", claim.verdict.word(), claim.name));
+            lines.push(format!("{} {}: {}", claim.mark(), claim.verdict.word(), claim.name));
         }
         if lines.is_empty() { "–".to_string() } else { lines.join("\n") }
     }

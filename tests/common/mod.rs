@@ -107,7 +107,7 @@ fn approximate(value: &BigRational) -> f64 {
 pub fn claim(report: &PointReport, name: &str) -> (Enclosed, Enclosed) {
     let found = report.claims.iter().find(|(known, _, _)| known == name);
     let (_, value, residual) = found.unwrap_or_else(|| panic!("no claim is called {name}"));
-    (*value, *residual)
+    (value.first().copied().flatten(), residual.first().copied().flatten())
 }
 
 /// The text of a claim.
