@@ -177,6 +177,13 @@ pub fn chart(
         abbreviations.push(read.clone());
         formulas[index] = Some(read);
     }
+    // A state variable of an input's name is that input.
+    for (formula, own) in formulas.iter_mut().zip(&model.state) {
+        let is_input = variables.iter().any(|v| v.name == own.name && v.kind == own.kind);
+        if formula.is_none() && is_input {
+            *formula = Formula::parse(&own.name, &names).ok();
+        }
+    }
     if let Some(index) = formulas.iter().position(Option::is_none) {
         let name = &model.state[index].name;
         return Err(CaseError::at(

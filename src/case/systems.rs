@@ -239,6 +239,7 @@ impl Reading<'_, '_> {
                 self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
             }
         }
+        self.name_rates();
         Ok(())
     }
 

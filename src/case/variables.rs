@@ -30,7 +30,7 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
         state.push(Variable { name, kind: image.value_type() });
         images.push(image);
     }
-    let target = target(root, model, state, &images)?;
+    let target = target(model, state, &images);
     let blocks = match root.section("poisson")? {
         Some(section) => blocks(&section, &target)?,
         None => vec![vec![None; target.state.len()]; target.state.len()],
@@ -40,12 +40,7 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
 }
 
 /// The model in whose names functions of the new variables are written.
-fn target(
-    root: &Section<'_>,
-    model: &Model,
-    state: Vec<Variable>,
-    images: &[Formula],
-) -> Result<Model, CaseError> {
+fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     // A body's quantities depend on the second state variable alone: they mean the same as long as
     // that variable stays.
     let stays = |index: usize| {
@@ -58,8 +53,7 @@ fn target(
     let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
     let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
-        Meaning::Quantity(quantity) => keeps_body && is_of_position(quantity),
-        Meaning::Parameter(_) => true,
+        Meaning::Quantity(quantity) if keeps_body && is_of_position(quantity) => true,
         _ => entry.reach == Reach::Parameters,
     });
     for (index, variable) in state.iter().enumerate() {
@@ -67,31 +61,7 @@ fn target(
         let reach = if position { Reach::Configuration } else { Reach::Phase };
         names.add(&variable.name, Meaning::State(index), variable.kind, reach);
     }
-    let mut target = model.with_names(names, state);
-    if keeps_body {
-        target.system = model.system.clone();
-    }
-    abbreviate_again(root, &mut target)?;
-    Ok(target)
-}
-
-/// Abbreviations that can be read in the new names mean the same function of them.
-fn abbreviate_again(root: &Section<'_>, target: &mut Model) -> Result<(), CaseError> {
-    let Some(section) = root.section("let")? else { return Ok(()) };
-    for (key, value) in section.entries() {
-        let Some(name) = canonical_name(key.get_ref()) else { continue };
-        let text = section.as_text(key.get_ref(), value)?;
-        if target.vocabulary.find(&name).is_some() {
-            continue;
-        }
-        if let Ok(read) = Formula::parse(&text.value, &target.vocabulary) {
-            let reach = target.vocabulary.reach(&read).map_or(Reach::Parameters, |e| e.reach);
-            let meaning = Meaning::Abbreviation(target.abbreviations.len());
-            target.vocabulary.add(&name, meaning, read.value_type(), reach);
-            target.abbreviations.push(read);
-        }
-    }
-    Ok(())
+    model.with_names(names, state)
 }
 
 fn is_of_position(quantity: Quantity) -> bool {

@@ -138,6 +138,8 @@ impl Statement for JacobiIdentity {
 
 impl Statement for DensityInVariables {
     const NAME: &'static str = "density-in-variables";
+    const UNDEFINED: &'static str = ": the new variables may be dependent there, as N*(Ĩ*ω − (Ĩ*ω,γ)*γ) \
+                                     is, to which + (ω,γ)*γ may be added";
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let variables = variables(from, Self::NAME)?;

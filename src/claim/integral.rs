@@ -1,7 +1,5 @@
 //! First integrals: L_vF = 0, for scalars, vectors and matrices.
 
-use num_traits::Zero;
-
 use super::{Context, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -41,9 +39,8 @@ impl Statement for Integral {
             slopes.iter().flat_map(|slope| rejection(slope, known)).collect()
         };
         let off_level = beside(&known);
-        let system = &jet.phase.model().system;
-        let off_general = system.energy(&jet.phase).map(|_| {
-            known.push(jet.gradient(|at| system.energy(at).unwrap_or_else(Zero::zero)));
+        let off_general = jet.energy_gradient().map(|energy| {
+            known.push(energy.clone());
             beside(&known)
         });
         let steepness: Expr = slopes.iter().map(|slope| dot(slope, slope)).sum();

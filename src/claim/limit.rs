@@ -19,6 +19,8 @@ pub struct Limit {
 impl Statement for Limit {
     const NAME: &'static str = "limit";
     const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
+    const UNDEFINED: &'static str =
+        ": the parameter is set to 0, so the formula must be written without dividing by it";
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let function = from.required(Self::NAME, None)?;

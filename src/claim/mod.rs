@@ -83,6 +83,11 @@ macro_rules! kinds {
                 match self { $(Kind::$kind(_) => $kind::NEGATED,)* }
             }
 
+            /// What it may mean that the residual has no value anywhere.
+            pub fn hint_when_undefined(&self) -> &'static str {
+                match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }
+            }
+
             /// May the claim hold in wider places than its own, and is that worth knowing?
             pub fn widens(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::WIDENS,)* }

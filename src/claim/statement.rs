@@ -18,6 +18,9 @@ pub trait Statement: Clone {
     /// May the claim hold in wider places than its own, and is that worth knowing?
     const WIDENS: bool = true;
 
+    /// What it may mean that the residual has no value anywhere.
+    const UNDEFINED: &'static str = "";
+
     /// Reads it.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
 

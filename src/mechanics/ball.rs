@@ -53,7 +53,7 @@ pub enum Surface {
 }
 
 /// What the equations compute on their way.
-struct Motion<T> {
+pub struct BallMotion<T> {
     normal: Vector3<T>,
     centre: Vector3<T>,
     omega: Vector3<T>,
@@ -66,7 +66,7 @@ impl BallOnSurface {
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let at = &phase.configuration;
         let momentum = vector(at.variable(0));
-        let Motion { normal, centre, omega, centre_rate, normal_rate } = self.motion(at);
+        let BallMotion { normal, centre, omega, centre_rate, normal_rate } = *self.motion(phase);
         let (mass, radius) = (self.value(at, &self.mass), self.value(at, &self.radius));
         let turn = self.turn(at);
         let turned = self.rotating_frame;
@@ -94,8 +94,8 @@ impl BallOnSurface {
     }
 
     /// (M,ω)/2 + U
-    pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        let motion = self.motion(at);
+    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let (at, motion) = (&phase.configuration, self.motion(phase));
         let kinetic = vector(at.variable(0)).dot(&motion.omega) / T::from(2.0);
         match &self.potential {
             None => kinetic,
@@ -104,19 +104,20 @@ impl BallOnSurface {
     }
 
     /// A quantity that a formula names.
-    pub fn quantity<T: Scalar>(&self, quantity: Quantity, at: &Configuration<'_, T>) -> Value<T> {
+    pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        let at = &phase.configuration;
         match (quantity, &self.surface) {
-            (Quantity::Energy, _) => Value::Scalar(self.energy(at)),
+            (Quantity::Energy, _) => Value::Scalar(self.energy(phase)),
             (Quantity::Potential, _) => {
-                let centre = at_centre(at, &self.motion(at).centre);
+                let centre = at_centre(at, &self.motion(phase).centre);
                 let value = self.potential.as_ref().map(|potential| potential.value(&centre));
                 Value::Scalar(value.unwrap_or_else(T::zero))
             }
-            (Quantity::AngularVelocity, _) => Value::Vector(self.motion(at).omega),
-            (Quantity::Normal, _) => Value::Vector(self.motion(at).normal),
-            (Quantity::NormalRate, _) => Value::Vector(self.motion(at).normal_rate),
-            (Quantity::Contact, _) => Value::Vector(self.motion(at).centre),
-            (Quantity::ContactRate, _) => Value::Vector(self.motion(at).centre_rate),
+            (Quantity::AngularVelocity, _) => Value::Vector(self.motion(phase).omega),
+            (Quantity::Normal, _) => Value::Vector(self.motion(phase).normal),
+            (Quantity::NormalRate, _) => Value::Vector(self.motion(phase).normal_rate),
+            (Quantity::Contact, _) => Value::Vector(self.motion(phase).centre),
+            (Quantity::ContactRate, _) => Value::Vector(self.motion(phase).centre_rate),
             (Quantity::SurfaceGradient, Surface::Level(f)) => Value::Vector(gradient(at, f)),
             (Quantity::Slope, Surface::Support(shape)) => Value::Matrix(-shape.contact(at).1),
             _ => self.configuration_quantity(quantity, at),
@@ -159,7 +160,11 @@ impl BallOnSurface {
         Some(Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps))
     }
 
-    fn motion<T: Scalar>(&self, at: &Configuration<'_, T>) -> Motion<T> {
+    fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p BallMotion<T> {
+        phase.ball_motion(|| self.motion_at(&phase.configuration))
+    }
+
+    fn motion_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> BallMotion<T> {
         let momentum = vector(at.variable(0));
         let (moment, radius) = (self.value(at, &self.moment), self.value(at, &self.radius));
         let rolling = self.value(at, &self.mass) * radius * radius;
@@ -189,7 +194,7 @@ impl BallOnSurface {
                 let change = hessian * centre_rate;
                 let across = change - normal * normal.dot(&change);
                 let normal_rate = across.map(|x| x / length);
-                Motion { normal, centre, omega, centre_rate, normal_rate }
+                BallMotion { normal, centre, omega, centre_rate, normal_rate }
             }
             Surface::Support(shape) => {
                 let normal = vector(at.variable(NORMAL));
@@ -202,7 +207,7 @@ impl BallOnSurface {
                 let adjugate = adjugate(&matrix);
                 let determinant = determinant_with(&matrix, &adjugate);
                 let normal_rate = (adjugate * centre_rate).map(|x| x / determinant);
-                Motion { normal, centre, omega, centre_rate, normal_rate }
+                BallMotion { normal, centre, omega, centre_rate, normal_rate }
             }
         }
     }

@@ -17,6 +17,8 @@ pub struct Jet<'m, T> {
     along_field: OnceCell<Phase<'m, Dual<T>>>,
     along_axes: OnceCell<Vec<Phase<'m, Dual<T>>>>,
     divergence: OnceCell<T>,
+    level_gradients: OnceCell<Vec<Vec<T>>>,
+    energy_gradient: OnceCell<Option<Vec<T>>>,
 }
 
 impl<'m, T: Scalar> Jet<'m, T> {
@@ -27,6 +29,8 @@ impl<'m, T: Scalar> Jet<'m, T> {
             along_field: OnceCell::new(),
             along_axes: OnceCell::new(),
             divergence: OnceCell::new(),
+            level_gradients: OnceCell::new(),
+            energy_gradient: OnceCell::new(),
         }
     }
 
@@ -106,9 +110,20 @@ impl<'m, T: Scalar> Jet<'m, T> {
 
     /// The gradients of the level functions that are kept.
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
-        kept_functions(self.phase.model(), kept)
-            .map(|function| self.gradient(|at| at.level_function(function)))
-            .collect()
+        let all = self.level_gradients.get_or_init(|| {
+            let level = self.phase.model().level.iter();
+            level.map(|equation| self.gradient(|at| at.level_function(&equation.function))).collect()
+        });
+        all.iter().zip(kept).filter(|(_, kept)| **kept).map(|(g, _)| g.clone()).collect()
+    }
+
+    /// The gradient of the energy, where there is one.
+    pub fn energy_gradient(&self) -> Option<&Vec<T>> {
+        let make = || {
+            let slope = |at: &Phase<'m, Dual<T>>| Some(at.model().system.energy(at)?.eps);
+            self.along_axes().iter().map(slope).collect()
+        };
+        self.energy_gradient.get_or_init(make).as_ref()
     }
 }
 

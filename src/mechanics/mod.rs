@@ -70,7 +70,7 @@ impl System {
         match self {
             System::Rubber(body) => Some(body.energy(phase)),
             System::FlatBase(body) => Some(body.energy(phase)),
-            System::Ball(ball) => Some(ball.energy(&phase.configuration)),
+            System::Ball(ball) => Some(ball.energy(phase)),
             System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
             System::Field(_) => None,
         }
@@ -150,7 +150,7 @@ impl System {
         match self {
             System::Rubber(body) => body.quantity(quantity, phase),
             System::FlatBase(body) => body.quantity(quantity, phase),
-            System::Ball(ball) => ball.quantity(quantity, &phase.configuration),
+            System::Ball(ball) => ball.quantity(quantity, phase),
             System::Lagrangian(lagrangian) => Value::Scalar(match quantity {
                 Quantity::Reaction(index) => lagrangian.reaction(phase, index),
                 _ => lagrangian.energy(&phase.configuration),

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::System;
 use super::recipe::{Draw, Recipe};
 use super::variables::Variables;
-use super::vocabulary::Vocabulary;
+use super::vocabulary::{Meaning, Reach, Vocabulary};
 use crate::formula::{Formula, Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -104,10 +104,11 @@ pub struct Model {
 }
 
 impl Model {
-    /// A model with the same parameters and abbreviations, whose state is only named.
+    /// A model with the same parameters whose state is only named, and those abbreviations that
+    /// can be read in its names; there they mean the same function of what they name.
     pub fn with_names(&self, vocabulary: Vocabulary, state: Vec<Variable>) -> Self {
-        Self {
-            system: System::Field(Vec::new()),
+        let mut named = Self {
+            system: self.system.clone(),
             vocabulary,
             state,
             parameters: self.parameters.clone(),
@@ -115,7 +116,21 @@ impl Model {
             variables: None,
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
+        };
+        for (_, entry) in self.vocabulary.iter() {
+            let Meaning::Abbreviation(index) = entry.meaning else { continue };
+            if named.vocabulary.find(&entry.name).is_some() {
+                continue;
+            }
+            let text = self.abbreviations[index].text();
+            if let Ok(read) = Formula::parse(text, &named.vocabulary) {
+                let reach = named.vocabulary.reach(&read).map_or(Reach::Parameters, |e| e.reach);
+                let meaning = Meaning::Abbreviation(named.abbreviations.len());
+                named.vocabulary.add(&entry.name, meaning, read.value_type(), reach);
+                named.abbreviations.push(read);
+            }
         }
+        named
     }
 
     /// The dimension of phase space.

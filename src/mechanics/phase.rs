@@ -11,6 +11,7 @@ use std::rc::Rc;
 use num_dual::Dual;
 use rustc_hash::FxHashMap;
 
+use super::ball::BallMotion;
 use super::model::{LevelFunction, Model, Origin, Variable};
 use super::quantity::Quantity;
 use super::rubber::{Motion, angular_velocity, normal};
@@ -136,6 +137,9 @@ pub struct Phase<'m, T> {
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
     motion: OnceCell<Box<Motion<T>>>,
+    ball_motion: OnceCell<Box<BallMotion<T>>>,
+    /// The rates of the system's own variables.
+    own_field: OnceCell<Vec<T>>,
     field: OnceCell<Vec<T>>,
 }
 
@@ -160,6 +164,8 @@ impl<'m, T: Scalar> Phase<'m, T> {
             configuration: Configuration::new(model, parameters, state),
             known: RefCell::default(),
             motion: OnceCell::new(),
+            ball_motion: OnceCell::new(),
+            own_field: OnceCell::new(),
             field: OnceCell::new(),
         }
     }
@@ -204,13 +210,20 @@ impl<'m, T: Scalar> Phase<'m, T> {
     fn rate(&self, index: usize) -> Value<T> {
         let state = &self.model().state;
         let start: usize = state[..index].iter().map(Variable::len).sum();
-        Value::from_components(state[index].kind, &self.field()[start..])
+        // The rates that a case adds may use those of the system, so these come without them.
+        let own = self.own_field();
+        let rates = if start < own.len() { own } else { self.field() };
+        Value::from_components(state[index].kind, &rates[start..])
+    }
+
+    fn own_field(&self) -> &[T] {
+        self.own_field.get_or_init(|| self.model().system.field(self))
     }
 
     /// The vector field: the time derivatives of the state's components, in order.
     pub fn field(&self) -> &[T] {
         self.field.get_or_init(|| {
-            let mut field = self.model().system.field(self);
+            let mut field = self.own_field().to_vec();
             let further = self.model().extension.iter();
             field.extend(further.flat_map(|rate| self.evaluate(rate).components()));
             field
@@ -220,6 +233,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The intermediate results of a rubber system's equations.
     pub(super) fn motion(&self, make: impl FnOnce() -> Motion<T>) -> &Motion<T> {
         self.motion.get_or_init(|| Box::new(make()))
+    }
+
+    /// The intermediate results of the equations of a ball on a surface.
+    pub(super) fn ball_motion(&self, make: impl FnOnce() -> BallMotion<T>) -> &BallMotion<T> {
+        self.ball_motion.get_or_init(|| Box::new(make()))
     }
 
     /// The value of level function F.

@@ -107,7 +107,9 @@ pub fn weigh<D: Enclosing>(
     }
     let residual = look(&span.residual, &span.scale);
     if residual.defined == 0 {
-        let reason = format!("the residual is undefined at all {LANES} states that were drawn");
+        let hint = item.claim.kind.hint_when_undefined();
+        let reason =
+            format!("the residual is undefined at all {LANES} states that were drawn{hint}");
         finding.undefined.get_or_insert(reason);
     }
     finding.blurred = residual.blur(kind);

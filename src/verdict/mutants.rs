@@ -6,7 +6,6 @@
 //! *discovery*. What is neither refuted nor proved has survived: a defect of the sampling, or of
 //! the claim.
 
-use num_traits::Zero;
 use serde::Serialize;
 
 use super::bench::Bench;
@@ -200,9 +199,7 @@ fn depends(
         let all = vec![true; model.level.len()];
         let known = if model.system.conserves_level() { &all } else { &claim.place.kept };
         let mut rows = jet.level_gradients(known);
-        if model.system.energy(&jet.phase).is_some() {
-            rows.push(jet.gradient(|at| model.system.energy(at).unwrap_or_else(Zero::zero)));
-        }
+        rows.extend(jet.energy_gradient().cloned());
         for other in held.iter().filter(|other| matches!(other.kind, Kind::Integral(_))) {
             rows.extend(other.kind.slopes(&jet));
         }
