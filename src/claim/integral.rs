@@ -1,6 +1,6 @@
 //! First integrals: L_vF = 0, for scalars, vectors and matrices.
 
-use super::{Context, Reader, Statement};
+use super::{Context, Novelty, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot, rejection};
@@ -30,28 +30,30 @@ impl Statement for Integral {
         jet.rates(&self.0)
     }
 
-    /// The scale |∇F||v|, and whether F is more than a function of what every case conserves.
-    fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
-        let slopes = self.slopes(jet);
+    /// The scale |∇F||v|.
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
         let field = jet.phase.field();
+        let steepness: Expr = self.slopes(jet).iter().map(|slope| dot(slope, slope)).sum();
+        Context {
+            scale: Some(steepness * dot(field, field)),
+            value: jet.phase.evaluate(&self.0).components(),
+            ..Context::default()
+        }
+    }
+
+    fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
+        let slopes = self.slopes(jet);
         let mut known = jet.level_gradients(kept);
         let beside = |known: &[Vec<Expr>]| -> Vec<Expr> {
             slopes.iter().flat_map(|slope| rejection(slope, known)).collect()
         };
         let off_level = beside(&known);
-        let off_general = jet.energy_gradient().map(|energy| {
+        let off_general = jet.energy_gradient().map_or(Vec::new(), |energy| {
             known.push(energy.clone());
             beside(&known)
         });
-        let steepness: Expr = slopes.iter().map(|slope| dot(slope, slope)).sum();
-        Context {
-            scale: Some(steepness * dot(field, field)),
-            value: jet.phase.evaluate(&self.0).components(),
-            slope: Some(steepness),
-            off_level,
-            off_general: off_general.unwrap_or_default(),
-            ..Context::default()
-        }
+        let slope = slopes.iter().map(|slope| dot(slope, slope)).sum();
+        Novelty { slope: Some(slope), off_level, off_general }
     }
 
     fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {

@@ -159,6 +159,11 @@ impl Kind {
         self.formulas().into_iter().flat_map(defects).collect()
     }
 
+    /// Whether an integral is more than a function of what every case conserves.
+    pub fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
+        of_each!(self, statement => statement.novelty(jet, kept))
+    }
+
     /// Why this kind of claim cannot be made about `model`, if it cannot.
     pub fn objection(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.objection(model))
@@ -188,14 +193,19 @@ pub struct Context {
     pub scale: Option<Expr>,
     /// F or ρ itself: a claim about a formula that has no value is no claim.
     pub value: Vec<Expr>,
-    /// Of an integral: |∇F|².
+    /// Zero exactly when the integrand of each ∫ is a function of its variable, on the level.
+    pub quadrature_defects: Vec<Expr>,
+}
+
+/// How an integral relates to what every case conserves.
+#[derive(Clone, Debug, Default)]
+pub struct Novelty {
+    /// |∇F|²
     pub slope: Option<Expr>,
     /// Zero exactly when the integral is constant on the level.
     pub off_level: Vec<Expr>,
     /// Zero exactly when the integral depends on the level functions and the energy.
     pub off_general: Vec<Expr>,
-    /// Zero exactly when the integrand of each ∫ is a function of its variable, on the level.
-    pub quadrature_defects: Vec<Expr>,
 }
 
 /// ∇f less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.

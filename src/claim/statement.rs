@@ -1,6 +1,6 @@
 //! What every kind of claim has to say about itself.
 
-use super::{Context, Reader};
+use super::{Context, Novelty, Reader};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Model;
@@ -41,6 +41,12 @@ pub trait Statement: Clone {
     /// What is asked beside the residual, on a few states only.
     fn context(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Context {
         Context::default()
+    }
+
+    /// Whether an integral is more than a function of what every case conserves: asked of claims
+    /// that may hold.
+    fn novelty(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Novelty {
+        Novelty::default()
     }
 
     /// The gradients by which an integral or a density is new.

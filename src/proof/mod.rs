@@ -39,12 +39,10 @@ use crate::graph::{Expr, Fault, Graph};
 use algebraic::Algebraic;
 use identity::Trial;
 use relations::Relations;
-use roots::Eliminated;
+use roots::{Eliminated, Lowered};
 use standing::{Standing, standing};
 use symbols::Symbols;
 
-/// Rounds of eliminating roots: each takes away at least one.
-const MOST_ROUNDS: usize = 12;
 /// Sign choices are tried for at most this many dependent roots.
 const MOST_CHOICES: usize = 4;
 
@@ -61,23 +59,53 @@ pub struct Prover<'a> {
 impl Prover<'_> {
     /// For each group of outputs: are all of them identically zero?
     pub fn prove(&self, graph: &Graph, groups: &[Vec<Expr>]) -> Result<Vec<Outcome>, Fault> {
-        let all: Vec<Expr> = groups.concat();
         let sources = self.sources_of(graph);
-        let algebraic = self.lower(graph, &all, &sources)?;
-        let trial = Trial::new(&algebraic, self.seed);
-        groups
-            .iter()
-            .map(|group| {
-                let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
-                let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
-                    return Ok(no_value());
-                };
-                match algebraic.roots_of(&outputs).next() {
-                    Some(_) => self.prove_with_roots(graph, group),
-                    None => Ok(judged(&algebraic, &outputs, trial.test(&outputs, &[], &[]))),
+        let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
+        let mut open: Vec<usize> = (0..groups.len()).collect();
+        let mut work = Work { replaced: None, groups: groups.to_vec(), certificate: None };
+        let mut fresh = true;
+        while let Some(first) = open.first().copied() {
+            // Once some roots are gone, many groups have none left.
+            if std::mem::take(&mut fresh) {
+                self.prove_without_roots(work.graph(graph), &work, &mut open, &mut outcomes)?;
+                if !open.contains(&first) {
+                    continue;
                 }
-            })
-            .collect()
+            }
+            match self.prove_with_roots(graph, &mut work, first, &open, &sources)? {
+                None => fresh = true,
+                Some(outcome) => {
+                    outcomes[first] = Some(outcome);
+                    open.retain(|group| *group != first);
+                }
+            }
+        }
+        Ok(outcomes.into_iter().flatten().collect())
+    }
+
+    /// Settles the open groups that contain no root.
+    fn prove_without_roots(
+        &self,
+        graph: &Graph,
+        work: &Work,
+        open: &mut Vec<usize>,
+        outcomes: &mut [Option<Outcome>],
+    ) -> Result<(), Fault> {
+        let all: Vec<Expr> = open.iter().flat_map(|group| work.groups[*group].clone()).collect();
+        let algebraic = self.lower(graph, &all, &self.sources_of(graph))?;
+        let trial = Trial::new(&algebraic, self.seed);
+        open.retain(|group| {
+            let outputs =
+                work.groups[*group].iter().map(|output| algebraic.values[graph.place(*output)]);
+            let outcome = match outputs.collect::<Option<Vec<Expr>>>() {
+                None => no_value(),
+                Some(outputs) if algebraic.roots_of(&outputs).next().is_some() => return true,
+                Some(outputs) => judged(&algebraic, &outputs, trial.test(&outputs, &[], &[])),
+            };
+            outcomes[*group] = Some(work.with_eliminations(outcome));
+            false
+        });
+        Ok(())
     }
 
     fn sources_of(&self, graph: &Graph) -> Vec<Source> {
@@ -103,41 +131,38 @@ impl Prover<'_> {
         Algebraic::of(graph, &reached, sources, &symbols)
     }
 
-    /// One group by itself, with its roots certified, eliminated, or tried with all signs.
-    fn prove_with_roots(&self, graph: &Graph, group: &[Expr]) -> Result<Outcome, Fault> {
-        let sources = self.sources_of(graph);
-        let mut replaced: Option<Eliminated> = None;
-        let mut eliminations: Option<Certificate> = None;
-        for round in 0..=MOST_ROUNDS {
-            let (graph, group) = match &replaced {
-                Some(replaced) => (&replaced.graph, replaced.outputs.as_slice()),
-                None => (graph, group),
-            };
-            let algebraic = self.lower(graph, group, &sources)?;
-            let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
-            let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
-                return Ok(no_value());
-            };
-            let trial = Trial::new(&algebraic, self.seed);
-            let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
-            let standing = standing(&trial, &algebraic, &roots, self.seed);
-            let roots: Vec<_> = roots.into_iter().zip(standing).collect();
-            if round < MOST_ROUNDS && roots.iter().any(|(_, s)| *s == Standing::Dependent) {
-                let next = roots::eliminate(
-                    graph, group, &algebraic, &trial, &roots, self.signs, self.seed,
-                )?;
-                if let Some(next) = next {
-                    eliminations = both(eliminations, next.certificate);
-                    replaced = Some(next);
-                    continue;
-                }
+    /// One group by itself, with its roots certified, or tried with all signs. Where some of its
+    /// roots can be eliminated, that is done for all open groups, and there is no outcome yet.
+    fn prove_with_roots(
+        &self,
+        original: &Graph,
+        work: &mut Work,
+        group: usize,
+        open: &[usize],
+        sources: &[Source],
+    ) -> Result<Option<Outcome>, Fault> {
+        let graph = work.graph(original);
+        let group = &work.groups[group];
+        let algebraic = self.lower(graph, group, sources)?;
+        let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
+        let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
+            return Ok(Some(no_value()));
+        };
+        let trial = Trial::new(&algebraic, self.seed);
+        let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
+        let standing = standing(&trial, &algebraic, &roots, self.seed);
+        let roots: Vec<_> = roots.into_iter().zip(standing).collect();
+        if roots.iter().any(|(_, s)| *s == Standing::Dependent) {
+            let lowered = Lowered { algebraic: &algebraic, trial: &trial, roots: &roots };
+            let all: Vec<Expr> = open.iter().flat_map(|group| work.groups[*group].clone()).collect();
+            let found = roots::eliminate(graph, group, &all, &lowered, self.signs, self.seed)?;
+            if let Some(found) = found {
+                work.replace(found, open);
+                return Ok(None);
             }
-            return Ok(match (self.decide(&algebraic, &trial, &outputs, &roots), eliminations) {
-                (Outcome::Zero(last), Some(before)) => Outcome::Zero(last.and(before)),
-                (outcome, _) => outcome,
-            });
         }
-        Ok(Outcome::Silent("its roots could not be sorted out".to_string()))
+        let outcome = self.decide(&algebraic, &trial, &outputs, &roots);
+        Ok(Some(work.with_eliminations(outcome)))
     }
 
     /// All sign choices of the roots that are left dependent.
@@ -187,6 +212,39 @@ impl Prover<'_> {
                 "it vanishes for {zero} of {} choices of signs of dependent roots or moduli",
                 zero + other
             )),
+        }
+    }
+}
+
+/// What is left to prove, after some roots have been eliminated.
+struct Work {
+    /// The graph without them, if there were any.
+    replaced: Option<Graph>,
+    groups: Vec<Vec<Expr>>,
+    /// How sure it is that what replaced the roots are their values.
+    certificate: Option<Certificate>,
+}
+
+impl Work {
+    fn graph<'g>(&'g self, original: &'g Graph) -> &'g Graph {
+        self.replaced.as_ref().unwrap_or(original)
+    }
+
+    /// Goes on with a graph that has fewer roots, and the outputs of the open groups in it.
+    fn replace(&mut self, found: Eliminated, open: &[usize]) {
+        let mut outputs = found.outputs.into_iter();
+        for group in open {
+            let count = self.groups[*group].len();
+            self.groups[*group] = outputs.by_ref().take(count).collect();
+        }
+        self.replaced = Some(found.graph);
+        self.certificate = both(self.certificate, found.certificate);
+    }
+
+    fn with_eliminations(&self, outcome: Outcome) -> Outcome {
+        match (outcome, self.certificate) {
+            (Outcome::Zero(last), Some(before)) => Outcome::Zero(last.and(before)),
+            (outcome, _) => outcome,
         }
     }
 }

@@ -3,12 +3,15 @@
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
 
+use super::Prover;
 use super::algebraic::Algebraic;
 use super::chance::Chance;
 use super::elimination::reduce;
 use super::identity::{LANES, Trial, points};
 use super::symbols::Symbols;
-use super::{MOST_ROUNDS, Prover};
+
+/// Blocks of points that are tried until one has values for all entries.
+const MOST_BLOCKS: usize = 1 << 12;
 
 impl Prover<'_> {
     /// The ranks of the first `n` rows for each n in `heights`.
@@ -35,7 +38,7 @@ impl Prover<'_> {
         let mut chance = Chance::new(self.seed, 5);
         let width = rows.first().map_or(0, Vec::len);
         let mut ranks: Option<Vec<usize>> = None;
-        for _ in 0..1 << MOST_ROUNDS {
+        for _ in 0..MOST_BLOCKS {
             evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));
             for lane in 0..LANES {
                 let values: Vec<u64> = evaluator.outputs().map(|block| block[lane]).collect();

@@ -75,6 +75,24 @@ impl<'g> Relations<'g> {
         self.verify(places, &basis, &combinations).then_some(combinations)
     }
 
+    /// Are two values reciprocal (`true`), or equal (`false`)? `None` where neither is proved.
+    pub fn is_reciprocal(&mut self, a: usize, b: usize) -> Option<bool> {
+        let mut chance = Chance::new(self.seed, 6);
+        let modulus = chance.prime(&self.algebraic.odd_indices(), &self.algebraic.squares);
+        let rows = self.rows(&[a, b], false, 2, &modulus, &mut chance)?;
+        let one = modulus.one();
+        let equal = rows.iter().all(|row| row[0] == row[1]);
+        let reciprocal = rows.iter().all(|row| modulus.mul(row[0], row[1]) == one);
+        if !equal && !reciprocal {
+            return None;
+        }
+        let defect = |values: &[Option<Expr>]| -> Option<Vec<Expr>> {
+            let (a, b) = (values[a]?, values[b]?);
+            Some(vec![if equal { a - b } else { a * b - Expr::rational(&Rational::from(1)) }])
+        };
+        self.vanish(&[a, b], &defect).then_some(!equal)
+    }
+
     /// Values at random points modulo one prime, one row a point.
     fn rows(
         &self,
@@ -108,9 +126,7 @@ impl<'g> Relations<'g> {
 
     /// Proves that the places' values are the combinations.
     fn verify(&self, places: &[usize], basis: &[usize], combinations: &[Combination]) -> bool {
-        let reached = self.graph.reached_from(places);
-        let recorded = record(self.sources.len(), |inputs| {
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+        self.vanish(places, &|values| {
             places
                 .iter()
                 .zip(combinations)
@@ -121,7 +137,19 @@ impl<'g> Relations<'g> {
                     }
                     Some(rest)
                 })
-                .collect::<Option<Vec<Expr>>>()
+                .collect()
+        })
+    }
+
+    /// Proves that some functions of the values at these places vanish.
+    fn vanish(
+        &self,
+        places: &[usize],
+        defects: &dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>>,
+    ) -> bool {
+        let reached = self.graph.reached_from(places);
+        let recorded = record(self.sources.len(), |inputs| {
+            defects(&self.graph.replay(&reached, inputs, |_, _, _| None))
         });
         let Ok((graph, Some(defects))) = recorded else { return false };
         let reached = graph.reached(defects.iter().copied());

@@ -38,19 +38,30 @@ pub struct Eliminated {
     pub certificate: Option<Certificate>,
 }
 
-/// The original graph with those dependent roots and moduli replaced that could be, if any.
+/// A group as the fields see it.
+pub struct Lowered<'l> {
+    /// Made from the group's part of the graph.
+    pub algebraic: &'l Algebraic,
+    /// Its test.
+    pub trial: &'l Trial<'l>,
+    /// The roots it contains.
+    pub roots: &'l [(Root, Standing)],
+}
+
+/// The original graph with those of a group's dependent roots and moduli replaced that could be, if
+/// any.
 ///
-/// `outputs` are values of `graph`, whose steps `reached` has, and `algebraic` was made from it.
+/// `group` and `outputs` are values of `graph`; the latter are wanted in the new graph.
 pub fn eliminate(
     graph: &Graph,
+    group: &[Expr],
     outputs: &[Expr],
-    algebraic: &Algebraic,
-    trial: &Trial<'_>,
-    roots: &[(Root, Standing)],
+    lowered: &Lowered<'_>,
     signs: Signs<'_>,
     seed: u64,
 ) -> Result<Option<Eliminated>, Fault> {
-    let reached = graph.reached(outputs.iter().copied());
+    let Lowered { algebraic, trial, roots } = *lowered;
+    let reached = graph.reached(group.iter().copied());
     let mut replacements = moduli(graph, &reached, roots, signs)?;
     let samples = Samples::of(algebraic, trial, roots, seed);
     let mut found_certificate = None;
@@ -85,6 +96,7 @@ pub fn eliminate(
     if replacements.is_empty() {
         return Ok(None);
     }
+    let reached = graph.reached(outputs.iter().copied());
     let (replaced, values) = record(graph.inputs(), |inputs| {
         let values = graph.replay(&reached, inputs, |place, _, values| {
             let replacement = replacements.iter().find(|r| r.place == place)?;

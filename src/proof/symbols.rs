@@ -64,31 +64,41 @@ impl Symbols {
     pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut Relations<'_>) -> Self {
         let mut symbols = Self::opaque(graph, reached);
         let steps: Vec<(usize, Step<'_>)> = transcendental(graph, reached).collect();
-        let exponentials: Vec<(usize, usize)> = steps
+        let exponentials: Vec<(usize, usize, bool)> = steps
             .iter()
             .filter_map(|(place, step)| match step {
-                Step::Unary(Function::Exp, a) => Some((*place, *a)),
+                Step::Unary(Function::Exp, a) => Some((*place, *a, false)),
                 _ => None,
             })
             .collect();
         symbols.exponentials(None, &exponentials, relations);
-        let mut bases: Vec<usize> = Vec::new();
+        // Bases that are equal, or reciprocal, share their symbols: (1/x)^y = x^(-y).
+        let mut bases: Vec<Vec<(usize, bool)>> = Vec::new();
         for (_, step) in &steps {
-            if let Step::Binary(Operation::Pow, base, _) = step
-                && !bases.contains(base)
-            {
-                bases.push(*base);
+            let Step::Binary(Operation::Pow, base, _) = step else { continue };
+            if bases.iter().flatten().any(|(known, _)| known == base) {
+                continue;
+            }
+            let same = bases
+                .iter_mut()
+                .find_map(|class| Some((relations.is_reciprocal(class[0].0, *base)?, class)));
+            match same {
+                Some((inverse, class)) => class.push((*base, inverse)),
+                None => bases.push(vec![(*base, false)]),
             }
         }
-        for base in bases {
-            let powers: Vec<(usize, usize)> = steps
+        for class in bases {
+            let powers: Vec<(usize, usize, bool)> = steps
                 .iter()
                 .filter_map(|(place, step)| match step {
-                    Step::Binary(Operation::Pow, a, b) if *a == base => Some((*place, *b)),
+                    Step::Binary(Operation::Pow, a, b) => {
+                        let (_, inverse) = class.iter().find(|(base, _)| base == a)?;
+                        Some((*place, *b, *inverse))
+                    }
                     _ => None,
                 })
                 .collect();
-            symbols.exponentials(Some(base), &powers, relations);
+            symbols.exponentials(Some(class[0].0), &powers, relations);
         }
         let angles: Vec<(usize, usize, bool)> = steps
             .iter()
@@ -102,21 +112,24 @@ impl Symbols {
         symbols
     }
 
-    /// exp(e), or x^e for a base x, for several exponents e.
+    /// exp(e), or x^e for a base x, for several places and exponents e, or -e where that is said.
     fn exponentials(
         &mut self,
         base: Option<usize>,
-        steps: &[(usize, usize)],
+        steps: &[(usize, usize, bool)],
         relations: &mut Relations<'_>,
     ) {
-        let arguments: Vec<usize> = steps.iter().map(|(_, argument)| *argument).collect();
+        let arguments: Vec<usize> = steps.iter().map(|(_, argument, _)| *argument).collect();
         // The exponent 1 is a basis element by itself where there is a base: x^1 = x.
         let Some(combinations) = relations.between(&arguments, base.is_some()) else { return };
         let Some((first, multiples)) = self.allot(&combinations) else { return };
-        for (((place, _), multiples), combination) in steps.iter().zip(multiples).zip(combinations)
+        for (((place, _, inverse), multiples), combination) in
+            steps.iter().zip(multiples).zip(combinations)
         {
-            let powers = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
-            let base = base.map(|base| (base, combination.constant));
+            let sign = if *inverse { -1 } else { 1 };
+            let powers = multiples.into_iter().map(|(k, n)| (first + k, sign * n)).collect();
+            let constant = &combination.constant * &Rational::from(sign);
+            let base = base.map(|base| (base, constant));
             self.forms.insert(*place, Form::Product { base, powers });
         }
     }

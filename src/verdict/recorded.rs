@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::physics;
 use crate::case::{Claim, Expect};
-use crate::claim::{Context, Place};
+use crate::claim::{Context, Novelty, Place};
 use crate::graph::Expr;
 use crate::mechanics::System;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -14,6 +14,7 @@ pub struct Recorded<'c> {
     pub claim: &'c Claim,
     pub residual: Vec<Expr>,
     pub context: Context,
+    pub novelty: Novelty,
     pub wider: Vec<Wider>,
 }
 
@@ -36,6 +37,10 @@ impl<'c> Recorded<'c> {
             claim,
             residual: residual(&claim.place),
             context: claim.kind.context(jet, &claim.place.kept),
+            novelty: match claim.expect {
+                Expect::Fails => Novelty::default(),
+                _ => claim.kind.novelty(jet, &claim.place.kept),
+            },
             wider: wider
                 .into_iter()
                 .map(|place| Wider {
@@ -99,15 +104,18 @@ impl Span {
             start..outputs.len()
         };
         let residual = extend(&item.residual);
-        let nothing = Context::default();
-        let context = if with_context { &item.context } else { &nothing };
+        let (nothing, unknown) = (Context::default(), Novelty::default());
+        let (context, novelty) = match with_context {
+            true => (&item.context, &item.novelty),
+            false => (&nothing, &unknown),
+        };
         Self {
             residual,
             scale: extend(context.scale.as_slice()),
             value: extend(&context.value),
-            slope: extend(context.slope.as_slice()),
-            off_level: extend(&context.off_level),
-            off_general: extend(&context.off_general),
+            slope: extend(novelty.slope.as_slice()),
+            off_level: extend(&novelty.off_level),
+            off_general: extend(&novelty.off_general),
             defects: extend(&context.quadrature_defects),
         }
     }
