@@ -8,7 +8,8 @@ use serde_json::Value;
 
 const OTHERS: &str = include_str!("data/others.json");
 
-const BALL: &str = "system = \"ball-on-surface\"\n[parameters]\nm = \"7/5\"\nR = \"3/4\"\nmu = \"4/9\"\n";
+const BALL: &str =
+    "system = \"ball-on-surface\"\n[parameters]\nm = \"7/5\"\nR = \"3/4\"\nmu = \"4/9\"\n";
 const TOP: &str = "[parameters]\nI = [[\"5/2\", \"2/5\", \"-3/7\"], [\"2/5\", \"17/8\", \"1/2\"], [\"-3/7\", \"1/2\", 3]]\n";
 
 /// A built-in system with the names of its state in the reference; a number stands for itself.

@@ -4,8 +4,8 @@ use num_dual::Dual;
 
 use super::{Reader, Statement, difference};
 use crate::formula::Formula;
-use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::mechanics::Meaning;
+use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::scalar::Scalar;
 
 /// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.

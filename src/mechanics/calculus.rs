@@ -112,7 +112,9 @@ impl<'m, T: Scalar> Jet<'m, T> {
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
         let all = self.level_gradients.get_or_init(|| {
             let level = self.phase.model().level.iter();
-            level.map(|equation| self.gradient(|at| at.level_function(&equation.function))).collect()
+            level
+                .map(|equation| self.gradient(|at| at.level_function(&equation.function)))
+                .collect()
         });
         all.iter().zip(kept).filter(|(_, kept)| **kept).map(|(g, _)| g.clone()).collect()
     }

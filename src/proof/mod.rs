@@ -154,7 +154,8 @@ impl Prover<'_> {
         let roots: Vec<_> = roots.into_iter().zip(standing).collect();
         if roots.iter().any(|(_, s)| *s == Standing::Dependent) {
             let lowered = Lowered { algebraic: &algebraic, trial: &trial, roots: &roots };
-            let all: Vec<Expr> = open.iter().flat_map(|group| work.groups[*group].clone()).collect();
+            let all: Vec<Expr> =
+                open.iter().flat_map(|group| work.groups[*group].clone()).collect();
             let found = roots::eliminate(graph, group, &all, &lowered, self.signs, self.seed)?;
             if let Some(found) = found {
                 work.replace(found, open);

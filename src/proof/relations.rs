@@ -5,11 +5,12 @@ use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::algebraic::Algebraic;
+use super::algebraic::{Algebraic, Root};
 use super::bounds::Source;
 use super::chance::Chance;
 use super::elimination::reduce;
 use super::identity::{LANES, Outcome, Trial, points};
+use super::standing::{Standing, standing};
 use super::symbols::Symbols;
 
 /// More values than this are not related to each other: the effort grows with the cube.
@@ -160,11 +161,11 @@ impl<'g> Relations<'g> {
         let lowered_defects: Option<Vec<Expr>> =
             defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
         let Some(lowered_defects) = lowered_defects else { return false };
-        if lowered.roots_of(&lowered_defects).next().is_some() {
-            return false;
-        }
         let trial = Trial::new(&lowered, self.seed);
-        matches!(trial.test(&lowered_defects, &[], &[]), Outcome::Zero(_))
+        let roots: Vec<Root> = lowered.roots_of(&lowered_defects).collect();
+        let standing = standing(&trial, &lowered, &roots, self.seed);
+        standing.iter().all(|standing| *standing == Standing::Independent)
+            && matches!(trial.test(&lowered_defects, &roots, &[]), Outcome::Zero(_))
     }
 }
 

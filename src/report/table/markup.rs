@@ -30,7 +30,8 @@ pub fn latex(table: &Regenerated) -> String {
     let width = 0.86 / count.max(1) as f64;
     let mut out = format!(
         "% XeLaTeX or LuaLaTeX, with hyperref\n\\begin{{tabular}}{{l*{{{count}}}{{p{{{width:.3}\\linewidth}}}}}}\n\
-         Table {}", table.table
+         Table {}",
+        table.table
     );
     for column in &table.columns {
         out.push_str(&format!(" & {column}"));
