@@ -73,5 +73,6 @@ pub mod number;
 pub mod proof;
 pub mod report;
 pub mod scalar;
+pub mod search;
 pub mod stress;
 pub mod verdict;

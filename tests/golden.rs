@@ -257,8 +257,8 @@ fn thirty_digits_are_right() {
                 same(&found.divergence, &point["div_v"], &format!("{what}, divergence"));
                 for (name, value, residual) in &found.claims {
                     if let Some(golden) = point["candidates"].get(name) {
-                        same(value, &golden["value"], &format!("{what}, {name}"));
-                        same(residual, &golden["residual"], &format!("{what}, {name}, residual"));
+                        same(&value[0], &golden["value"], &format!("{what}, {name}"));
+                        same(&residual[0], &golden["residual"], &format!("{what}, {name}, residual"));
                     }
                 }
             }

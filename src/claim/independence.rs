@@ -10,6 +10,13 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct Independent(Vec<Formula>);
 
+impl Independent {
+    /// The claim about these functions.
+    pub fn of(functions: Vec<Formula>) -> Self {
+        Self(functions)
+    }
+}
+
 /// The expansion of the Gram determinant doubles with each function.
 const MOST: usize = 12;
 

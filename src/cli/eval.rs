@@ -1,6 +1,7 @@
 //! `liouville eval`
 
 use std::io::IsTerminal;
+use std::path::Path;
 
 use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
@@ -11,21 +12,9 @@ use liouville::verdict;
 use super::{Answer, Eval, colour};
 
 pub fn run(options: &Eval) -> Result<Answer, String> {
-    let settings = options
-        .settings
-        .iter()
-        .map(|text| setting(text))
-        .collect::<Result<Vec<Setting>, String>>()?;
-    for (index, setting) in settings.iter().enumerate() {
-        if settings[..index].iter().any(|earlier| earlier.name == setting.name) {
-            return Err(format!("error: --set: `{}` is given twice", setting.name));
-        }
-    }
+    let case = open(&options.case, &options.settings)?;
     let shown = options.case.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
-    let (text, case) = Case::read(&options.case, &settings);
-    let case =
-        case.map_err(|error| diagnostic::of_case(&shown, &text, &error, coloured).rendered)?;
     let state = match &options.state {
         None => None,
         Some(text) => Some(
@@ -44,6 +33,21 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
         ),
     }?;
     Ok(Answer { text, code: 0 })
+}
+
+/// Reads a case with the values that `--set` gives.
+pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
+    let settings =
+        settings.iter().map(|text| setting(text)).collect::<Result<Vec<Setting>, String>>()?;
+    for (index, setting) in settings.iter().enumerate() {
+        if settings[..index].iter().any(|earlier| earlier.name == setting.name) {
+            return Err(format!("error: --set: `{}` is given twice", setting.name));
+        }
+    }
+    let shown = path.display().to_string();
+    let coloured = colour(std::io::stderr().is_terminal());
+    let (text, case) = Case::read(path, &settings);
+    case.map_err(|error| diagnostic::of_case(&shown, &text, &error, coloured).rendered)
 }
 
 fn written<N: point::Written>(

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod check;
 pub mod eval;
 mod files;
+pub mod search;
 pub mod stress;
 pub mod table;
 
@@ -27,6 +28,8 @@ pub enum Command {
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     Eval(Eval),
+    /// Look for integrals and densities that nobody typed: count them, find them, prove them
+    Search(Search),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right
@@ -113,6 +116,27 @@ pub struct Eval {
     #[arg(long, value_parser = parse_digits)]
     pub digits: Option<usize>,
     /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Search {
+    /// A case file; it needs no claims
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Count integrals polynomial in the velocities up to this degree
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10))]
+    pub degree: u32,
+    /// Do not compare finds with what the case claims
+    #[arg(long)]
+    pub blind: bool,
+    /// Seed of primes, points and states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Print JSON

@@ -81,6 +81,24 @@ impl System {
         matches!(self, System::Rubber(_) | System::FlatBase(_))
     }
 
+    /// Is there an energy?
+    pub fn has_energy(&self) -> bool {
+        !matches!(self, System::Field(_))
+    }
+
+    /// Are the rates of velocities more than quadratic forms of the velocities: is there a potential,
+    /// a gyrostat, a rotation?
+    pub fn energy_is_inhomogeneous(&self) -> bool {
+        match self {
+            System::Rubber(body) => {
+                body.potential.is_some() || body.gyrostat.is_some() || body.moment.is_some()
+            }
+            System::FlatBase(body) => body.gyrostat.is_some(),
+            System::Ball(ball) => ball.potential.is_some() || ball.rotation.is_some(),
+            System::Lagrangian(_) | System::Field(_) => true,
+        }
+    }
+
     /// Zero everywhere exactly when a density of the configuration alone exists.
     pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {

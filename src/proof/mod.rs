@@ -31,7 +31,9 @@ mod symbols;
 mod tests;
 
 pub use bounds::Source;
+pub(crate) use chance::Chance;
 pub use identity::{Certificate, Outcome};
+pub(crate) use relations::reconstruct;
 pub use roots::Signs;
 
 use crate::graph::{Expr, Fault, Graph};

@@ -170,7 +170,7 @@ impl<'g> Relations<'g> {
 }
 
 /// The fraction of small parts with this image, if there is one; it is then the only one.
-fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
+pub fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
     // Half of Euclid's algorithm: r_i = t_i x mod p at every step.
     let (mut previous, mut current) =
         ((i128::from(modulus.prime()), 0i128), (i128::from(modulus.to_integer(image)), 1i128));

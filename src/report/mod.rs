@@ -5,6 +5,7 @@ pub mod diagnostic;
 pub mod diagram;
 pub mod json;
 pub mod point;
+pub mod search;
 pub mod stress;
 pub mod table;
 pub mod terminal;

@@ -1,0 +1,42 @@
+//! `liouville search`
+
+use std::io::IsTerminal;
+
+use indicatif::ProgressBar;
+use liouville::report::{diagnostic, search as written};
+use liouville::search::{self, Effort};
+
+use super::eval::open;
+use super::{Answer, Search, colour};
+
+pub fn run(options: &Search) -> Result<Answer, String> {
+    let case = open(&options.case, &options.settings)?;
+    let effort = Effort {
+        degree: options.degree,
+        blind: options.blind,
+        options: liouville::verdict::Options {
+            seed: options.seed,
+            ..liouville::verdict::Options::default()
+        },
+    };
+    let spinner = match std::io::stderr().is_terminal() {
+        true => ProgressBar::new_spinner(),
+        false => ProgressBar::hidden(),
+    };
+    let mut progress = |what: &str| {
+        spinner.set_message(what.to_string());
+        spinner.tick();
+    };
+    let report = search::search(&case, &effort, &mut progress);
+    spinner.finish_and_clear();
+    let report = report.map_err(|error| {
+        let shown = options.case.display().to_string();
+        let coloured = colour(std::io::stderr().is_terminal());
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
+    })?;
+    let text = match options.json {
+        true => written::json(&case.title, &report).map_err(|error| format!("error: {error}"))?,
+        false => written::text(&case.title, &report),
+    };
+    Ok(Answer { text: text + "\n", code: 0 })
+}

@@ -1,0 +1,251 @@
+//! What an integral or a density may be made of: terms in the names of a case.
+//!
+//! Constants in front of the terms are unknown rational numbers, the same for all values of the
+//! parameters; so parameters stand in the terms themselves.
+
+use crate::formula::Type;
+use crate::mechanics::{Meaning, Model, System};
+
+/// Texts of formulas.
+pub type Texts = Vec<String>;
+
+fn has(model: &Model, name: &str, kind: Type) -> bool {
+    let own = |meaning| !matches!(meaning, Meaning::Abbreviation(_));
+    model.vocabulary.find(name).is_some_and(|entry| entry.kind == kind && own(entry.meaning))
+}
+
+/// The names of scalar parameters that the formula of a potential uses.
+fn potential_parameters(model: &Model) -> Texts {
+    use crate::mechanics::Potential;
+    let formula = match &model.system {
+        System::Rubber(body) => match &body.potential {
+            Some(Potential::Formula(formula)) => formula,
+            _ => return Vec::new(),
+        },
+        _ => return Vec::new(),
+    };
+    let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
+    formula
+        .symbols()
+        .map(|symbol| model.vocabulary.entry(symbol))
+        .filter(|entry| matches!(entry.meaning, Meaning::Parameter(_)))
+        .filter(|entry| entry.kind == Type::Scalar && !bodily.contains(&entry.name.as_str()))
+        .map(|entry| entry.name.clone())
+        .collect()
+}
+
+/// Joins factors; `1` is left out.
+fn product(factors: &[&str]) -> String {
+    let kept: Vec<&str> = factors.iter().copied().filter(|factor| *factor != "1").collect();
+    if kept.is_empty() { "1".to_string() } else { kept.join("*") }
+}
+
+/// The pieces that a system offers.
+struct Pieces {
+    /// Vectors linear in the velocities.
+    linear: Texts,
+    /// Scalars linear in the velocities.
+    forms: Texts,
+    /// The vector that is constant in space, if there is one: (a,γ) is a form for each vector a.
+    normal: Option<&'static str>,
+    /// Functions of the configuration and the parameters.
+    weights: Texts,
+    /// Terms free of the velocities, that a potential may ask for.
+    free: Texts,
+}
+
+fn pieces(model: &Model) -> Pieces {
+    let matrix = |name: &str| has(model, name, Type::Matrix);
+    let scalar = |name: &str| has(model, name, Type::Scalar);
+    let vector = |name: &str| has(model, name, Type::Vector);
+    let mut pieces = Pieces {
+        linear: Vec::new(),
+        forms: Vec::new(),
+        normal: None,
+        weights: vec!["1".to_string()],
+        free: Vec::new(),
+    };
+    match &model.system {
+        System::Rubber(body) => {
+            pieces.normal = Some("γ");
+            let constant = if matrix("J") { "J" } else { "I" };
+            for tensor in ["Ĩ", constant] {
+                pieces.linear.push(format!("{tensor}*ω"));
+            }
+            if matrix("B") {
+                pieces.linear.push("B⁻¹*ω".to_string());
+            }
+            pieces.linear.push("ω".to_string());
+            if let Some(rotor) = &body.gyrostat {
+                pieces.linear.push(rotor.text().to_string());
+            }
+            pieces.forms.push("ω3".to_string());
+            pieces.weights.push("m".to_string());
+            if scalar("R") {
+                pieces.weights.push("m*R²".to_string());
+            }
+            if scalar("R") && vector("c") {
+                pieces.weights.extend(["m*R*(γ,c)", "m*(c,c)"].map(str::to_string));
+            }
+            if matrix("J") {
+                pieces.weights.extend(
+                    ["(γ,J*γ)", "(γ,adj(J)*(J⁻¹*γ))", "(γ,J⁻¹*γ)"].map(str::to_string),
+                );
+            }
+            if matrix("B") {
+                pieces.weights.push("tr(B)*m".to_string());
+            }
+            if scalar("μ") {
+                pieces.weights.push("μ".to_string());
+            }
+            pieces.weights.extend(["m*r²", "m*(r,γ)²"].map(str::to_string));
+            for parameter in potential_parameters(model) {
+                for tensor in [constant, &format!("adj({constant})"), "Ĩ"] {
+                    pieces.free.push(format!("{parameter}*(γ,{tensor}*γ)"));
+                    pieces.free.push(format!("{parameter}*tr({constant})*(γ,{tensor}*γ)"));
+                }
+                pieces.free.push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
+            }
+            if body.potential.is_some() {
+                pieces.free.extend(["U", "m*r²*U", "m*U"].map(str::to_string));
+            }
+        }
+        System::FlatBase(body) => {
+            pieces.linear.extend(["Ĩ*ω", "I*ω", "ω"].map(str::to_string));
+            if let Some(rotor) = &body.gyrostat {
+                pieces.linear.push(rotor.text().to_string());
+            }
+            pieces.forms.push("(r1*ω1 + r2*ω2)".to_string());
+            let weights = ["m", "m*(r1² + r2²)", "m*z²"];
+            pieces.weights.extend(weights.map(str::to_string));
+        }
+        System::Ball(_) => {
+            pieces.normal = Some("γ");
+            pieces.linear.extend(["(γ × M)", "M"].map(str::to_string));
+            if matrix("B") {
+                pieces.linear.extend(["B⁻¹*(γ × M)", "B⁻¹*M"].map(str::to_string));
+            }
+            pieces.forms.push("M3".to_string());
+        }
+        System::Lagrangian(_) | System::Field(_) => {
+            for variable in &model.state {
+                match variable.kind {
+                    Type::Vector => pieces.linear.push(variable.name.clone()),
+                    Type::Scalar => pieces.forms.push(variable.name.clone()),
+                    Type::Matrix => {}
+                }
+            }
+        }
+    }
+    pieces
+}
+
+/// Terms of degree 1 and 2 in the velocities, simple ones first, with what a potential adds.
+pub fn integrals(model: &Model) -> Texts {
+    let pieces = pieces(model);
+    let mut forms = pieces.forms.clone();
+    if let Some(normal) = pieces.normal {
+        forms.extend(pieces.linear.iter().map(|vector| format!("({vector},{normal})")));
+    }
+    if matches!(model.system, System::Lagrangian(_) | System::Field(_)) {
+        for vector in &pieces.linear {
+            forms.extend((1..=3).map(|k| format!("{vector}[{k}]")));
+        }
+    }
+    let mut squares = Vec::new();
+    for (i, a) in pieces.linear.iter().enumerate() {
+        squares.extend(pieces.linear[i..].iter().map(|b| format!("({a},{b})")));
+    }
+    for (i, a) in forms.iter().enumerate() {
+        squares.extend(forms[i..].iter().map(|b| match a == b {
+            true => format!("{a}²"),
+            false => format!("{a}*{b}"),
+        }));
+    }
+    let mut terms = Vec::new();
+    for weight in &pieces.weights {
+        terms.extend(squares.iter().map(|square| product(&[weight, square])));
+        terms.extend(forms.iter().map(|form| product(&[weight, form])));
+    }
+    for free in &pieces.free {
+        terms.push(free.clone());
+    }
+    terms
+}
+
+/// What integrals may be divided by.
+pub fn denominators(model: &Model) -> Texts {
+    let mut found = vec!["1".to_string()];
+    let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
+    for (name, text) in offers {
+        if has(model, name, Type::Matrix)
+            && matches!(model.system, System::Rubber(_) | System::Ball(_))
+        {
+            found.push(text.to_string());
+        }
+    }
+    found
+}
+
+/// Factors of which a density, or an integral, may be a product of powers.
+pub fn factors(model: &Model) -> Texts {
+    let matrix = |name: &str| has(model, name, Type::Matrix);
+    let scalar = |name: &str| has(model, name, Type::Scalar);
+    let mut factors: Vec<&str> = Vec::new();
+    match &model.system {
+        System::Rubber(_) => {
+            if scalar("g1") {
+                factors.extend(["g1", "g2"]);
+            }
+            if matrix("J") {
+                factors.push("(γ,J⁻¹*γ)");
+            }
+            if scalar("μ") {
+                factors.extend(["(μ + m*r²)", "(μ + m*(r,γ)²)"]);
+            }
+            factors.extend(["det(Ĩ)", "(γ,Ĩ⁻¹*γ)"]);
+            if scalar("D_T") {
+                factors.push("D_T");
+            }
+            if matrix("𝒥") {
+                factors.extend(["det(𝒥)", "(γ,𝒥⁻¹*γ)"]);
+            }
+            if matrix("B") {
+                factors.push("(γ,B*γ)");
+            }
+        }
+        System::FlatBase(_) => factors.extend([
+            "(I1 + m*(r1² + r2² + z²))",
+            "(I1*I2 + m*(I1*r1² + I2*r2²))",
+            "det(Ĩ)",
+            "exp(k*z*m*(r1² + r2²)/(I1 + m*z²))",
+        ]),
+        System::Ball(_) => {
+            factors.push(if scalar("h") { "det(∂r + γ⊗γ)" } else { "|n|" });
+            if matrix("B") {
+                factors.push("(γ,B*γ)");
+            }
+        }
+        System::Lagrangian(_) | System::Field(_) => {}
+    }
+    factors.into_iter().map(str::to_string).collect()
+}
+
+/// What exponents may be multiples of.
+pub fn exponents(model: &Model) -> Texts {
+    let mut found = vec!["1".to_string()];
+    if has(model, "κ", Type::Scalar) {
+        found.push("k*R".to_string());
+    } else if let (System::Rubber(body), true) = (&model.system, has(model, "g1", Type::Scalar))
+        && body.curvature.is_some()
+        && has(model, "R", Type::Scalar)
+    {
+        found.push("k*R".to_string());
+    }
+    found
+}
+
+/// Factors linear in the velocities, for integrals that are products of powers.
+pub fn linear_factors(model: &Model) -> Texts {
+    pieces(model).forms
+}
