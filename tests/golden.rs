@@ -258,7 +258,11 @@ fn thirty_digits_are_right() {
                 for (name, value, residual) in &found.claims {
                     if let Some(golden) = point["candidates"].get(name) {
                         same(&value[0], &golden["value"], &format!("{what}, {name}"));
-                        same(&residual[0], &golden["residual"], &format!("{what}, {name}, residual"));
+                        same(
+                            &residual[0],
+                            &golden["residual"],
+                            &format!("{what}, {name}, residual"),
+                        );
                     }
                 }
             }

@@ -40,9 +40,8 @@ fn all_witnesses_are_reproduced() {
         let case = Case::read(&path, &[]).1.expect("a case");
         let report = judge(&case, &Options::default()).expect("it can be judged");
         // Dependent functions are refuted by a proof, not by a state.
-        let refuted = |claim: &&ClaimReport| {
-            claim.verdict == Verdict::Refuted && claim.kind != "independent"
-        };
+        let refuted =
+            |claim: &&ClaimReport| claim.verdict == Verdict::Refuted && claim.kind != "independent";
         for claim in report.claims.iter().filter(refuted) {
             let place = format!("{} :: {}", path.display(), claim.name);
             let witness = claim.evidence.witness.as_ref();

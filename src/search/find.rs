@@ -78,7 +78,9 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
         let relations = Functions::new(case, &graph, &rates, seed)?.relations()?;
         let (vectors, irrational) = relations.rational();
         if irrational > 0 {
-            report.remarks.push(format!("{irrational} relations have no small rational coefficients"));
+            report
+                .remarks
+                .push(format!("{irrational} relations have no small rational coefficients"));
         }
         for vector in vectors {
             let sum = sum(&vector, &terms);
@@ -176,12 +178,7 @@ fn holds(report: &ClaimReport) -> bool {
     matches!(report.verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
-fn find(
-    kind: &'static str,
-    formula: &str,
-    known: Option<String>,
-    report: &ClaimReport,
-) -> Found {
+fn find(kind: &'static str, formula: &str, known: Option<String>, report: &ClaimReport) -> Found {
     Found {
         kind,
         formula: formula.to_string(),
@@ -234,8 +231,7 @@ fn sum(coefficients: &[Rational], terms: &[&Term]) -> String {
 
 /// head Π f^α, each α a sum of multiples of the exponents.
 fn powers(coefficients: &[Rational], factors: &[Term], exponents: &[Term], head: &str) -> String {
-    let mut parts: Vec<String> =
-        if head.is_empty() { Vec::new() } else { vec![head.to_string()] };
+    let mut parts: Vec<String> = if head.is_empty() { Vec::new() } else { vec![head.to_string()] };
     let exponents: Vec<&Term> = exponents.iter().collect();
     for (factor, own) in factors.iter().zip(coefficients.chunks(exponents.len().max(1))) {
         if own.iter().all(Rational::is_zero) {

@@ -76,9 +76,8 @@ fn count_to_order(
     let place: FxHashMap<&[u32], usize> =
         monomials.iter().enumerate().map(|(k, monomial)| (monomial.as_slice(), k)).collect();
     // Columns from high order to low: what is left free at the end is of low order.
-    let mut columns: Vec<(usize, usize)> = (0..powers.len())
-        .flat_map(|a| (0..monomials.len()).map(move |k| (a, k)))
-        .collect();
+    let mut columns: Vec<(usize, usize)> =
+        (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
     columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));
     let mut rows: FxHashMap<(Vec<u32>, usize), Vec<(usize, u64)>> = FxHashMap::default();
     for (column, (a, k)) in columns.iter().enumerate() {
@@ -164,7 +163,9 @@ impl Expansion {
                 found.iter().all(|rate| !rate.is_empty()).then_some(found)
             };
             let check: Vec<u64> = (0..velocities).map(|_| chance.element(&modulus)).collect();
-            let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else { continue };
+            let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else {
+                continue;
+            };
             let Some(found) = rates_at(&check) else { continue };
             if !agrees(&polynomials, &check, &found, &modulus) {
                 return Err(SearchError::NotQuadratic);
@@ -208,7 +209,8 @@ fn quadratic(
         at_zero.iter().map(|constant| vec![(exponent(&[]), constant.clone())]).collect();
     let mut at_unit = Vec::new();
     for i in 0..velocities {
-        let (plus, minus) = (rates_at(&unit(&[(i, one)]))?, rates_at(&unit(&[(i, m.sub(0, one))]))?);
+        let (plus, minus) =
+            (rates_at(&unit(&[(i, one)]))?, rates_at(&unit(&[(i, m.sub(0, one))]))?);
         for (k, polynomial) in polynomials.iter_mut().enumerate() {
             let linear = combine(&plus[k], &minus[k], &|a, b| m.mul(half, m.sub(a, b)));
             let even = combine(&plus[k], &minus[k], &|a, b| m.mul(half, m.add(a, b)));
@@ -223,7 +225,8 @@ fn quadratic(
             for (k, polynomial) in polynomials.iter_mut().enumerate() {
                 let rest = combine(&both[k], &at_unit[i][k], &|a, b| m.sub(a, b));
                 let rest = combine(&rest, &at_unit[j][k], &|a, b| m.sub(a, b));
-                polynomial.push((exponent(&[i, j]), combine(&rest, &at_zero[k], &|a, b| m.add(a, b))));
+                polynomial
+                    .push((exponent(&[i, j]), combine(&rest, &at_zero[k], &|a, b| m.add(a, b))));
             }
         }
     }

@@ -88,9 +88,9 @@ fn pieces(model: &Model) -> Pieces {
                 pieces.weights.extend(["m*R*(γ,c)", "m*(c,c)"].map(str::to_string));
             }
             if matrix("J") {
-                pieces.weights.extend(
-                    ["(γ,J*γ)", "(γ,adj(J)*(J⁻¹*γ))", "(γ,J⁻¹*γ)"].map(str::to_string),
-                );
+                pieces
+                    .weights
+                    .extend(["(γ,J*γ)", "(γ,adj(J)*(J⁻¹*γ))", "(γ,J⁻¹*γ)"].map(str::to_string));
             }
             if matrix("B") {
                 pieces.weights.push("tr(B)*m".to_string());
@@ -104,7 +104,9 @@ fn pieces(model: &Model) -> Pieces {
                     pieces.free.push(format!("{parameter}*(γ,{tensor}*γ)"));
                     pieces.free.push(format!("{parameter}*tr({constant})*(γ,{tensor}*γ)"));
                 }
-                pieces.free.push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
+                pieces
+                    .free
+                    .push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
             }
             if body.potential.is_some() {
                 pieces.free.extend(["U", "m*r²*U", "m*U"].map(str::to_string));

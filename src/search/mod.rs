@@ -174,7 +174,10 @@ fn count(
     for degree in 1..=effort.degree {
         let velocities = local.coordinates.velocities as u32;
         let size = binomial(degree + velocities - 1, velocities - 1)
-            * binomial(2 * degree + 3 + local.coordinates.positions as u32, local.coordinates.positions as u32);
+            * binomial(
+                2 * degree + 3 + local.coordinates.positions as u32,
+                local.coordinates.positions as u32,
+            );
         progress(&format!("integrals of degree {degree}: some {size} unknowns"));
         match jets::count(local, degree, mixed, effort.options.seed) {
             Ok(Count { dimension, size: (unknowns, equations), .. }) => {

@@ -24,7 +24,13 @@ pub struct Series {
 /// All exponents of `variables` variables with this sum.
 pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
     match variables {
-        0 => if total == 0 { vec![Vec::new()] } else { Vec::new() },
+        0 => {
+            if total == 0 {
+                vec![Vec::new()]
+            } else {
+                Vec::new()
+            }
+        }
         1 => vec![vec![total]],
         _ => (0..=total)
             .rev()
@@ -78,9 +84,11 @@ impl Series {
     /// value + x_k
     pub fn variable(&self, k: usize, value: u64) -> Vec<u64> {
         let mut series = self.number(value);
-        if let Some(place) = self.monomials.iter().position(|m| {
-            m.iter().enumerate().all(|(i, e)| *e == u32::from(i == k))
-        }) {
+        if let Some(place) = self
+            .monomials
+            .iter()
+            .position(|m| m.iter().enumerate().all(|(i, e)| *e == u32::from(i == k)))
+        {
             series[place] = self.modulus.one();
         }
         series
