@@ -166,7 +166,7 @@ pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
         let inside = (0..n).filter(|j| columns >> j & 1 == 1);
         for (place, j) in inside.enumerate() {
             let term = matrix[row][j] * minors[columns & !(1 << j)];
-            sum = if (row + place) % 2 == 0 { sum + term } else { sum - term };
+            sum = if (row + place).is_multiple_of(2) { sum + term } else { sum - term };
         }
         minors[columns] = sum;
     }

@@ -21,13 +21,22 @@ use crate::proof::Chance;
 /// Points that are drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
 
+/// Velocity exponents with a series each.
+type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
+
+/// Columns and values of a sparse row.
+type Entries = Vec<(usize, u64)>;
+
+/// The rates at a point of the velocities, if they have a value.
+type Rates<'a> = dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>> + 'a;
+
 /// The field's Taylor series: polynomials in the velocities with series as coefficients.
 struct Expansion {
     series: Series,
     /// For each position: velocity exponents and coefficient of its rate.
-    positions: Vec<Vec<(Vec<u32>, Vec<u64>)>>,
+    positions: Vec<Polynomial>,
     /// The same for each velocity.
-    velocities: Vec<Vec<(Vec<u32>, Vec<u64>)>>,
+    velocities: Vec<Polynomial>,
 }
 
 /// The number of integrals of one degree, as an upper bound for generic parameters.
@@ -79,7 +88,7 @@ fn count_to_order(
     let mut columns: Vec<(usize, usize)> =
         (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
     columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));
-    let mut rows: FxHashMap<(Vec<u32>, usize), Vec<(usize, u64)>> = FxHashMap::default();
+    let mut rows: FxHashMap<(Vec<u32>, usize), Entries> = FxHashMap::default();
     for (column, (a, k)) in columns.iter().enumerate() {
         let mut add = |power: Vec<u32>, monomial: &[u32], coefficient: &[u64], factor: u64| {
             for (other, value) in monomials.iter().zip(coefficient) {
@@ -181,15 +190,8 @@ impl Expansion {
     }
 }
 
-/// Velocity exponents with a series each.
-type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
-
 /// Polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.
-fn quadratic(
-    velocities: usize,
-    m: &Modulus,
-    rates_at: &mut dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>>,
-) -> Option<Vec<Polynomial>> {
+fn quadratic(velocities: usize, m: &Modulus, rates_at: &mut Rates<'_>) -> Option<Vec<Polynomial>> {
     let unit = |entries: &[(usize, u64)]| -> Vec<u64> {
         let mut point = vec![0; velocities];
         entries.iter().for_each(|(i, value)| point[*i] = *value);

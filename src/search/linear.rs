@@ -65,8 +65,8 @@ impl Functions {
             let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
             for lane in 0..LANES {
                 for component in 0..height {
-                    let row: Vec<u64> =
-                        (0..columns).map(|j| values[j * height + component][lane]).collect();
+                    let column = values.iter().skip(component).step_by(height);
+                    let row: Vec<u64> = column.map(|block| block[lane]).collect();
                     if row.contains(&UNDEFINED) {
                         continue;
                     }
@@ -110,10 +110,5 @@ impl Relations {
             found
         });
         (vectors.collect(), irrational)
-    }
-
-    /// The dimension of the space of relations.
-    pub fn dimension(&self, columns: usize) -> usize {
-        columns - self.echelon.rank()
     }
 }
