@@ -243,6 +243,23 @@ mod tests {
     }
 
     #[test]
+    fn determinants_traces_and_characteristic_polynomials() {
+        // A = [[2,1,0],[0,3,1],[1,0,1]] by columns: det A = 7, tr A = 6, second invariant 11.
+        let a = vec![vec![2.0, 0.0, 1.0], vec![1.0, 3.0, 0.0], vec![0.0, 1.0, 1.0]];
+        assert_eq!(gram_determinant(&a), 49.0, "det(AᵀA) = (det A)²");
+        let dependent = vec![a[0].clone(), a[1].clone(), vec![3.0, 3.0, 1.0]];
+        assert_eq!(gram_determinant(&dependent), 0.0, "the third is the sum of the others");
+        assert_eq!(characteristic_polynomial(&a), [-6.0, 11.0, -7.0]);
+        // B = A C with C = diag(1,2,4): tr(B A⁻¹) = tr C.
+        let b: Vec<Vec<f64>> = [1.0, 2.0, 4.0]
+            .iter()
+            .zip(&a)
+            .map(|(c, column)| column.iter().map(|x| c * x).collect())
+            .collect();
+        assert!((trace_of_quotient(&a, &b) - 7.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn rejection_is_zero_in_the_span_only() {
         let plane = [vec![1.0, 2.0, 0.0], vec![0.0, 1.0, 1.0]];
         let inside = rejection(&[2.0, 5.0, 1.0], &plane);
