@@ -136,6 +136,9 @@ pub struct Search {
     /// Do not compare finds with what the case claims
     #[arg(long)]
     pub blind: bool,
+    /// Leave out a count that may take longer than this
+    #[arg(long, default_value_t = 60.0)]
+    pub seconds: f64,
     /// Seed of primes, points and states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

@@ -14,6 +14,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
+        seconds: options.seconds,
         options: liouville::verdict::Options {
             seed: options.seed,
             ..liouville::verdict::Options::default()

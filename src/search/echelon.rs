@@ -42,6 +42,11 @@ impl Echelon {
         false
     }
 
+    /// How many columns there are.
+    pub fn columns(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Has some row its pivot in this column?
     pub fn has_pivot(&self, column: usize) -> bool {
         self.rows[column].is_some()

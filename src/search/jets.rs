@@ -52,13 +52,19 @@ pub struct Count {
     pub size: (usize, usize),
 }
 
-/// Counts integrals of a degree; the order of the Taylor coefficients rises until the count stands
-/// still.
-pub fn count(local: &Local, degree: u32, mixed: bool, seed: u64) -> Result<Count, SearchError> {
+/// Counts integrals of a degree, of which `least` are known to be there; the order of the Taylor
+/// coefficients rises until the count stands still.
+pub fn count(
+    local: &Local,
+    degree: u32,
+    mixed: bool,
+    least: usize,
+    seed: u64,
+) -> Result<Count, SearchError> {
     let mut last = None;
     for order in [2 * degree + 2, 2 * degree + 3, 2 * degree + 5, 2 * degree + 7] {
         let found = count_to_order(local, degree, mixed, order, seed)?;
-        if last == Some(found.dimension) {
+        if found.dimension <= least || last == Some(found.dimension) {
             return Ok(found);
         }
         last = Some(found.dimension);
@@ -179,6 +185,9 @@ impl Expansion {
             if !agrees(&polynomials, &check, &found, &modulus) {
                 return Err(SearchError::NotQuadratic);
             }
+            if !spans(&polynomials[..positions], velocities, modulus) {
+                return Err(SearchError::NotSpanned);
+            }
             let mut rates = polynomials.into_iter();
             return Ok(Self {
                 positions: rates.by_ref().take(positions).collect(),
@@ -188,6 +197,19 @@ impl Expansion {
         }
         Err(SearchError::NoSeries)
     }
+}
+
+/// Do the rates of the positions take all directions? Then Σ w_i X_i C = 0 determines the
+/// coefficients of degree n by their n-jets, as for Killing tensors.
+fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
+    let mut echelon = Echelon::new(velocities, modulus);
+    rates.iter().all(|rate| {
+        let slope = |i: usize| {
+            let is_unit = |e: &Vec<u32>| e[i] == 1 && e.iter().sum::<u32>() == 1;
+            rate.iter().find(|(exponent, _)| is_unit(exponent)).map_or(0, |(_, series)| series[0])
+        };
+        echelon.push((0..velocities).map(slope).collect())
+    })
 }
 
 /// Polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.

@@ -16,6 +16,8 @@ use crate::verdict::Sampler;
 const SPARE: usize = 8;
 /// Lanes of the evaluation.
 const LANES: usize = 8;
+/// Blocks at which a function may be undefined before it is given up; roots exist at half of them.
+const TRIALS: usize = 16;
 
 /// Functions on the level, evaluated at random states for random parameters modulo a prime.
 pub struct Functions {
@@ -45,20 +47,46 @@ impl Functions {
         Ok(Self { graph, outputs, draws: sampler.recipes().to_vec(), modulus, chance })
     }
 
+    /// The functions that have a value somewhere.
+    pub fn defined(&mut self) -> Vec<usize> {
+        let mut has_value = vec![false; self.outputs.len()];
+        self.visit(TRIALS, &mut |row| {
+            for (known, value) in has_value.iter_mut().zip(row) {
+                *known |= value != UNDEFINED;
+            }
+            !has_value.iter().all(|known| *known)
+        });
+        (0..has_value.len()).filter(|column| has_value[*column]).collect()
+    }
+
+    /// Leaves only some of the functions.
+    pub fn restrict(&mut self, columns: &[usize]) {
+        self.outputs = columns.iter().map(|j| self.outputs[*j].clone()).collect();
+    }
+
     /// A basis of the relations among the columns, by echelon form.
     pub fn relations(&mut self) -> Result<Relations, SearchError> {
         let columns = self.outputs.len();
-        let height = self.outputs.first().map_or(0, Vec::len);
-        let outputs = self.outputs.concat();
-        let tape = Tape::new(&self.graph, &outputs);
-        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; LANES]));
         let mut echelon = Echelon::new(columns, self.modulus);
-        let (mut dependent, mut blocks) = (0, 0);
-        while dependent < SPARE {
-            blocks += 1;
-            if blocks > 64 * (columns + SPARE) {
-                return Err(SearchError::NoPoints);
+        let mut dependent = 0;
+        self.visit(64 * (columns + SPARE), &mut |row| {
+            if !row.contains(&UNDEFINED) {
+                dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             }
+            dependent < SPARE
+        });
+        match dependent < SPARE {
+            true => Err(SearchError::NoPoints),
+            false => Ok(Relations { echelon, modulus: self.modulus }),
+        }
+    }
+
+    /// Shows the functions at random points, component by component, until `look` has seen enough.
+    fn visit(&mut self, blocks: usize, look: &mut dyn FnMut(Vec<u64>) -> bool) {
+        let height = self.outputs.first().map_or(0, Vec::len);
+        let tape = Tape::new(&self.graph, &self.outputs.concat());
+        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; LANES]));
+        for _ in 0..blocks {
             let inputs: Vec<[u64; LANES]> =
                 (0..self.graph.inputs()).map(|input| self.draw(input)).collect();
             evaluator.run(&inputs);
@@ -66,15 +94,12 @@ impl Functions {
             for lane in 0..LANES {
                 for component in 0..height {
                     let column = values.iter().skip(component).step_by(height);
-                    let row: Vec<u64> = column.map(|block| block[lane]).collect();
-                    if row.contains(&UNDEFINED) {
-                        continue;
+                    if !look(column.map(|block| block[lane]).collect()) {
+                        return;
                     }
-                    dependent = if echelon.push(row) { 0 } else { dependent + 1 };
                 }
             }
         }
-        Ok(Relations { echelon, modulus: self.modulus })
     }
 
     fn draw(&mut self, input: usize) -> [u64; LANES] {
@@ -96,8 +121,8 @@ pub struct Relations {
 
 impl Relations {
     /// The columns that do not depend on those before them.
-    pub fn independent(&self, columns: usize) -> Vec<usize> {
-        (0..columns).filter(|column| self.echelon.has_pivot(*column)).collect()
+    pub fn independent(&self) -> Vec<usize> {
+        (0..self.echelon.columns()).filter(|column| self.echelon.has_pivot(*column)).collect()
     }
 
     /// A basis of the relations with rational coefficients; others are left out and counted.

@@ -67,7 +67,7 @@ impl Coordinates {
     }
 
     /// The state at a point of these coordinates.
-    fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
+    pub fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
         let (one, two) = (T::one(), T::from(2.0));
         let normal = |u: T, v: T| {
             let scale = (one + u * u + v * v).recip();
