@@ -136,6 +136,9 @@ pub struct Search {
     /// Do not compare finds with what the case claims
     #[arg(long)]
     pub blind: bool,
+    /// Find the parameters for which a density exists, or claims hold that fail in general
+    #[arg(long)]
+    pub conditions: bool,
     /// Leave out a count that may take longer than this
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,

@@ -14,6 +14,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
+        conditions: options.conditions,
         seconds: options.seconds,
         options: liouville::verdict::Options {
             seed: options.seed,

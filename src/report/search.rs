@@ -11,6 +11,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
         "counts": report.counts,
         "found": report.found,
         "excluded": report.excluded,
+        "conditions": report.conditions,
         "remarks": report.remarks,
     }))
 }
@@ -56,6 +57,13 @@ pub fn text(title: &str, report: &Report) -> String {
     }
     for excluded in &report.excluded {
         out.push_str(&format!("\ntheorem\n  {}\n", excluded.theorem));
+    }
+    for condition in &report.conditions {
+        out.push_str(&format!("\ncondition for: {}\n", condition.of));
+        for equation in &condition.equations {
+            out.push_str(&format!("  {equation}\n"));
+        }
+        out.push_str(&format!("  ({})\n", condition.grounds));
     }
     for remark in &report.remarks {
         out.push_str(&format!("\nnote: {remark}\n"));

@@ -8,6 +8,7 @@
 //! ```
 
 mod ask;
+mod conditions;
 mod counts;
 mod densities;
 mod echelon;
@@ -28,6 +29,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
+pub use conditions::Condition;
 pub use counts::CountReport;
 
 /// Why a search cannot be made.
@@ -84,6 +86,8 @@ pub struct Effort {
     pub degree: u32,
     /// Ignore what the case claims.
     pub blind: bool,
+    /// Look for conditions on the parameters too.
+    pub conditions: bool,
     /// A count that may take longer is left out.
     pub seconds: f64,
     /// How finds are judged.
@@ -168,6 +172,9 @@ pub struct Report {
     pub found: Vec<Found>,
     /// What cannot be.
     pub excluded: Vec<Excluded>,
+    /// For which parameters claims hold that fail in general.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<Condition>,
     /// What could not be done, and why.
     pub remarks: Vec<String>,
 }
@@ -203,6 +210,9 @@ pub fn search(
     progress("terms of integrals");
     integrals::integrals(case, effort, &mut report)?;
     counts::conclude(case, effort, &mut report)?;
+    if effort.conditions {
+        report.conditions = conditions::conditions(case, effort, progress)?;
+    }
     Ok(report)
 }
 
