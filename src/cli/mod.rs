@@ -136,9 +136,10 @@ pub struct Search {
     /// Do not compare finds with what the case claims
     #[arg(long)]
     pub blind: bool,
-    /// Find the parameters for which a density exists, or claims hold that fail in general
-    #[arg(long)]
-    pub conditions: bool,
+    /// Find the parameters for which a density or more integrals exist, or a claim holds that fails
+    /// in general: --conditions, --conditions=NAME
+    #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub conditions: Option<String>,
     /// Leave out a count that may take longer than this
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,

@@ -29,7 +29,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
-pub use conditions::Condition;
+pub use conditions::{Condition, Wanted};
 pub use counts::CountReport;
 
 /// Why a search cannot be made.
@@ -47,6 +47,12 @@ pub enum SearchError {
     /// The field has functions that no prime field has, or no value anywhere.
     #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
     NoSeries,
+    /// A minor is no fraction of low degree in a parameter.
+    #[error("the equations are no fractions of low degree in the parameter")]
+    NoFraction,
+    /// The case has no such claim.
+    #[error("the case has no claim `{0}`")]
+    NoClaim(String),
     /// The count did not come to rest.
     #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
     Unsettled(u32),
@@ -73,6 +79,7 @@ impl SearchError {
         match self {
             SearchError::Judge(error) => error.help(),
             SearchError::NoChart => "give [level.chart], or level equations that can be solved",
+            SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
             _ => "see docs/writing-a-case.md",
         }
@@ -87,7 +94,7 @@ pub struct Effort {
     /// Ignore what the case claims.
     pub blind: bool,
     /// Look for conditions on the parameters too.
-    pub conditions: bool,
+    pub conditions: Option<Wanted>,
     /// A count that may take longer is left out.
     pub seconds: f64,
     /// How finds are judged.
@@ -210,8 +217,8 @@ pub fn search(
     progress("terms of integrals");
     integrals::integrals(case, effort, &mut report)?;
     counts::conclude(case, effort, &mut report)?;
-    if effort.conditions {
-        report.conditions = conditions::conditions(case, effort, progress)?;
+    if let Some(wanted) = &effort.conditions {
+        report.conditions = conditions::conditions(case, wanted, effort, progress)?;
     }
     Ok(report)
 }

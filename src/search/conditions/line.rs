@@ -162,8 +162,7 @@ impl<'r> Lines<'r> {
                 let plain = ring.fraction(&value(&|x| x));
                 plain.or_else(|| ring.fraction(&value(&|x| m.mul(x, x)))).map(|(above, _)| above)
             };
-            let all: Option<Vec<Polynomial>> =
-                (0..self.residual.height()).map(component).collect();
+            let all: Option<Vec<Polynomial>> = (0..self.residual.height()).map(component).collect();
             if let Some(all) = all {
                 self.enough = wanted;
                 return Ok(all);
@@ -183,8 +182,7 @@ impl<'r> Lines<'r> {
             let points = std::array::from_fn(|_| {
                 [parameters, &self.residual.state(&m, &mut self.chance)].concat()
             });
-            for Seen { residual, components: own } in
-                self.residual.at(&mut self.evaluator, &points)
+            for Seen { residual, components: own } in self.residual.at(&mut self.evaluator, &points)
             {
                 match residual {
                     Some(residual) if residual.iter().any(|x| *x != 0) => return None,

@@ -3,6 +3,8 @@
 //! ```text
 //! line      where on a random line of parameters does the residual vanish for all states?
 //! variety   the equations of least degree at the points found on many lines
+//! small     conditions of codimension two, met by chance in small fields
+//! minors    values of one parameter for which there are more integrals
 //! ```
 //!
 //! A condition of codimension one meets almost every line (over the closure of the field), so that no
@@ -11,17 +13,20 @@
 
 mod coordinates;
 mod line;
+mod minors;
 mod polynomial;
 mod residual;
+mod small;
 mod variety;
 
 use serde::Serialize;
 
 use super::{Effort, SearchError};
 use crate::case::{Case, Claim};
-use crate::verdict::{Verdict, judge};
 use line::{Along, Lines};
 use residual::Residual;
+
+use super::local::Local;
 
 /// The highest degree of an equation that is looked for.
 const DEGREE: u32 = 5;
@@ -43,29 +48,72 @@ pub struct Condition {
     pub grounds: String,
 }
 
-/// The conditions under which a density of the configuration exists, and under which the claims of
-/// the case hold that fail in general.
+/// What conditions are wanted for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// A density of the configuration; integrals of degree 1 and 2 in the velocities.
+    Existence,
+    /// A claim, by its name.
+    Claim(String),
+}
+
+/// The conditions under which something holds that fails in general.
 pub fn conditions(
     case: &Case,
+    wanted: &Wanted,
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Vec<Condition>, SearchError> {
     let mut found = Vec::new();
-    if case.model.system.has_criterion() {
-        progress("conditions for a density of the configuration");
-        found.extend(condition(case, None, effort)?);
-    }
-    if effort.blind {
-        return Ok(found);
-    }
-    let verdicts = judge(case, &effort.options)?.claims;
-    for (claim, report) in case.claims.iter().zip(verdicts) {
-        if report.verdict == Verdict::Refuted && claim.kind.name() != "independent" {
-            progress(&format!("conditions for {}", claim.name));
+    match wanted {
+        Wanted::Claim(name) => {
+            let named = case.claims.iter().find(|claim| &claim.name == name);
+            let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
+            progress(&format!("conditions for {name}"));
             found.extend(condition(case, Some(claim), effort)?);
+        }
+        Wanted::Existence => {
+            if case.model.system.has_criterion() {
+                progress("conditions for a density of the configuration");
+                found.extend(condition(case, None, effort)?);
+            }
+            integrals(case, effort, progress, &mut found)?;
         }
     }
     Ok(found)
+}
+
+/// The values of single parameters for which there are more integrals of degree 1 or 2.
+fn integrals(
+    case: &Case,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+    found: &mut Vec<Condition>,
+) -> Result<(), SearchError> {
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let local = match Local::of(case, &[]) {
+        Err(SearchError::Unsplit(_)) => return Ok(()),
+        local => local?,
+    };
+    for degree in 1..=effort.degree.min(2) {
+        for parameter in minors::scalars(case) {
+            let of = format!("more integrals of degree {degree}");
+            progress(&format!("{of}, by {}", parameter.0));
+            let seed = effort.options.seed;
+            let (equations, grounds) =
+                match minors::relations(case, &local, degree, mixed, &parameter, seed) {
+                    Ok(relations) if relations.is_empty() => continue,
+                    Ok(relations) => {
+                        (relations, "minors of the equations for Taylor coefficients".to_string())
+                    }
+                    Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
+                    Err(error) => return Err(error),
+                };
+            let of = format!("{of}, by the value of {}", parameter.0);
+            found.push(Condition { of, equations, grounds });
+        }
+    }
+    Ok(())
 }
 
 /// The conditions for one claim, or for the criterion; nothing if it holds always.
@@ -114,7 +162,11 @@ fn condition(
             }
         }
         if line == BARREN && degree == 0 {
-            return told(Vec::new(), format!("no condition of codimension one: {BARREN} lines"));
+            let (systems, met) = small::conditions(&residual, effort.options.seed);
+            let grounds = format!(
+                "no condition of codimension one on {BARREN} random lines; {met} points met by chance modulo 43"
+            );
+            return told(systems, grounds);
         }
         let coordinates = variety::varying(&points).len();
         if points.len() >= variety::needed(coordinates, tried + 1) {
@@ -132,6 +184,7 @@ fn condition(
         }
     }
     equations.retain(|(_, count)| *count >= REPEATED);
-    let grounds = format!("{seen} points on random lines; the condition has degree {degree} along them");
+    let grounds =
+        format!("{seen} points on random lines; the condition has degree {degree} along them");
     told(equations.into_iter().map(|(text, _)| text).collect(), grounds)
 }

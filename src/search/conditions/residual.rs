@@ -8,6 +8,7 @@ use crate::mechanics::Draw;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::proof::Chance;
 use crate::search::SearchError;
+use crate::search::local::random;
 use crate::search::terms::recorded;
 use crate::verdict::Sampler;
 
@@ -100,13 +101,7 @@ impl Residual {
 
     /// Random draws of the parameters; of a list the first is taken.
     pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
-        let draw = |draw: &Draw| match draw {
-            Draw::OneOf(values) => {
-                values.first().and_then(|value| modulus.rational(value)).unwrap_or(0)
-            }
-            Draw::Within(_) => chance.element(modulus),
-        };
-        self.parameters.iter().map(draw).collect()
+        random(&self.parameters, modulus, chance)
     }
 
     /// For each draw of the parameters: is it more than one of a list?
@@ -130,9 +125,8 @@ impl Residual {
         evaluator: &mut Evaluator<'_, Prime<LANES>>,
         points: &[Vec<u64>; LANES],
     ) -> [Seen; LANES] {
-        let inputs: Vec<[u64; LANES]> = (0..self.inputs)
-            .map(|input| std::array::from_fn(|lane| points[lane][input]))
-            .collect();
+        let inputs: Vec<[u64; LANES]> =
+            (0..self.inputs).map(|input| std::array::from_fn(|lane| points[lane][input])).collect();
         evaluator.run(&inputs);
         let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
         std::array::from_fn(|lane| {

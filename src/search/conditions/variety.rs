@@ -62,14 +62,16 @@ pub fn varying(points: &[Vec<u64>]) -> Vec<usize> {
     (0..first.len()).filter(|k| !constant(*k) && !copy(*k)).collect()
 }
 
-fn power(coordinates: &[u64], exponents: &[u32], m: &Modulus) -> u64 {
+/// The value of a monomial.
+pub fn power(coordinates: &[u64], exponents: &[u32], m: &Modulus) -> u64 {
     coordinates
         .iter()
         .zip(exponents)
         .fold(m.one(), |product, (x, e)| m.mul(product, m.power(*x, u64::from(*e))))
 }
 
-fn monomial(names: &[&str], exponents: &[u32]) -> String {
+/// A monomial as text.
+pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
     let used = names.iter().zip(exponents).filter(|(_, e)| **e > 0);
     let factors: Vec<String> = used
         .map(|(name, e)| match e {
