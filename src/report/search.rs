@@ -11,6 +11,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
         "counts": report.counts,
         "found": report.found,
         "excluded": report.excluded,
+        "second_opinions": report.opinions,
         "conditions": report.conditions,
         "remarks": report.remarks,
     }))
@@ -57,6 +58,15 @@ pub fn text(title: &str, report: &Report) -> String {
     }
     for excluded in &report.excluded {
         out.push_str(&format!("\ntheorem\n  {}\n", excluded.theorem));
+    }
+    for opinion in &report.opinions {
+        let Some(zero) = opinion.largest_zero else { continue };
+        let verdict = if opinion.agrees() { "agree" } else { "DO NOT AGREE" };
+        out.push_str(&format!(
+            "\nsecond opinion, terms over {}: the singular values of {} terms at {} states in f64 {verdict} \
+             with {} relations: {:.1e}, then {zero:.1e}\n",
+            opinion.denominator, opinion.terms, opinion.states, opinion.relations, opinion.smallest
+        ));
     }
     for condition in &report.conditions {
         out.push_str(&format!("\ncondition for: {}\n", condition.of));

@@ -7,6 +7,11 @@ use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, Report, SearchError};
 use crate::case::Case;
+use crate::mechanics::Draw;
+use crate::number::rational::Rational;
+
+/// Combinations of listed values that are counted one by one.
+const MOST_LISTED: usize = 64;
 
 /// Elementary steps of an elimination a second, at the least.
 const STEPS: f64 = 1e9;
@@ -69,16 +74,24 @@ fn series(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let local = match Local::of(case, &[]) {
-        Ok(local) => local,
-        Err(error @ SearchError::Unsplit(_)) => {
-            report.remark(error.to_string());
-            return Ok(());
+    let mut locals = Vec::new();
+    for fixed in listed(&case.model.parameter_draws()) {
+        match Local::of(case, &fixed) {
+            Ok(local) => locals.push(local),
+            Err(error @ SearchError::Unsplit(_)) => {
+                report.remark(error.to_string());
+                return Ok(());
+            }
+            Err(error) => return Err(error),
         }
-        Err(error) => return Err(error),
+    }
+    let Some(first) = locals.first() else {
+        report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
+        return Ok(());
     };
     for degree in degrees {
-        let (unknowns, seconds) = size(&local, degree, mixed);
+        let (unknowns, seconds) = size(first, degree, mixed);
+        let seconds = seconds * locals.len() as f64;
         let megabytes = unknowns * unknowns * 8 / 1_000_000;
         progress(&format!(
             "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {megabytes} MB"
@@ -90,8 +103,13 @@ fn series(
             return Ok(());
         }
         let known = energy.products(degree, mixed);
-        match jets::count(&local, degree, mixed, known, effort.options.seed) {
-            Ok(jets::Count { dimension, size: (unknowns, equations), .. }) => {
+        let seed = effort.options.seed;
+        // The theorem is about all values of the lists.
+        let counts: Result<Vec<jets::Count>, SearchError> =
+            locals.iter().map(|local| jets::count(local, degree, mixed, known, seed)).collect();
+        match counts.map(|counts| counts.into_iter().max_by_key(|count| count.dimension)) {
+            Ok(None) => {}
+            Ok(Some(jets::Count { dimension, size: (unknowns, equations), .. })) => {
                 report.counts.push(CountReport {
                     degree,
                     mixed,
@@ -109,6 +127,25 @@ fn series(
         }
     }
     Ok(())
+}
+
+/// The combinations of the values of parameters that have a list, if they are few.
+fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
+    let mut combinations = vec![Vec::new()];
+    for draw in draws {
+        let values = match draw {
+            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
+            Draw::Within(_) => vec![None],
+        };
+        if combinations.len() * values.len() > MOST_LISTED {
+            return Vec::new();
+        }
+        let extended = combinations.iter().flat_map(|known: &Vec<Option<Rational>>| {
+            values.iter().map(|value| known.iter().cloned().chain([value.clone()]).collect())
+        });
+        combinations = extended.collect();
+    }
+    combinations
 }
 
 /// Unknowns, and a bound for the seconds.

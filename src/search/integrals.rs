@@ -5,6 +5,7 @@ use num_dual::Dual;
 use super::ask::{claimed, holds, independent, judged, quoted};
 use super::library;
 use super::linear::Functions;
+use super::second_opinion::second_opinion;
 use super::terms::{Term, read, recorded, sum};
 use super::{Effort, Found, Report, SearchError};
 use crate::case::Case;
@@ -76,8 +77,11 @@ fn candidates(
             let rate = |term: &Term| (moved.scalar(&term.formula) / below).eps;
             terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
         })?;
-        let relations = Functions::new(case, &graph, &rates, effort.options.seed)?.relations()?;
-        let (vectors, irrational) = relations.rational();
+        let seed = effort.options.seed;
+        let mut functions = Functions::new(case, &graph, &rates, seed)?;
+        let (vectors, irrational) = functions.relations()?.rational();
+        let dimension = vectors.len() + irrational;
+        report.opinions.extend(second_opinion(&functions, &denominator.text, dimension, seed));
         if irrational > 0 {
             let many = format!("{irrational} relations have no small rational coefficients");
             report.remark(many);

@@ -6,9 +6,11 @@ use super::echelon::Echelon;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Graph, Tape};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, Draws};
+use crate::number::ball::Ball;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::rational::Rational;
+use crate::number::{Domain, Enclosing};
 use crate::proof::{Chance, reconstruct};
 use crate::verdict::Sampler;
 
@@ -62,6 +64,43 @@ impl Functions {
     /// Leaves only some of the functions.
     pub fn restrict(&mut self, columns: &[usize]) {
         self.outputs = columns.iter().map(|j| self.outputs[*j].clone()).collect();
+    }
+
+    /// How many functions there are.
+    pub fn count(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The functions at states and parameters in f64, a row for each component; what rounding does not
+    /// tell from 0 is 0.
+    pub fn floats(&self, states: usize, seed: u64) -> Vec<Vec<f64>> {
+        let height = self.outputs.first().map_or(0, Vec::len);
+        let tape = Tape::new(&self.graph, &self.outputs.concat());
+        let mut evaluator = Evaluator::new(&tape, Ball::<1>);
+        let first = |draw: &Draw| match draw {
+            Draw::OneOf(values) => Draw::OneOf(values.iter().take(1).cloned().collect()),
+            within => within.clone(),
+        };
+        let draws = Draws::new(&self.draws.iter().map(first).collect::<Vec<Draw>>());
+        let mut rows = Vec::new();
+        for index in 0..states as u64 {
+            let drawn = draws.state(seed, index);
+            let mut inputs: Vec<_> =
+                drawn.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
+            inputs.resize(self.graph.inputs(), Ball::<1>.constant(&Rational::from(1)));
+            evaluator.run(&inputs);
+            let value = |block| match Ball::<1>::enclosure(block, 0) {
+                Some((middle, radius)) if middle.abs() > radius => middle,
+                Some(_) => 0.0,
+                None => f64::NAN,
+            };
+            let values: Vec<f64> = evaluator.outputs().map(value).collect();
+            rows.extend((0..height).map(|component| {
+                values.iter().skip(component).step_by(height).copied().collect::<Vec<f64>>()
+            }));
+        }
+        rows.retain(|row| row.iter().all(|x| x.is_finite()));
+        rows
     }
 
     /// A basis of the relations among the columns, by echelon form.

@@ -18,6 +18,7 @@ mod library;
 mod linear;
 mod local;
 mod products;
+mod second_opinion;
 mod series;
 mod terms;
 
@@ -31,6 +32,7 @@ use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
 pub use conditions::{Condition, Wanted};
 pub use counts::CountReport;
+pub use second_opinion::SecondOpinion;
 
 /// Why a search cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -179,6 +181,8 @@ pub struct Report {
     pub found: Vec<Found>,
     /// What cannot be.
     pub excluded: Vec<Excluded>,
+    /// Singular values of the matrices in which integrals were looked for.
+    pub opinions: Vec<SecondOpinion>,
     /// For which parameters claims hold that fail in general.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<Condition>,
