@@ -65,7 +65,14 @@ fn candidates(
 ) -> Result<Vec<String>, SearchError> {
     let model = &case.model;
     let vocabulary = &model.vocabulary;
-    let terms = distinct(case, read(library::integrals(model), vocabulary), effort, report)?;
+    let own = read(effort.terms.clone(), vocabulary);
+    if own.len() < effort.terms.len() {
+        let unread = |text: &&String| !own.iter().any(|term| &term.text == *text);
+        let text = effort.terms.iter().find(unread).cloned().unwrap_or_default();
+        return Err(SearchError::NoTerm(text));
+    }
+    let offered = read(library::integrals(model), vocabulary);
+    let terms = distinct(case, [own, offered].concat(), effort, report)?;
     let mut candidates = Vec::new();
     if terms.is_empty() {
         return Ok(candidates);

@@ -52,6 +52,9 @@ pub enum SearchError {
     /// A minor is no fraction of low degree in a parameter.
     #[error("the equations are no fractions of low degree in the parameter")]
     NoFraction,
+    /// A term of the user's cannot be read.
+    #[error("the term `{0}` is no scalar in the names of the case")]
+    NoTerm(String),
     /// The case has no such claim.
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
@@ -95,6 +98,8 @@ pub struct Effort {
     pub degree: u32,
     /// Ignore what the case claims.
     pub blind: bool,
+    /// Terms of integrals beside those that the system offers.
+    pub terms: Vec<String>,
     /// Look for conditions on the parameters too.
     pub conditions: Option<Wanted>,
     /// A count that may take longer is left out.
