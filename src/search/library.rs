@@ -53,6 +53,22 @@ struct Pieces {
     free: Texts,
 }
 
+/// What potentials that separate in the sphero-conical coordinates of a tensor A add: polynomials of
+/// degree 2 and 4, and p/γ_k².
+fn separable(parameter: &str, a: &str) -> Texts {
+    let mut terms = vec![
+        format!("{parameter}*(γ,adj({a})*γ)"),
+        format!("{parameter}*tr({a})*(γ,{a}*γ)"),
+        format!("{parameter}*({a}*γ,{a}*γ)"),
+        format!("{parameter}*(γ,{a}*γ)*(γ,adj({a})*γ)"),
+    ];
+    for k in 1..=3 {
+        let entries = [format!("({a})[{k},{k}]"), format!("tr({a})"), format!("(γ,{a}*γ)")];
+        terms.extend(entries.iter().map(|entry| format!("{parameter}/γ{k}²*{entry}")));
+    }
+    terms
+}
+
 fn pieces(model: &Model) -> Pieces {
     let matrix = |name: &str| has(model, name, Type::Matrix);
     let scalar = |name: &str| has(model, name, Type::Scalar);
@@ -106,9 +122,12 @@ fn pieces(model: &Model) -> Pieces {
                 pieces
                     .free
                     .push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
+                let tensor = if matrix("B") { "B⁻¹" } else { constant };
+                pieces.free.extend(separable(&parameter, tensor));
             }
             if body.potential.is_some() {
                 pieces.free.extend(pieces.weights.iter().map(|weight| product(&["U", weight])));
+                pieces.free.push("U*(γ,adj(B⁻¹)*(B*γ))".to_string());
             }
         }
         System::FlatBase(body) => {
