@@ -99,13 +99,16 @@ impl System {
         }
     }
 
-    /// The same body without potential, gyrostat and further moment; nothing where it is not known
-    /// what belongs to the free motion.
+    /// The same body without potential and gyrostat; nothing where it is not known what belongs to the
+    /// free motion (a further moment may be quadratic in the velocities).
     pub fn without_forces(&self) -> Option<System> {
         let mut free = self.clone();
         match &mut free {
             System::Rubber(body) => {
-                (body.potential, body.gyrostat, body.moment) = (None, None, None);
+                if body.moment.is_some() {
+                    return None;
+                }
+                (body.potential, body.gyrostat) = (None, None);
             }
             System::FlatBase(body) => body.gyrostat = None,
             System::Ball(ball) => {
