@@ -106,9 +106,54 @@ fn integrals_are_counted() {
 }
 
 #[test]
+fn symmetry_fields_are_found_and_proved() {
+    let cases: [(&str, &[&str]); 4] = [
+        (
+            "plane/revolution",
+            &["ω: [ω[2], −ω[1], 0], γ: [γ[2], −γ[1], 0]", "ω: [ω[1], ω[2], ω[3]]; [u,v] = 1 v"],
+        ),
+        ("plane/balanced-ball", &["ω: [ω[1], ω[2], ω[3]]; [u,v] = 1 v"]),
+        ("plane/balanced-ball-gyrostat", &[]),
+        (
+            "flat-base/symmetric-base",
+            &["ω1: ω2, ω2: −ω1, r1: r2, r2: −r1", "ω1: ω1, ω2: ω2; [u,v] = 1 v"],
+        ),
+    ];
+    for (path, expected) in cases {
+        let report = searched(path, &effort(0));
+        let found: Vec<&str> = report.formulas("symmetry-field").collect();
+        assert_eq!(found, expected, "{path}");
+        assert!(report.found.iter().all(|found| found.verdict == Verdict::Proved), "{path}");
+    }
+}
+
+#[test]
+fn potentials_that_separate_keep_an_integral() {
+    let body = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nR = '1..2'\n\
+                I = 'inertia(0.5..5)'\na = '0.5..2'\nl = '0.1..0.3'\n[body]\nshape = 'ball'\npotential = ";
+    for (potential, integral) in [
+        ("'a/γ1²'", "(Ĩ*ω,Ĩ*ω) − (Ĩ*ω,γ)² − 2*a/γ1²*(J)[1,1] + 2*a/γ1²*tr(J) − 2*a/γ1²*(γ,J*γ)"),
+        ("'a*((J*γ,J*γ) − (γ,J*γ)²)'", "(Ĩ*ω,Ĩ*ω) − (Ĩ*ω,γ)² + 2*a*(γ,J*γ)*(γ,adj(J)*γ)"),
+    ] {
+        let report = search(&case(&format!("{body}{potential}")), &effort(2), &mut |_| {});
+        let report = report.expect("it can be searched");
+        assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral], "{potential}");
+    }
+    // A generating function of them, with a term of the user's.
+    let text = format!("{body}'a/(γ,inverse(J − l*E)*γ)'");
+    let mut effort = effort(2);
+    effort.terms = vec!["U*(γ,adj(J)*(inverse(J − l*E)*γ))".to_string()];
+    let report = search(&case(&text), &effort, &mut |_| {}).expect("it can be searched");
+    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    effort.terms = vec!["U*ω".to_string()];
+    let error = search(&case(&text), &effort, &mut |_| {}).expect_err("a vector is no term");
+    assert!(error.to_string().contains("U*ω"), "{error}");
+}
+
+#[test]
 fn nothing_is_found_where_there_is_nothing() {
     let report = searched("plane/ellipsoid-generic", &effort(4));
-    assert!(report.found.is_empty(), "{:?}", report.found);
+    assert_eq!(report.formulas("integral").count() + report.formulas("density").count(), 0);
     let theorem = &report.excluded[0].theorem;
     assert!(theorem.contains("of degree at most 4 is a polynomial in energy"), "{theorem}");
 }

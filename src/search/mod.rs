@@ -20,6 +20,7 @@ mod local;
 mod products;
 mod second_opinion;
 mod series;
+mod symmetries;
 mod terms;
 
 use serde::Serialize;
@@ -225,6 +226,8 @@ pub fn search(
     densities::densities(case, effort, &mut report)?;
     progress("terms of integrals");
     integrals::integrals(case, effort, &mut report)?;
+    progress("linear symmetry fields");
+    symmetries::symmetries(case, effort, &mut report)?;
     counts::conclude(case, effort, &mut report)?;
     if let Some(wanted) = &effort.conditions {
         report.conditions = conditions::conditions(case, wanted, effort, progress)?;

@@ -65,7 +65,13 @@ pub fn sum(coefficients: &[Rational], terms: &[&str]) -> String {
     written(&multiples, terms)
 }
 
-fn written(multiples: &[BigInt], terms: &[&str]) -> String {
+/// The same coefficients without denominators.
+pub fn integers(coefficients: &[Rational]) -> Vec<BigInt> {
+    cleared(coefficients).0
+}
+
+/// Σ a_j T_j as one writes it; nothing for an empty sum.
+pub fn written(multiples: &[BigInt], terms: &[&str]) -> String {
     let mut text = String::new();
     for (multiple, term) in multiples.iter().zip(terms).filter(|(a, _)| !a.is_zero()) {
         let sign = match (text.is_empty(), multiple.is_negative()) {
