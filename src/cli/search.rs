@@ -25,6 +25,10 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             ..liouville::verdict::Options::default()
         },
     };
+    if let Some(plan) = search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
+        let search::Plan { unknowns, seconds, megabytes } = plan;
+        eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
+    }
     let spinner = match std::io::stderr().is_terminal() {
         true => ProgressBar::new_spinner(),
         false => ProgressBar::hidden(),

@@ -35,6 +35,34 @@ pub struct CountReport {
     pub equations: usize,
 }
 
+/// How large the systems of a count get, and how long it may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Unknowns of the largest system.
+    pub unknowns: u64,
+    /// A bound for the seconds of all.
+    pub seconds: f64,
+    /// A bound for the memory of the largest.
+    pub megabytes: u64,
+}
+
+/// What counting integrals as far as the effort goes may take; nothing if they cannot be counted.
+pub fn plan(case: &Case, effort: &Effort) -> Option<Plan> {
+    let local = Local::of(case, &[]).ok()?;
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let combinations = listed(&case.model.parameter_draws()).len() as f64;
+    let sizes = (1..=effort.degree).map(|degree| size(&local, degree, mixed));
+    let counted = sizes.map(|(unknowns, seconds)| (unknowns, seconds * combinations));
+    let (unknowns, seconds) = counted
+        .filter(|(_, seconds)| *seconds <= effort.seconds)
+        .fold((0, 0.0), |(most, sum), (unknowns, seconds)| (unknowns.max(most), sum + seconds));
+    Some(Plan { unknowns, seconds, megabytes: megabytes(unknowns) })
+}
+
+fn megabytes(unknowns: u64) -> u64 {
+    unknowns * unknowns * 8 / 1_000_000
+}
+
 /// Counts integrals degree by degree, as far as the effort goes; first those of the free motion, as
 /// the leading form of an integral is one of them.
 pub fn count(
@@ -92,9 +120,9 @@ fn series(
     for degree in degrees {
         let (unknowns, seconds) = size(first, degree, mixed);
         let seconds = seconds * locals.len() as f64;
-        let megabytes = unknowns * unknowns * 8 / 1_000_000;
         progress(&format!(
-            "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {megabytes} MB"
+            "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {} MB",
+            megabytes(unknowns)
         ));
         if seconds > effort.seconds {
             report.remark(format!(

@@ -32,7 +32,7 @@ use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
 pub use conditions::{Condition, Wanted};
-pub use counts::CountReport;
+pub use counts::{CountReport, Plan, plan};
 pub use second_opinion::SecondOpinion;
 
 /// Why a search cannot be made.
