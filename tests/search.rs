@@ -159,6 +159,18 @@ fn nothing_is_found_where_there_is_nothing() {
 }
 
 #[test]
+fn a_false_claim_makes_no_theorem() {
+    let body = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nI = 'inertia(0.5..5)'\n\
+                B = 'diag(1..3)'\n[body]\nshape = 'ellipsoid'\n[[claim]]\nname = 'F'\nintegral = '(Ĩ*ω,ω1*γ)'\n";
+    let report = search(&case(body), &effort(2), &mut |_| {}).expect("it can be searched");
+    assert!(
+        report.excluded[0].theorem.contains("a polynomial in energy."),
+        "{:?}",
+        report.excluded
+    );
+}
+
+#[test]
 fn a_force_that_is_no_potential_makes_no_false_theorem() {
     let oscillator = case(
         "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\n\"x'\" = '1..2'\n[lagrangian]\n\

@@ -42,18 +42,29 @@ pub fn independent(
     Ok(reports.into_iter().find(proved).map(|report| report.evidence))
 }
 
-/// The scalar integrals that a case claims, by name, less those that are functions of the energy.
+/// The scalar integrals that a case claims and that hold, by name, less functions of the energy.
 pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<(String, String)>, SearchError> {
-    let mut found = Vec::new();
     if effort.blind {
-        return Ok(found);
+        return Ok(Vec::new());
     }
-    for claim in case.claims.iter().filter(|claim| claim.expect == Expect::Holds) {
-        let Kind::Integral(Integral(own)) = &claim.kind else { continue };
-        let text = own.text().to_string();
-        let is_new = |text| independent(case, &[], text, effort);
-        if own.value_type() == Type::Scalar && is_new(&text)?.is_some() {
-            found.push((claim.name.clone(), text));
+    let expected = case.claims.iter().filter(|claim| claim.expect == Expect::Holds);
+    let (mut names, mut texts) = (Vec::new(), Vec::new());
+    for claim in expected {
+        if let Kind::Integral(Integral(own)) = &claim.kind
+            && own.value_type() == Type::Scalar
+        {
+            names.push(claim.name.clone());
+            texts.push(own.text().to_string());
+        }
+    }
+    let statements: Vec<String> =
+        texts.iter().map(|text| format!("integral = {}", quoted(text))).collect();
+    let mut found = Vec::new();
+    for ((name, text), report) in
+        names.into_iter().zip(texts).zip(judged(case, &statements, effort)?)
+    {
+        if holds(&report) && independent(case, &[], &text, effort)?.is_some() {
+            found.push((name, text));
         }
     }
     Ok(found)
