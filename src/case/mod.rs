@@ -1,5 +1,6 @@
 //! A case file becomes a [`Case`]: a model with its names, a chart, and claims.
 
+mod ask;
 mod ball;
 mod body;
 mod build;

@@ -6,7 +6,7 @@ use super::System;
 use super::recipe::{Draw, Recipe};
 use super::variables::Variables;
 use super::vocabulary::{Meaning, Reach, Vocabulary};
-use crate::formula::{Formula, Type, Value};
+use crate::formula::{Formula, Scope, Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -117,9 +117,10 @@ impl Model {
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
         };
-        for (_, entry) in self.vocabulary.iter() {
+        for (symbol, entry) in self.vocabulary.iter() {
             let Meaning::Abbreviation(index) = entry.meaning else { continue };
-            if named.vocabulary.find(&entry.name).is_some() {
+            let is_hidden = self.vocabulary.lookup(&entry.name).is_none_or(|(s, _)| s != symbol);
+            if is_hidden || named.vocabulary.find(&entry.name).is_some() {
                 continue;
             }
             let text = self.abbreviations[index].text();
