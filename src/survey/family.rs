@@ -6,7 +6,9 @@
 //! `@a`, `@γ`, `@ω`, `@S`, `@I1`, `@I3` and `@name` in it stand for the axis and for components and
 //! moments along and across it.
 
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
+
+use super::data;
 
 /// A family of systems with the formulas to be tried on them.
 #[derive(Clone, Debug)]
@@ -96,49 +98,20 @@ pub fn all() -> Vec<Family> {
 
 /// A family from its file; a test makes sure that each can be read.
 fn read(text: &str) -> Option<Family> {
-    let (head, body) = text.split_at(text.find("\n[").map_or(text.len(), |end| end + 1));
-    let head = DeTable::parse(head).ok()?;
-    let head = head.get_ref();
-    let word = |key: &str| match head.get(key)?.get_ref() {
-        DeValue::String(text) => Some(text.to_string()),
-        _ => None,
-    };
-    let words = |key: &str| -> Vec<String> {
-        let Some(DeValue::Array(items)) = head.get(key).map(|value| value.get_ref()) else {
-            return Vec::new();
-        };
-        let each = items.iter().map(|item| match item.get_ref() {
-            DeValue::String(text) => Some(text.to_string()),
-            _ => None,
-        });
-        each.flatten().collect()
-    };
-    let claims = body.find("[[claim]]").map_or("", |start| &body[start..]);
+    let document = DeTable::parse(text).ok()?;
+    let table = document.get_ref();
+    let claims = text.find("[[claim]]").map_or("", |start| &text[start..]);
     Some(Family {
-        name: word("family")?,
-        systems: words("system"),
-        when: words("when"),
-        unless: words("unless"),
-        around: matches!(head.get("around").map(|v| v.get_ref()), Some(DeValue::Boolean(true))),
-        source: word("source").unwrap_or_default(),
-        note: word("note"),
-        definitions: definitions(&body[..body.len() - claims.len()])?,
+        name: data::word(table, "family")?,
+        systems: data::words(table, "system"),
+        when: data::words(table, "when"),
+        unless: data::words(table, "unless"),
+        around: data::flag(table, "around"),
+        source: data::word(table, "source").unwrap_or_default(),
+        note: data::word(table, "note"),
+        definitions: data::pairs(table, "let"),
         claims: claims.to_string(),
     })
-}
-
-/// The entries of `[let]`, in order.
-fn definitions(text: &str) -> Option<Vec<(String, String)>> {
-    let document = DeTable::parse(text).ok()?;
-    let Some(table) = document.get_ref().get("let") else { return Some(Vec::new()) };
-    let DeValue::Table(table) = table.get_ref() else { return None };
-    let mut entries: Vec<_> = table.iter().collect();
-    entries.sort_by_key(|(key, _)| key.span().start);
-    let pairs = entries.into_iter().map(|(key, value)| match value.get_ref() {
-        DeValue::String(text) => Some((key.get_ref().to_string(), text.to_string())),
-        _ => None,
-    });
-    pairs.collect()
 }
 
 impl Family {
@@ -150,7 +123,7 @@ impl Family {
     }
 
     /// The same family with other words for the placeholders.
-    pub fn with(&self, words: &[(&str, &str)]) -> Self {
+    pub fn with(&self, words: &[(&str, String)]) -> Self {
         let replace = |text: &String| {
             words.iter().fold(text.clone(), |text, (from, to)| text.replace(from, to))
         };

@@ -1,14 +1,17 @@
 //! What the prover recognises of a geometry: each fact is a claim about the case, and is judged like
 //! any other.
 //!
-//! A ball is known by its point of contact, not by the word that the file uses: r' = −R(E − γ⊗γ)γ'.
+//! A ball is known by its point of contact, not by the word that the file uses: ∂r = −R(E − γ⊗γ).
 
 use serde::Serialize;
+use toml::de::DeTable;
 
-use super::question::{Definition, Question};
+use super::axis::{self, Axis};
+use super::data;
+use super::question::{Definition, Question, define};
 use crate::case::Case;
 use crate::formula::{Scope, Type};
-use crate::mechanics::{Origin, Surface, System};
+use crate::mechanics::{Surface, System};
 use crate::verdict::{ClaimReport, JudgeError, Options, Verdict};
 
 /// A fact about a geometry, with its proof or its witness.
@@ -25,17 +28,6 @@ pub struct Fact {
     pub claim: Option<ClaimReport>,
 }
 
-/// An axis about which the body and its tensor of inertia may be turned.
-#[derive(Clone, Debug)]
-pub struct Axis {
-    /// Its name.
-    pub name: String,
-    /// Unit vector along it.
-    pub vector: String,
-    /// Its number, if it is one of the frame's.
-    pub index: Option<usize>,
-}
-
 /// What is known about a geometry.
 #[derive(Clone, Debug, Default)]
 pub struct Geometry {
@@ -47,92 +39,39 @@ pub struct Geometry {
     pub bindings: Vec<Definition>,
 }
 
-/// Facts of a system: name, words, statement of a claim.
-type Statement = (&'static str, &'static str, &'static str);
-
-const RUBBER: [Statement; 8] = [
-    ("ball", "the surface is a sphere", "identity = \"∂r = trace(∂r)/2*(E − γ ⊗ γ)\""),
-    ("central", "the surface is a sphere about the mass centre", "identity = \"r × γ = [0, 0, 0]\""),
-    ("ellipsoid", "the surface is an ellipsoid about the mass centre", "integral = \"Q\""),
-    (
-        "aligned",
-        "its axes and those of inertia are the frame's",
-        "identity = \"[Q12² + I12², Q13² + I13², Q23² + I23²] = [0, 0, 0]\"",
-    ),
-    ("spherical inertia", "the tensor of inertia is spherical", "identity = \"I = I1*E\""),
-    (
-        "I = mB + μE",
-        "I = mB + μE, with the matrix B of the ellipsoid",
-        "identity = \"I − m*Q = trace(I − m*Q)/3*E\"",
-    ),
-    (
-        "(3.8)",
-        "the moments of inertia and the axes satisfy (3.8)",
-        "identity = \"(Q2 − Q3)*(m*Q1*I1 − I2*I3) + (Q3 − Q1)*(m*Q2*I2 − I1*I3) + (Q1 − Q2)*(m*Q3*I3 − I1*I2) = 0\"",
-    ),
-    ("I₁ = I₂", "I₁ = I₂", "identity = \"I1 = I2\""),
+const TEXTS: [&str; 5] = [
+    include_str!("facts/rubber.toml"),
+    include_str!("facts/sphere.toml"),
+    include_str!("facts/flat-base.toml"),
+    include_str!("facts/surface-support.toml"),
+    include_str!("facts/surface-level.toml"),
 ];
 
-const CURVED: [Statement; 3] = [
-    ("kR = 1", "the ball and the sphere are equal, kR = 1", "identity = \"k*Rb = 1\""),
-    ("κ = −1", "κ = 1/(1 + kR) = −1", "identity = \"k*Rb = −2\""),
-    ("K = k²", "the Gaussian curvature of the body is k²", "identity = \"k²*trace(adj(∂r)) = 1\""),
-];
-
-const FLAT: [Statement; 3] = [
-    ("z = 0", "the mass centre is in the plane of the base", "identity = \"z = 0\""),
-    ("I₁ = I₂", "I₁ = I₂", "identity = \"I1 = I2\""),
-    ("diagonal inertia", "I is diagonal", "identity = \"[I12, I13, I23] = [0, 0, 0]\""),
-];
-
-const SUPPORT: [Statement; 2] = [
-    ("sphere", "the centre moves on a sphere", "identity = \"∂r = trace(∂r)/2*(E − γ ⊗ γ)\""),
-    ("quadric", "the centre moves on a quadric", "integral = \"r ⊗ r + h*∂r\""),
-];
-
-const LEVEL: [Statement; 2] = [
-    ("sphere", "the centre moves on a sphere about the origin", "identity = \"r × γ = [0, 0, 0]\""),
-    (
-        "circular cylinder",
-        "the centre moves on a circular cylinder about e3",
-        "identity = \"[γ3, r1*γ2 − r2*γ1, 0] = [0, 0, 0]\"",
-    ),
-];
+/// A fact to be asked: the claim, and the fact without which it has no meaning.
+struct Asked {
+    id: String,
+    words: String,
+    given: Option<String>,
+    claim: String,
+}
 
 impl Geometry {
     /// Recognises what it can.
     pub fn of(case: &Case, options: &Options) -> Result<Self, JudgeError> {
         let mut geometry = Self { bindings: bindings(case), ..Self::default() };
         geometry.read_features(case);
-        let statements: Vec<Statement> = match &case.model.system {
-            System::Rubber(body) if body.curvature.is_some() => [&RUBBER[..], &CURVED].concat(),
-            System::Rubber(_) => RUBBER.to_vec(),
-            System::FlatBase(_) => FLAT.to_vec(),
-            System::Ball(ball) => match ball.surface {
-                Surface::Support(_) => SUPPORT.to_vec(),
-                Surface::Level(_) => LEVEL.to_vec(),
-            },
-            System::Lagrangian(_) | System::Field(_) => Vec::new(),
-        };
-        let is_rubber = matches!(case.model.system, System::Rubber(_));
-        let mut names = geometry.bindings.clone();
-        if is_rubber {
-            names.extend([
-                define("Q", "r ⊗ r − h*∂r"),
-                define("Rb", "−trace(∂r)/2"),
-                define("cb", "−(r + Rb*γ)"),
-            ]);
+        for text in TEXTS {
+            let Ok(document) = DeTable::parse(text) else { continue };
+            geometry.ask_all(case, options, document.get_ref())?;
         }
-        for (id, words, statement) in statements {
-            geometry.decide(case, options, &names, (id, words, statement))?;
+        for axis in axis::tried(case) {
+            if axis.index.is_none() && !geometry.axes.is_empty() {
+                break;
+            }
+            geometry.try_axis(case, options, axis)?;
         }
-        if geometry.has("potential") {
-            let constant = ("constant potential", "the potential is constant", "integral = \"U\"");
-            geometry.decide(case, options, &names, constant)?;
-        }
-        geometry.find_axes(case, options, &names)?;
-        if is_rubber {
-            geometry.name_shape(case, options, &names)?;
+        if matches!(case.model.system, System::Rubber(_)) {
+            geometry.name_shape(case, options)?;
         }
         Ok(geometry)
     }
@@ -142,17 +81,43 @@ impl Geometry {
         self.facts.iter().any(|fact| fact.holds && fact.id == id)
     }
 
+    /// Does a fact hold, in general or about this axis?
+    pub fn has_about(&self, id: &str, axis: Option<&Axis>) -> bool {
+        self.has(id) || axis.is_some_and(|axis| self.has(&format!("{id} about {}", axis.name)))
+    }
+
+    /// Asks the facts of a file.
+    fn ask_all(
+        &mut self,
+        case: &Case,
+        options: &Options,
+        file: &DeTable<'_>,
+    ) -> Result<(), JudgeError> {
+        let system_fits = data::words(file, "system").contains(&case.system);
+        if !system_fits || data::word(file, "given").is_some_and(|fact| !self.has(&fact)) {
+            return Ok(());
+        }
+        let mut names = self.bindings.clone();
+        names.extend(data::pairs(file, "let").iter().map(|(name, text)| define(name, text)));
+        for fact in data::tables(file, "fact") {
+            let Some(asked) = asked(fact) else { continue };
+            if asked.given.as_ref().is_none_or(|given| self.has(given)) {
+                self.decide(case, options, &names, asked)?;
+            }
+        }
+        Ok(())
+    }
+
     fn decide(
         &mut self,
         case: &Case,
         options: &Options,
         names: &[Definition],
-        (id, words, statement): (&str, &str, &str),
+        asked: Asked,
     ) -> Result<bool, JudgeError> {
-        let claim = decided(case, options, names, &format!("[[claim]]\n{statement}\n"))?;
+        let claim = decided(case, options, names, &asked.claim)?;
         let holds = claim.as_ref().is_some_and(is_true);
-        let (id, words) = (id.to_string(), words.to_string());
-        self.facts.push(Fact { id, words, holds, claim });
+        self.facts.push(Fact { id: asked.id, words: asked.words, holds, claim });
         Ok(holds)
     }
 
@@ -162,8 +127,10 @@ impl Geometry {
             let (id, words) = (id.to_string(), words.to_string());
             self.facts.push(Fact { id, words, holds: true, claim: None });
         };
-        let (potential, rotor) = match &case.model.system {
-            System::Rubber(body) => (body.potential.is_some() || body.moment.is_some(), body.gyrostat.is_some()),
+        let (forces, rotor) = match &case.model.system {
+            System::Rubber(body) => {
+                (body.potential.is_some() || body.moment.is_some(), body.gyrostat.is_some())
+            }
             System::FlatBase(body) => (false, body.gyrostat.is_some()),
             System::Ball(ball) => {
                 match ball.surface {
@@ -174,122 +141,88 @@ impl Geometry {
                     Some(_) => note("rotating", "the surface turns"),
                     None => note("at rest", "the surface is at rest"),
                 }
-                (ball.potential.is_some(), ball.rotation.is_some())
+                (ball.potential.is_some(), false)
             }
             System::Lagrangian(_) | System::Field(_) => return,
         };
-        if potential {
-            note("potential", "there are forces");
+        match forces {
+            true => note("potential", "there are forces"),
+            false => note("no forces", "there are no forces"),
         }
-        let is_ball = matches!(case.model.system, System::Ball(_));
-        match (rotor, is_ball) {
-            (true, false) => note("rotor", "there is a rotor"),
-            (false, false) => note("no-rotor", "there is no rotor"),
-            _ => {}
+        match rotor {
+            true => note("rotor", "there is a rotor"),
+            false => note("no-rotor", "there is no rotor"),
         }
-        if !potential && !rotor {
+        if !case.model.system.energy_is_inhomogeneous() {
             note("free", "the motion is free");
         }
     }
 
-    fn find_axes(
-        &mut self,
-        case: &Case,
-        options: &Options,
-        names: &[Definition],
-    ) -> Result<(), JudgeError> {
-        let turning_tensor = match case.model.system {
-            System::Rubber(_) => true,
-            System::Ball(_) => false,
-            _ => return Ok(()),
+    fn try_axis(&mut self, case: &Case, options: &Options, axis: Axis) -> Result<(), JudgeError> {
+        let (a, name) = (&axis.vector, &axis.name);
+        let is_body = matches!(case.model.system, System::Rubber(_));
+        let (what, tensor) = match is_body {
+            true => ("the body and its inertia are", format!("I*hat({a}) − hat({a})*I")),
+            false => ("the surface is", "0*E".to_string()),
         };
-        let mut tried: Vec<Axis> = (0..3)
-            .map(|k| Axis {
-                name: format!("e{}", k + 1),
-                vector: ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"][k].to_string(),
-                index: Some(k),
-            })
-            .collect();
-        let vectors = case.model.parameters.iter().filter(|parameter| {
-            parameter.kind == Type::Vector && !matches!(parameter.origin, Origin::Fixed(_))
-        });
-        tried.extend(vectors.map(|parameter| Axis {
-            name: parameter.name.clone(),
-            vector: format!("{0}/|{0}|", parameter.name),
-            index: None,
-        }));
-        for axis in tried {
-            if axis.index.is_none() && !self.axes.is_empty() {
-                break;
-            }
-            let a = axis.vector.as_str();
-            let tensor = if turning_tensor { format!("I*hat({a}) − hat({a})*I") } else { "0*E".into() };
-            let statement = format!("identity = \"(r, {a} × γ)*E + {tensor} = 0*E\"");
-            let words = format!("the body and its inertia are of revolution about {}", axis.name);
-            let id = format!("revolution about {}", axis.name);
-            if self.decide(case, options, names, (&id, &words, &statement))? {
-                if turning_tensor {
-                    let flat = format!("identity = \"(r, {a}) = 0\"");
-                    let (id, words) = (format!("disk about {}", axis.name), "a disk, and the mass centre in its plane");
-                    self.decide(case, options, names, (&id, words, &flat))?;
-                }
-                self.axes.push(axis);
-            }
+        let names = self.bindings.clone();
+        let asked = |id: &str, words: String, identity: String| Asked {
+            id: format!("{id} about {name}"),
+            words,
+            given: None,
+            claim: claim("identity", &identity),
+        };
+        let words = format!("{what} of revolution about {name}");
+        let turned = asked("revolution", words, format!("(r, {a} × γ)*E + {tensor} = 0*E"));
+        if !self.decide(case, options, &names, turned)? {
+            return Ok(());
         }
+        if is_body {
+            let words = "it is a disk, with the mass centre in its plane".to_string();
+            self.decide(case, options, &names, asked("disk", words, format!("(r, {a}) = 0")))?;
+        }
+        self.axes.push(axis);
         Ok(())
     }
 
     /// R, c and B by the names that the case has for them, or by what they are.
-    fn name_shape(
-        &mut self,
-        case: &Case,
-        options: &Options,
-        names: &[Definition],
-    ) -> Result<(), JudgeError> {
-        let named = |name: &str, kind: Type, statement: &str| -> Result<bool, JudgeError> {
+    fn name_shape(&mut self, case: &Case, options: &Options) -> Result<(), JudgeError> {
+        let names = self.bindings.clone();
+        let named = |name: &str, kind: Type, meaning: &str| -> Result<bool, JudgeError> {
             if !case.model.vocabulary.lookup(name).is_some_and(|(_, found)| found == kind) {
                 return Ok(false);
             }
-            let claim = format!("[[claim]]\nidentity = \"{statement}\"\n");
-            Ok(decided(case, options, names, &claim)?.as_ref().is_some_and(is_true))
+            let claim = claim("identity", &format!("{meaning} = {name}"));
+            Ok(decided(case, options, &names, &claim)?.as_ref().is_some_and(is_true))
         };
         if self.has("ball") {
-            if !named("R", Type::Scalar, "Rb = R")? {
+            if !named("R", Type::Scalar, "−trace(∂r)/2")? {
                 self.bindings.push(define("R", "−trace(∂r)/2"));
             }
-            if !named("c", Type::Vector, "cb = c")? {
+            if !named("c", Type::Vector, "trace(∂r)/2*γ − r")? {
                 self.bindings.push(define("c", "−(r + R*γ)"));
             }
         }
-        if self.has("ellipsoid") && !named("B", Type::Matrix, "Q = B")? {
+        if self.has("ellipsoid") && !named("B", Type::Matrix, "r ⊗ r − h*∂r")? {
             self.bindings.push(define("B", "r ⊗ r − h*∂r"));
         }
         Ok(())
     }
 }
 
-impl Axis {
-    /// What stands for the placeholders of a family.
-    pub fn words(&self) -> Vec<(&'static str, String)> {
-        let a = &self.vector;
-        let component = |name: &str| match self.index {
-            Some(k) => format!("{name}{}", k + 1),
-            None => format!("({name},{a})"),
-        };
-        let (across, along) = match self.index {
-            Some(k) => (format!("I{}", (k + 1) % 3 + 1), format!("I{}", k + 1)),
-            None => (format!("(trace(I) − ({a},I*{a}))/2"), format!("({a},I*{a})")),
-        };
-        vec![
-            ("@name", self.name.clone()),
-            ("@I1", across),
-            ("@I3", along),
-            ("@a", a.clone()),
-            ("@ω", component("ω")),
-            ("@γ", component("γ")),
-            ("@S", component("S")),
-        ]
-    }
+/// A fact of a file; a test makes sure that each can be read.
+fn asked(fact: &DeTable<'_>) -> Option<Asked> {
+    let statement = |key: &str| Some(claim(key, &data::word(fact, key)?));
+    Some(Asked {
+        id: data::word(fact, "id")?,
+        words: data::word(fact, "words")?,
+        given: data::word(fact, "given"),
+        claim: statement("identity").or_else(|| statement("integral"))?,
+    })
+}
+
+fn claim(key: &str, text: &str) -> String {
+    format!("[[claim]]\n{key} = \"{text}\"\n")
 }
 
 /// Asks one claim; `None` where it cannot be stated.
@@ -306,10 +239,6 @@ fn decided(
 
 fn is_true(claim: &ClaimReport) -> bool {
     matches!(claim.verdict, Verdict::Proved | Verdict::Confirmed)
-}
-
-fn define(name: &str, formula: &str) -> Definition {
-    Definition { name: name.to_string(), formula: formula.to_string() }
 }
 
 /// The names of the families for what the case writes otherwise.
@@ -343,4 +272,21 @@ fn bindings(case: &Case) -> Vec<Definition> {
     }
     found.retain(|(name, text)| name != text);
     found.into_iter().map(|(name, text)| define(name, text)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fact_can_be_read() {
+        for text in TEXTS {
+            let document = DeTable::parse(text).expect("TOML");
+            let facts = data::tables(document.get_ref(), "fact");
+            assert!(!facts.is_empty(), "facts in\n{text}");
+            for fact in facts {
+                assert!(asked(fact).is_some(), "a fact has id, words and a claim:\n{text}");
+            }
+        }
+    }
 }

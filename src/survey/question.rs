@@ -3,10 +3,14 @@
 //! What is asked is a claim like any other: `Case::ask` reads it, `verdict::judge` decides.
 
 use serde::Serialize;
+use toml::de::DeTable;
 
+use super::data;
 use super::family::Family;
 use crate::case::Case;
-use crate::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
+use crate::verdict::{
+    ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge,
+};
 
 /// A name that formulas use, with its formula.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -40,13 +44,13 @@ pub struct Finding {
     pub claim: ClaimReport,
     /// The family that it comes from.
     pub family: String,
-    /// The names that its formula uses, and those that they use.
+    /// The names that its formulas use, and those that they use.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub definitions: Vec<Definition>,
-    /// The statement, where it is no formula: a map, a field, a Hamiltonian form.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub statement: Option<String>,
-    /// Of a reversor: the dimension of the set that it leaves in place; `null` where that is empty.
+    /// Of a map or a field: the image, or the component, of each variable that is not left alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<Definition>,
+    /// Of a reversor: the set that it leaves in place, where its dimension is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed_set: Option<FixedSet>,
     /// What is known beside it.
@@ -61,15 +65,66 @@ pub struct FixedSet {
     pub dimension: Option<usize>,
 }
 
+/// What stands for a family where the case itself makes the claim, or where the search found it.
+const OWN: &str = "the case itself";
+const SEARCH: &str = "the search";
+
+/// The statements that are tables of formulas, one a variable.
+const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
+
 impl Finding {
+    /// A claim of the case itself.
+    pub fn claimed(claim: ClaimReport) -> Self {
+        Self {
+            claim,
+            family: OWN.to_string(),
+            definitions: Vec::new(),
+            images: Vec::new(),
+            fixed_set: None,
+            remark: None,
+        }
+    }
+
+    /// Something that no family knows and no case claims.
+    pub fn found(claim: ClaimReport) -> Self {
+        Self { family: SEARCH.to_string(), ..Self::claimed(claim) }
+    }
+
+    /// Was it found by the search?
+    pub fn is_found(&self) -> bool {
+        self.family == SEARCH
+    }
+
     /// Is it known to hold?
     pub fn holds(&self) -> bool {
         matches!(self.claim.verdict, Verdict::Proved | Verdict::Confirmed)
     }
 
-    /// Its formula, or the statement that stands in place of one.
-    pub fn text(&self) -> &str {
-        self.statement.as_deref().or(self.claim.formula.as_deref()).unwrap_or(&self.claim.name)
+    /// Is it known not to hold?
+    pub fn fails(&self) -> bool {
+        self.claim.verdict == Verdict::Refuted
+    }
+
+    /// Is it a claim of this kind?
+    pub fn is(&self, kind: &str) -> bool {
+        self.claim.kind == kind
+    }
+
+    /// An integral that is more than a function of the level and the energy.
+    pub fn is_new_integral(&self) -> bool {
+        let independent = self.claim.evidence.independence == Some(Independence::Independent);
+        self.is("integral") && self.holds() && independent
+    }
+
+    /// A density that keeps its sign.
+    pub fn is_measure(&self) -> bool {
+        let sign = self.claim.evidence.sign;
+        self.is("density") && self.holds() && sign != Some(Sign::Changes)
+    }
+
+    /// The formula that it is about.
+    pub fn formula(&self) -> &str {
+        self.claim.formula.as_deref().unwrap_or(&self.claim.name)
     }
 }
 
@@ -105,22 +160,36 @@ impl Question {
     pub fn ask(&self, case: &Case, options: &Options) -> Result<Option<Vec<Finding>>, JudgeError> {
         let Ok(asked) = case.ask(&self.text()) else { return Ok(None) };
         let report = judge(&asked, options)?;
-        Ok(Some(report.claims.into_iter().map(|claim| self.finding(claim)).collect()))
+        let tables = self.tables();
+        let images = tables.into_iter().chain(std::iter::repeat(Vec::new()));
+        let found = report.claims.into_iter().zip(images);
+        Ok(Some(found.map(|(claim, images)| self.finding(claim, images)).collect()))
     }
 
-    fn finding(&self, mut claim: ClaimReport) -> Finding {
-        if !self.source.is_empty() && !claim.source.contains(&self.source) {
-            // The case's own source is the default of a claim; a family has its own.
-            let own = claim.source.starts_with('(') || claim.source.starts_with("Theorem");
-            claim.source =
-                if own { format!("{}, {}", self.source, claim.source) } else { self.source.clone() };
-        }
-        let used = claim.formula.as_deref().unwrap_or_default();
+    /// The tables of formulas that the claims state, one a claim.
+    fn tables(&self) -> Vec<Vec<Definition>> {
+        let Ok(document) = DeTable::parse(&self.body) else { return Vec::new() };
+        let claims = data::tables(document.get_ref(), "claim");
+        let table = |claim: &&DeTable<'_>| {
+            let entries = TABLES.iter().flat_map(|key| data::pairs(claim, key));
+            entries.map(|(name, formula)| Definition { name, formula }).collect()
+        };
+        claims.iter().map(table).collect()
+    }
+
+    fn finding(&self, mut claim: ClaimReport, images: Vec<Definition>) -> Finding {
+        claim.source = match (self.source.as_str(), claim.source.as_str()) {
+            (source, own) if own.is_empty() || source.contains(own) => source.to_string(),
+            ("", own) => own.to_string(),
+            (source, own) => format!("{source}, {own}"),
+        };
+        let formula = claim.formula.as_deref().filter(|_| images.is_empty());
+        let used = images.iter().map(|image| image.formula.as_str()).chain(formula);
         Finding {
-            definitions: used_by(used, &self.definitions),
+            definitions: used_by(&used.collect::<Vec<_>>(), &self.definitions),
             claim,
+            images,
             family: self.family.clone(),
-            statement: None,
             fixed_set: None,
             remark: self.note.clone(),
         }
@@ -136,6 +205,40 @@ pub fn definitions_text(definitions: &[Definition]) -> String {
     format!("[let]\n{}\n", definitions.iter().map(line).collect::<String>())
 }
 
+/// A name with its formula.
+pub fn define(name: &str, formula: &str) -> Definition {
+    Definition { name: name.to_string(), formula: formula.to_string() }
+}
+
+/// The definitions and formulas of several findings together; what is called alike and means
+/// something else gets another name.
+pub fn merged(bindings: &[Definition], findings: &[&Finding]) -> (Vec<Definition>, Vec<String>) {
+    let mut all = bindings.to_vec();
+    let mut formulas = Vec::new();
+    for (number, finding) in findings.iter().enumerate() {
+        let mut own = finding.definitions.clone();
+        let mut formula = finding.formula().to_string();
+        for index in 0..own.len() {
+            let clash = all.iter().any(|one| one.name == own[index].name && *one != own[index]);
+            if clash {
+                let (old, new) = (own[index].name.clone(), format!("{}{}", "x".repeat(number + 1), own[index].name));
+                own[index].name = new.clone();
+                for later in &mut own[index + 1..] {
+                    later.formula = renamed(&later.formula, &old, &new);
+                }
+                formula = renamed(&formula, &old, &new);
+            }
+        }
+        for definition in own {
+            if !all.contains(&definition) {
+                all.push(definition);
+            }
+        }
+        formulas.push(formula);
+    }
+    (all, formulas)
+}
+
 /// The last definition of each name: a family's own hides a binding.
 fn distinct(definitions: impl Iterator<Item = Definition>) -> Vec<Definition> {
     let mut kept: Vec<Definition> = Vec::new();
@@ -146,9 +249,9 @@ fn distinct(definitions: impl Iterator<Item = Definition>) -> Vec<Definition> {
     kept
 }
 
-/// The definitions that a formula uses, and those that they use, in order.
-pub fn used_by(formula: &str, definitions: &[Definition]) -> Vec<Definition> {
-    let mut texts = vec![formula];
+/// The definitions that formulas use, and those that they use, in order.
+pub fn used_by(formulas: &[&str], definitions: &[Definition]) -> Vec<Definition> {
+    let mut texts = formulas.to_vec();
     let mut used = vec![false; definitions.len()];
     for (index, definition) in definitions.iter().enumerate().rev() {
         if texts.iter().any(|text| mentions(text, &definition.name)) {
@@ -162,8 +265,25 @@ pub fn used_by(formula: &str, definitions: &[Definition]) -> Vec<Definition> {
 
 /// Does the name stand in the formula, by itself or with an index?
 fn mentions(formula: &str, name: &str) -> bool {
+    places(formula, name).next().is_some()
+}
+
+/// The formula with another name in the place of `name`.
+fn renamed(formula: &str, name: &str, other: &str) -> String {
+    let mut text = String::new();
+    let mut done = 0;
+    for start in places(formula, name) {
+        text.push_str(&formula[done..start]);
+        text.push_str(other);
+        done = start + name.len();
+    }
+    text + &formula[done..]
+}
+
+/// Where the name stands in the formula, by itself or with an index.
+fn places<'t>(formula: &'t str, name: &'t str) -> impl Iterator<Item = usize> + 't {
     let letter = |c: char| c.is_alphanumeric() && !c.is_numeric() || c == '_';
-    formula.match_indices(name).any(|(start, _)| {
+    let stands = move |start: usize| {
         let before = formula[..start].chars().next_back();
         let after = &formula[start + name.len()..];
         let rest = after.trim_start_matches(|c: char| c.is_ascii_digit());
@@ -173,26 +293,29 @@ fn mentions(formula: &str, name: &str) -> bool {
             && !rest.starts_with(letter)
             && !rest.starts_with('\'')
             && unchanged
-    })
+    };
+    formula.match_indices(name).map(|(start, _)| start).filter(move |start| stands(*start))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn define(name: &str, formula: &str) -> Definition {
-        Definition { name: name.to_string(), formula: formula.to_string() }
-    }
-
     #[test]
     fn only_what_is_used_is_shown() {
         let all = [define("m", "2*M"), define("J", "I + m*E"), define("g1", "I1"), define("g", "3")];
         let names = |formula: &str| {
-            used_by(formula, &all).into_iter().map(|d| d.name).collect::<Vec<_>>()
+            used_by(&[formula], &all).into_iter().map(|d| d.name).collect::<Vec<_>>()
         };
         assert_eq!(names("|J*ω|²"), ["m", "J"], "J, and the m in it");
         assert_eq!(names("√g1*ω3"), ["g1"], "g1 is a name, and no component of g");
         assert_eq!(names("J3"), ["m", "J"], "a component of J");
         assert!(names("gamma*mu").is_empty(), "letters inside a name are no name");
+    }
+
+    #[test]
+    fn a_name_is_changed_where_it_stands_alone() {
+        let text = renamed("J1*(J*ω,J⁻¹*Js) − J'", "J", "xJ");
+        assert_eq!(text, "xJ1*(xJ*ω,xJ⁻¹*Js) − J'", "not in Js, nor in J'");
     }
 }

@@ -1,0 +1,224 @@
+//! From a geometry to its invariants: everything known is tried, and what is found is proved.
+//!
+//! ```text
+//! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
+//! family       formulas that make sense under such facts; files of data
+//! question     a family's formulas asked of the case, by the names that the case has
+//! involutions  signed permutations of the axes, as symmetries and reversors
+//! unknown      what the search finds and excludes beside
+//! hierarchy    what follows: integral and measure, integral only, measure only, neither
+//! ```
+
+mod axis;
+mod data;
+mod family;
+mod geometry;
+mod hamiltonian;
+mod hierarchy;
+mod independence;
+mod involutions;
+mod question;
+mod sphere;
+mod unknown;
+
+use serde::Serialize;
+
+use crate::case::Case;
+use crate::verdict::{JudgeError, Options, Verdict};
+
+pub use geometry::Fact;
+pub use hierarchy::{Class, Integrals, Measure, Standing};
+pub use independence::Count;
+pub use question::{Definition, Finding, FixedSet};
+pub use sphere::SphereMap;
+pub use unknown::Unknown;
+
+use geometry::Geometry;
+use question::Question;
+
+/// Everything that is known about a system, with proofs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Survey {
+    /// The title of the case.
+    pub title: String,
+    /// The kind of system.
+    pub system: String,
+    /// The case's own notes.
+    pub notes: Vec<String>,
+    /// What was recognised, and what was not.
+    pub facts: Vec<Fact>,
+    /// Where the system stands.
+    pub hierarchy: Standing,
+    /// What every such system conserves, and the energy.
+    pub general: Vec<Finding>,
+    /// The criterion for a density of the configuration.
+    pub criterion: Vec<Finding>,
+    /// Densities that hold.
+    pub densities: Vec<Finding>,
+    /// ln ρ, or the criterion, over the sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<SphereMap>,
+    /// Integrals beside the general ones, each independent of those before it.
+    pub integrals: Vec<Finding>,
+    /// The count for Euler and Jacobi's theorem.
+    pub independence: Count,
+    /// Symmetry fields.
+    pub fields: Vec<Finding>,
+    /// Reversors, with the dimension of what they leave in place.
+    pub reversors: Vec<Finding>,
+    /// Discrete symmetries.
+    pub symmetries: Vec<Finding>,
+    /// The conformally Hamiltonian form, where there is a density in closed form and no rotor.
+    pub hamiltonian: Vec<Finding>,
+    /// What is known of such systems, and fails for this one.
+    pub fails: Vec<Finding>,
+    /// What could not be decided.
+    pub undecided: Vec<Finding>,
+    /// What was searched for beside the families.
+    pub search: Unknown,
+    /// What is physically impossible about the states that were drawn.
+    pub warnings: Vec<String>,
+}
+
+/// Tries everything known on a case; `progress` is told what comes next.
+pub fn survey(
+    case: &Case,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Survey, JudgeError> {
+    progress("what the case claims");
+    let own = crate::verdict::judge(case, options)?;
+    let claimed = own.claims.into_iter().map(Finding::claimed).collect();
+    progress("the geometry");
+    let geometry = Geometry::of(case, options)?;
+    let mut all = tried(case, options, &geometry, claimed, progress)?;
+    progress("symmetries and reversors");
+    let (reversors, symmetries) = involutions::find(case, options)?
+        .into_iter()
+        .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
+    progress("integrals that nobody typed");
+    let mut search = Unknown::of(case, options, progress);
+    all.append(&mut search.findings);
+    progress("what follows");
+    let mut sorted = Sorted::of(all);
+    let integrals: Vec<&Finding> = sorted.integrals.iter().collect();
+    let independent = independence::count(case, options, &geometry.bindings, &integrals)?;
+    let kept = |index: &usize| sorted.integrals[*index].clone();
+    let integrals: Vec<Finding> = independent.kept.iter().map(kept).collect();
+    // A found density is told where no family has one.
+    let from_family = sorted.densities.iter().any(|one| one.is_measure() && !one.is_found());
+    sorted.densities.retain(|one| !(from_family && one.is_found()));
+    let measure = measure(&sorted);
+    let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
+        Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
+        None => Vec::new(),
+    };
+    let found = independent.count.independent.len();
+    let standing = match (integrals.is_empty(), search.excluded_to()) {
+        (false, _) if found >= independent.count.needed => Integrals::Enough,
+        (false, _) => Integrals::Some,
+        (true, Some(degree)) => Integrals::ExcludedToDegree(degree),
+        (true, None) => Integrals::NotKnown,
+    };
+    let sphere = match measure {
+        Measure::ClosedForm | Measure::ByQuadrature => sphere::density(case, options)?,
+        Measure::Excluded | Measure::ExcludedForConfiguration => sphere::criterion(case, options)?,
+        Measure::NotKnown => None,
+    };
+    Ok(Survey {
+        title: case.title.clone(),
+        system: case.system.clone(),
+        notes: case.notes.clone(),
+        facts: geometry.facts,
+        hierarchy: Standing::of(measure, standing, reversors.len()),
+        general: sorted.general,
+        criterion: sorted.criterion,
+        densities: sorted.densities,
+        sphere,
+        integrals,
+        independence: independent.count,
+        fields: sorted.fields,
+        reversors,
+        symmetries,
+        hamiltonian,
+        fails: sorted.fails,
+        undecided: sorted.undecided,
+        search,
+        warnings: own.warnings,
+    })
+}
+
+/// The claims of the case, and those of all families that apply, judged.
+fn tried(
+    case: &Case,
+    options: &Options,
+    geometry: &Geometry,
+    mut all: Vec<Finding>,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Vec<Finding>, JudgeError> {
+    for family in family::all() {
+        let axes: Vec<Option<&axis::Axis>> = match family.around {
+            true => geometry.axes.iter().map(Some).collect(),
+            false => vec![None],
+        };
+        for axis in axes {
+            if !family.applies(&case.system, |fact| geometry.has_about(fact, axis)) {
+                continue;
+            }
+            let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
+            progress(&family.name);
+            let question = Question::of(&family, &geometry.bindings);
+            all.extend(question.ask(case, options)?.unwrap_or_default());
+        }
+    }
+    Ok(all)
+}
+
+/// Findings by what they are about.
+#[derive(Default)]
+struct Sorted {
+    general: Vec<Finding>,
+    integrals: Vec<Finding>,
+    criterion: Vec<Finding>,
+    densities: Vec<Finding>,
+    fields: Vec<Finding>,
+    fails: Vec<Finding>,
+    undecided: Vec<Finding>,
+}
+
+impl Sorted {
+    fn of(all: Vec<Finding>) -> Self {
+        let mut sorted = Self::default();
+        for finding in all {
+            let place = match finding.claim.kind {
+                "position-density" | "analytic-density" => &mut sorted.criterion,
+                _ if finding.fails() => &mut sorted.fails,
+                _ if !finding.holds() => &mut sorted.undecided,
+                "density" => &mut sorted.densities,
+                "integral" if finding.is_new_integral() => &mut sorted.integrals,
+                "integral" => &mut sorted.general,
+                "symmetry-field" => &mut sorted.fields,
+                _ => continue,
+            };
+            place.push(finding);
+        }
+        sorted
+    }
+}
+
+/// What is known of a density that keeps its sign.
+fn measure(sorted: &Sorted) -> Measure {
+    let verdict = |kind: &str| {
+        let claim = sorted.criterion.iter().find(|one| one.is(kind));
+        claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
+    };
+    if sorted.densities.iter().any(Finding::is_measure) {
+        return Measure::ClosedForm;
+    }
+    match (verdict("position-density"), verdict("analytic-density")) {
+        (Verdict::Proved | Verdict::Confirmed, _) => Measure::ByQuadrature,
+        (_, Verdict::Refuted) => Measure::Excluded,
+        (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
+        _ => Measure::NotKnown,
+    }
+}
