@@ -1,8 +1,10 @@
 //! What the tool knows: one small file a family of systems, with the conditions under which its
 //! formulas make sense, and the formulas.
 //!
-//! A file has a head (`family`, `system`, `when`, `unless`, `around`, `source`, `note`) and then the
-//! tables `[let]` and `[[claim]]` of a case file. A family `around` an axis is tried for each axis;
+//! A file has a head (`family`, `system`, `when`, `unless`, `source`, `note`, and what is said of
+//! them below) and then the tables `[let]` and `[[claim]]` of a case file. `general = true`: its
+//! integrals say nothing about the body. `gives = ["…", …]` names the integrals that follow from its
+//! claims by a linear equation. A family `around` an axis is tried for each axis;
 //! `@a`, `@γ`, `@ω`, `@S`, `@I1`, `@I3` and `@name` in it stand for the axis and for components and
 //! moments along and across it.
 
@@ -21,6 +23,10 @@ pub struct Family {
     pub when: Vec<String>,
     /// Facts that must not hold.
     pub unless: Vec<String>,
+    /// Do its integrals hold for every system of this kind, as the energy does?
+    pub general: bool,
+    /// The integrals that follow from its claims by a linear equation, if all of them hold.
+    pub gives: Vec<String>,
     /// Is it tried for each axis of revolution?
     pub around: bool,
     /// Where the formulas come from.
@@ -40,7 +46,7 @@ macro_rules! files {
     };
 }
 
-const TEXTS: [&str; 48] = files![
+const TEXTS: [&str; 49] = files![
     "rubber",
     "rubber-free",
     "plane-reference",
@@ -84,6 +90,7 @@ const TEXTS: [&str; 48] = files![
     "surface-support",
     "surface-quadric",
     "surface-revolution",
+    "surface-revolution-linear",
     "surface-rotating",
     "surface-rotating-sphere",
     "surface-cylinder",
@@ -106,6 +113,8 @@ fn read(text: &str) -> Option<Family> {
         systems: data::words(table, "system"),
         when: data::words(table, "when"),
         unless: data::words(table, "unless"),
+        general: data::flag(table, "general"),
+        gives: data::words(table, "gives"),
         around: data::flag(table, "around"),
         source: data::word(table, "source").unwrap_or_default(),
         note: data::word(table, "note"),

@@ -47,11 +47,12 @@ const TEXTS: [&str; 5] = [
     include_str!("facts/surface-level.toml"),
 ];
 
-/// A fact to be asked: the claim, and the fact without which it has no meaning.
+/// A fact to be asked: the claim, the fact without which it has no meaning, and that which says all.
 struct Asked {
     id: String,
     words: String,
     given: Option<String>,
+    unless: Option<String>,
     claim: String,
 }
 
@@ -101,7 +102,8 @@ impl Geometry {
         names.extend(data::pairs(file, "let").iter().map(|(name, text)| define(name, text)));
         for fact in data::tables(file, "fact") {
             let Some(asked) = asked(fact) else { continue };
-            if asked.given.as_ref().is_none_or(|given| self.has(given)) {
+            let given = asked.given.as_ref().is_none_or(|fact| self.has(fact));
+            if given && !asked.unless.as_ref().is_some_and(|fact| self.has(fact)) {
                 self.decide(case, options, &names, asked)?;
             }
         }
@@ -170,6 +172,7 @@ impl Geometry {
             id: format!("{id} about {name}"),
             words,
             given: None,
+            unless: None,
             claim: claim("identity", &identity),
         };
         let words = format!("{what} of revolution about {name}");
@@ -217,6 +220,7 @@ fn asked(fact: &DeTable<'_>) -> Option<Asked> {
         id: data::word(fact, "id")?,
         words: data::word(fact, "words")?,
         given: data::word(fact, "given"),
+        unless: data::word(fact, "unless"),
         claim: statement("identity").or_else(|| statement("integral"))?,
     })
 }
@@ -267,6 +271,9 @@ fn bindings(case: &Case) -> Vec<Definition> {
             ]);
             found.extend(ball.rotation.as_ref().map(|turning| ("Ω", turning.text())));
             found.extend(ball.potential.is_none().then_some(("U", "0")));
+            if let Surface::Level(function) = &ball.surface {
+                found.push(("F", function.text()));
+            }
         }
         System::Lagrangian(_) | System::Field(_) => {}
     }

@@ -15,6 +15,8 @@ pub enum Measure {
     Excluded,
     /// None of the configuration alone exists; others are not known.
     ExcludedForConfiguration,
+    /// One with zeros or poles was found; no positive one is known.
+    Singular,
     /// Nothing is known.
     NotKnown,
 }
@@ -90,7 +92,9 @@ impl Standing {
             (Measure::ClosedForm | Measure::ByQuadrature, false) => Class::MeasureOnly,
             (Measure::Excluded, true) => Class::IntegralOnly,
             (Measure::Excluded, false) => Class::Neither,
-            (Measure::ExcludedForConfiguration | Measure::NotKnown, _) => Class::NotKnown,
+            (Measure::ExcludedForConfiguration | Measure::Singular | Measure::NotKnown, _) => {
+                Class::NotKnown
+            }
         };
         let grounds = vec![grounds_of(measure).to_string(), integrals.grounds()];
         let mut typical: Vec<String> =
@@ -118,6 +122,10 @@ fn grounds_of(measure: Measure) -> &'static str {
         Measure::ExcludedForConfiguration => {
             "a measure: not known; no density of the configuration alone exists, one that depends on \
              the velocities is open"
+        }
+        Measure::Singular => {
+            "a measure: not known; an invariant density was found, with zeros or poles, and is a measure \
+             between them"
         }
         Measure::NotKnown => "a measure: not known",
     }

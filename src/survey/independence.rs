@@ -28,12 +28,14 @@ pub struct Independent {
     pub count: Count,
 }
 
-/// Takes integrals in order as long as each is independent of those before it.
+/// Takes integrals in order as long as each is independent of those before it, general ones first;
+/// `implied` are names of integrals that exist without a formula.
 pub fn count(
     case: &Case,
     options: &Options,
     bindings: &[Definition],
     integrals: &[&Finding],
+    implied: &[String],
 ) -> Result<Independent, JudgeError> {
     let dimension = case.model.dimension() - case.model.level.len();
     let energy = has_energy(case);
@@ -52,7 +54,7 @@ pub fn count(
     let count = Count {
         dimension,
         needed: dimension.saturating_sub(2),
-        independent: energy.into_iter().chain(names).collect(),
+        independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
         claim: proof,
     };
     Ok(Independent { kept, count })

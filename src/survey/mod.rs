@@ -23,7 +23,7 @@ mod unknown;
 
 use serde::Serialize;
 
-use crate::case::Case;
+use crate::case::{Case, Expect};
 use crate::verdict::{JudgeError, Options, Verdict};
 
 pub use geometry::Fact;
@@ -60,6 +60,10 @@ pub struct Survey {
     pub sphere: Option<SphereMap>,
     /// Integrals beside the general ones, each independent of those before it.
     pub integrals: Vec<Finding>,
+    /// Integrals that depend on those, each worth its own formula.
+    pub dependent: Vec<Finding>,
+    /// Rates from which further integrals follow by a linear equation.
+    pub rates: Vec<Finding>,
     /// The count for Euler and Jacobi's theorem.
     pub independence: Count,
     /// Symmetry fields.
@@ -70,6 +74,8 @@ pub struct Survey {
     pub symmetries: Vec<Finding>,
     /// The conformally Hamiltonian form, where there is a density in closed form and no rotor.
     pub hamiltonian: Vec<Finding>,
+    /// What the case itself claims to hold, or asks.
+    pub claimed: Vec<Finding>,
     /// What is known of such systems, and fails for this one.
     pub fails: Vec<Finding>,
     /// What could not be decided.
@@ -88,10 +94,16 @@ pub fn survey(
 ) -> Result<Survey, JudgeError> {
     progress("what the case claims");
     let own = crate::verdict::judge(case, options)?;
-    let claimed = own.claims.into_iter().map(Finding::claimed).collect();
+    let claimed: Vec<Finding> = own
+        .claims
+        .into_iter()
+        .filter(|claim| claim.expect != Expect::Fails.word())
+        .map(Finding::claimed)
+        .collect();
     progress("the geometry");
     let geometry = Geometry::of(case, options)?;
-    let mut all = tried(case, options, &geometry, claimed, progress)?;
+    let (mut all, implied) = tried(case, options, &geometry, progress)?;
+    all.extend(claimed.iter().filter(|one| one.is("integral") || one.is("density")).cloned());
     progress("symmetries and reversors");
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
@@ -101,20 +113,30 @@ pub fn survey(
     all.append(&mut search.findings);
     progress("what follows");
     let mut sorted = Sorted::of(all);
-    let integrals: Vec<&Finding> = sorted.integrals.iter().collect();
-    let independent = independence::count(case, options, &geometry.bindings, &integrals)?;
-    let kept = |index: &usize| sorted.integrals[*index].clone();
-    let integrals: Vec<Finding> = independent.kept.iter().map(kept).collect();
-    // A found density is told where no family has one.
-    let from_family = sorted.densities.iter().any(|one| one.is_measure() && !one.is_found());
-    sorted.densities.retain(|one| !(from_family && one.is_found()));
+    let candidates: Vec<&Finding> = sorted.integrals.iter().collect();
+    let independent =
+        independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
+    let (mut integrals, mut dependent) = (Vec::new(), Vec::new());
+    for (index, finding) in std::mem::take(&mut sorted.integrals).into_iter().enumerate() {
+        match (finding.is_general, independent.kept.contains(&index)) {
+            (true, _) => sorted.general.push(finding),
+            (false, true) => integrals.push(finding),
+            (false, false) if finding.is_of_family() => dependent.push(finding),
+            // What the case or the search has beside is a function of what is told.
+            (false, false) => {}
+        }
+    }
+    // The densities of the case and of the search are told where no family has one.
+    let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
+    sorted.densities.retain(|one| !from_family || one.is_of_family());
     let measure = measure(&sorted);
     let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
         Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
         None => Vec::new(),
     };
     let found = independent.count.independent.len();
-    let standing = match (integrals.is_empty(), search.excluded_to()) {
+    let none = integrals.is_empty() && implied.is_empty();
+    let standing = match (none, search.excluded_to()) {
         (false, _) if found >= independent.count.needed => Integrals::Enough,
         (false, _) => Integrals::Some,
         (true, Some(degree)) => Integrals::ExcludedToDegree(degree),
@@ -123,7 +145,7 @@ pub fn survey(
     let sphere = match measure {
         Measure::ClosedForm | Measure::ByQuadrature => sphere::density(case, options)?,
         Measure::Excluded | Measure::ExcludedForConfiguration => sphere::criterion(case, options)?,
-        Measure::NotKnown => None,
+        Measure::Singular | Measure::NotKnown => None,
     };
     Ok(Survey {
         title: case.title.clone(),
@@ -136,11 +158,14 @@ pub fn survey(
         densities: sorted.densities,
         sphere,
         integrals,
+        dependent,
+        rates: sorted.rates,
         independence: independent.count,
         fields: sorted.fields,
         reversors,
         symmetries,
         hamiltonian,
+        claimed,
         fails: sorted.fails,
         undecided: sorted.undecided,
         search,
@@ -148,14 +173,14 @@ pub fn survey(
     })
 }
 
-/// The claims of the case, and those of all families that apply, judged.
+/// The claims of all families that apply, judged, and the integrals that follow without a formula.
 fn tried(
     case: &Case,
     options: &Options,
     geometry: &Geometry,
-    mut all: Vec<Finding>,
     progress: &mut dyn FnMut(&str),
-) -> Result<Vec<Finding>, JudgeError> {
+) -> Result<(Vec<Finding>, Vec<String>), JudgeError> {
+    let (mut all, mut implied) = (Vec::new(), Vec::new());
     for family in family::all() {
         let axes: Vec<Option<&axis::Axis>> = match family.around {
             true => geometry.axes.iter().map(Some).collect(),
@@ -168,10 +193,14 @@ fn tried(
             let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
             progress(&family.name);
             let question = Question::of(&family, &geometry.bindings);
-            all.extend(question.ask(case, options)?.unwrap_or_default());
+            let found = question.ask(case, options)?.unwrap_or_default();
+            if !found.is_empty() && found.iter().all(Finding::holds) {
+                implied.extend(family.gives);
+            }
+            all.extend(found);
         }
     }
-    Ok(all)
+    Ok((all, implied))
 }
 
 /// Findings by what they are about.
@@ -181,6 +210,7 @@ struct Sorted {
     integrals: Vec<Finding>,
     criterion: Vec<Finding>,
     densities: Vec<Finding>,
+    rates: Vec<Finding>,
     fields: Vec<Finding>,
     fails: Vec<Finding>,
     undecided: Vec<Finding>,
@@ -189,19 +219,35 @@ struct Sorted {
 impl Sorted {
     fn of(all: Vec<Finding>) -> Self {
         let mut sorted = Self::default();
+        let mut told: Vec<(&'static str, String)> = Vec::new();
         for finding in all {
+            let statement = (finding.claim.kind, finding.formula().to_string());
+            if told.contains(&statement) && finding.definitions.is_empty() {
+                continue;
+            }
+            told.push(statement);
             let place = match finding.claim.kind {
                 "position-density" | "analytic-density" => &mut sorted.criterion,
+                // What the case asks is told with the case's claims.
+                _ if !finding.is_of_family() && !finding.holds() => continue,
+                "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
                 _ if finding.fails() => &mut sorted.fails,
                 _ if !finding.holds() => &mut sorted.undecided,
                 "density" => &mut sorted.densities,
                 "integral" if finding.is_new_integral() => &mut sorted.integrals,
                 "integral" => &mut sorted.general,
                 "symmetry-field" => &mut sorted.fields,
+                "rate" => &mut sorted.rates,
                 _ => continue,
             };
             place.push(finding);
         }
+        // Simple formulas first, and those of the case after those of the families.
+        sorted.integrals.sort_by_key(|one| {
+            let length = one.formula().chars().count();
+            (!one.is_general, !one.is_of_family(), one.is_quadrature(), length)
+        });
+        sorted.densities.sort_by_key(|one| (!one.is_of_family(), one.is_quadrature()));
         sorted
     }
 }
@@ -212,13 +258,16 @@ fn measure(sorted: &Sorted) -> Measure {
         let claim = sorted.criterion.iter().find(|one| one.is(kind));
         claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
     };
-    if sorted.densities.iter().any(Finding::is_measure) {
+    let mut measures = sorted.densities.iter().filter(|one| one.is_measure());
+    if measures.any(|one| !one.is_quadrature()) {
         return Measure::ClosedForm;
     }
     match (verdict("position-density"), verdict("analytic-density")) {
         (Verdict::Proved | Verdict::Confirmed, _) => Measure::ByQuadrature,
         (_, Verdict::Refuted) => Measure::Excluded,
         (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
+        _ if sorted.densities.iter().any(Finding::is_measure) => Measure::ByQuadrature,
+        _ if !sorted.densities.is_empty() => Measure::Singular,
         _ => Measure::NotKnown,
     }
 }

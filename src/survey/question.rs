@@ -30,6 +30,8 @@ pub struct Question {
     pub source: String,
     /// What is known beside them.
     pub note: Option<String>,
+    /// Do its integrals say nothing about the body?
+    pub is_general: bool,
     /// The names, in order.
     pub definitions: Vec<Definition>,
     /// The tables `[[claim]]`, and `[variables]` and `[poisson]` where there are any.
@@ -56,6 +58,9 @@ pub struct Finding {
     /// What is known beside it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
+    /// Does it say nothing about the body, as that a surface is kept?
+    #[serde(skip)]
+    pub is_general: bool,
 }
 
 /// The points of the level set that a map leaves in place.
@@ -82,6 +87,7 @@ impl Finding {
             images: Vec::new(),
             fixed_set: None,
             remark: None,
+            is_general: false,
         }
     }
 
@@ -90,9 +96,9 @@ impl Finding {
         Self { family: SEARCH.to_string(), ..Self::claimed(claim) }
     }
 
-    /// Was it found by the search?
-    pub fn is_found(&self) -> bool {
-        self.family == SEARCH
+    /// Does it come from a family, rather than from the case or the search?
+    pub fn is_of_family(&self) -> bool {
+        self.family != OWN && self.family != SEARCH
     }
 
     /// Is it known to hold?
@@ -122,6 +128,12 @@ impl Finding {
         self.is("density") && self.holds() && sign != Some(Sign::Changes)
     }
 
+    /// Does its formula contain an integral that is not taken?
+    pub fn is_quadrature(&self) -> bool {
+        let formulas = self.definitions.iter().map(|one| one.formula.as_str());
+        formulas.chain([self.formula()]).any(|text| text.contains('∫'))
+    }
+
     /// The formula that it is about.
     pub fn formula(&self) -> &str {
         self.claim.formula.as_deref().unwrap_or(&self.claim.name)
@@ -139,6 +151,7 @@ impl Question {
             family: family.name.clone(),
             source: family.source.clone(),
             note: family.note.clone(),
+            is_general: family.general,
             definitions: distinct(bindings.iter().cloned().chain(own)),
             body: family.claims.clone(),
         }
@@ -192,6 +205,7 @@ impl Question {
             family: self.family.clone(),
             fixed_set: None,
             remark: self.note.clone(),
+            is_general: self.is_general,
         }
     }
 }

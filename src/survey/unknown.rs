@@ -41,6 +41,10 @@ impl Unknown {
 
     /// Up to which degree there is no integral that is independent of the energy.
     pub fn excluded_to(&self) -> Option<u32> {
+        // Powers of the energy are integrals: a count without them is wrong, and says nothing.
+        if self.counts.iter().any(|count| count.dimension < count.known) {
+            return None;
+        }
         let empty = self.counts.iter().take_while(|count| count.dimension == count.known);
         empty.last().map(|count| count.degree)
     }
