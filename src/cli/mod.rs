@@ -133,9 +133,9 @@ pub struct Report {
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
-    /// How to write it
-    #[arg(long, value_enum, default_value_t = ReportFormat::Text)]
-    pub format: ReportFormat,
+    /// How to write it; for a terminal, unless --out says otherwise
+    #[arg(long, value_enum)]
+    pub format: Option<ReportFormat>,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
@@ -252,11 +252,11 @@ pub struct Stress {
     pub svg: Option<PathBuf>,
 }
 
-/// Writes a file that the user asked for.
-pub fn write(path: &Path, text: &str) -> Result<(), String> {
+/// Writes a file that the user asked for by an option.
+pub fn write(path: &Path, option: &str, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| {
         format!(
-            "error: cannot write {}: {error}\nhelp: give --svg a file in a folder that exists",
+            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
             path.display()
         )
     })

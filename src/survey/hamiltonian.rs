@@ -10,7 +10,8 @@
 //!
 //! BMB 2013, (2.14)-(2.19), (2.28), for any potential and without a rotor.
 
-use super::question::{Definition, Finding, Question, define, merged};
+use super::question::{Definition, Finding, Question, define, merged, used_by};
+use super::shown::Typesetter;
 use crate::case::Case;
 use crate::mechanics::System;
 use crate::verdict::{JudgeError, Options};
@@ -46,7 +47,7 @@ pub fn form(
     let body = format!(
         "[variables]\nM = \"M\"\n\"γ\" = \"γ\"\n[poisson]\nstructure = \"e(3)\"\n\
          [[claim]]\nname = \"H\"\nhamiltonian = \"{energy}{potential}\"\nmultiplier = \"N\"\n\
-         [[claim]]\nname = \"dM dγ/N\"\ndensity-in-variables = \"1/N\"\n"
+         [[claim]]\nname = \"ρ\"\ndensity-in-variables = \"1/N\"\n"
     );
     let mut question = Question::plain("conformally Hamiltonian form", &names, body);
     question.source = match volume {
@@ -54,13 +55,21 @@ pub fn form(
         _ => "BMB 2013, (2.28)".to_string(),
     };
     let mut found = question.ask(case, options)?.unwrap_or_default();
+    let asked = case.ask(&question.text()).ok();
     for finding in &mut found {
         // H is written in the new variables, so its text is not among the names of the case.
         let text = match finding.claim.kind {
             "hamiltonian" => format!("{energy}{potential}"),
             _ => "1/N".to_string(),
         };
-        finding.definitions = super::question::used_by(&[&text, "N", "M"], &names);
+        finding.definitions = used_by(&[&text, "N", "M"], &names);
+        if let Some(asked) = &asked {
+            let paper = Typesetter(&asked.model.vocabulary);
+            finding.shown.definitions = paper.definitions(&finding.definitions);
+            finding.shown.statement = asked.model.variables.as_ref().and_then(|variables| {
+                Typesetter(&variables.model.vocabulary).definition(&define(&finding.claim.name, &text))
+            });
+        }
         finding.claim.formula = Some(text);
     }
     Ok(found)

@@ -51,6 +51,9 @@ pub fn count(
     }
     let energy = energy.then(|| "energy".to_string());
     let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
+    // Those with a formula may be functions of those without one, so they are not counted twice.
+    let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
+    let implied = &implied[beside.min(implied.len())..];
     let count = Count {
         dimension,
         needed: dimension.saturating_sub(2),

@@ -5,6 +5,8 @@
 //! family       formulas that make sense under such facts; files of data
 //! question     a family's formulas asked of the case, by the names that the case has
 //! involutions  signed permutations of the axes, as symmetries and reversors
+//! sphere       the density, or the criterion, over the sphere of normals
+//! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      what the search finds and excludes beside
 //! hierarchy    what follows: integral and measure, integral only, measure only, neither
 //! ```
@@ -18,8 +20,11 @@ mod hierarchy;
 mod independence;
 mod involutions;
 mod question;
+mod shown;
 mod sphere;
 mod unknown;
+mod wireframe;
+mod words;
 
 use serde::Serialize;
 
@@ -30,8 +35,11 @@ pub use geometry::Fact;
 pub use hierarchy::{Class, Integrals, Measure, Standing};
 pub use independence::Count;
 pub use question::{Definition, Finding, FixedSet};
+pub use shown::Shown;
 pub use sphere::SphereMap;
 pub use unknown::Unknown;
+pub use wireframe::Wireframe;
+pub use words::Given;
 
 use geometry::Geometry;
 use question::Question;
@@ -43,6 +51,15 @@ pub struct Survey {
     pub title: String,
     /// The kind of system.
     pub system: String,
+    /// The seed of all states, primes and points.
+    pub seed: u64,
+    /// What rolls on what.
+    pub sentence: String,
+    /// The parameters: proofs cover all values of those that are free.
+    pub parameters: Vec<Given>,
+    /// The surface of the body with the parameters of the first state, for a picture.
+    #[serde(skip)]
+    pub wireframe: Option<Wireframe>,
     /// The case's own notes.
     pub notes: Vec<String>,
     /// What was recognised, and what was not.
@@ -98,7 +115,7 @@ pub fn survey(
         .claims
         .into_iter()
         .filter(|claim| claim.expect != Expect::Fails.word())
-        .map(Finding::claimed)
+        .map(|claim| Finding::claimed(case, claim))
         .collect();
     progress("the geometry");
     let geometry = Geometry::of(case, options)?;
@@ -150,6 +167,10 @@ pub fn survey(
     Ok(Survey {
         title: case.title.clone(),
         system: case.system.clone(),
+        seed: options.seed,
+        sentence: words::sentence(case, &geometry.facts),
+        parameters: words::parameters(case),
+        wireframe: wireframe::of(case, options)?,
         notes: case.notes.clone(),
         facts: geometry.facts,
         hierarchy: Standing::of(measure, standing, reversors.len()),

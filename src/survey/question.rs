@@ -7,7 +7,9 @@ use toml::de::DeTable;
 
 use super::data;
 use super::family::Family;
+use super::shown::{Shown, Typesetter};
 use crate::case::Case;
+use crate::mechanics::Meaning;
 use crate::verdict::{
     ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge,
 };
@@ -49,7 +51,8 @@ pub struct Finding {
     /// The names that its formulas use, and those that they use.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub definitions: Vec<Definition>,
-    /// Of a map or a field: the image, or the component, of each variable that is not left alone.
+    /// Of a map or a field: the image, or the component, of each variable that is not left alone; of
+    /// a rate: what it equals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<Definition>,
     /// Of a reversor: the set that it leaves in place, where its dimension is known.
@@ -61,6 +64,9 @@ pub struct Finding {
     /// Does it say nothing about the body, as that a surface is kept?
     #[serde(skip)]
     pub is_general: bool,
+    /// Its formulas as they look on paper.
+    #[serde(skip)]
+    pub shown: Shown,
 }
 
 /// The points of the level set that a map leaves in place.
@@ -78,22 +84,43 @@ const SEARCH: &str = "the search";
 const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
 
 impl Finding {
-    /// A claim of the case itself.
-    pub fn claimed(claim: ClaimReport) -> Self {
+    /// A claim of the case itself, with the abbreviations that it uses.
+    pub fn claimed(case: &Case, claim: ClaimReport) -> Self {
+        Self::beside(OWN, case, claim)
+    }
+
+    /// Something that no family knows and no case claims.
+    pub fn found(case: &Case, claim: ClaimReport) -> Self {
+        Self::beside(SEARCH, case, claim)
+    }
+
+    fn beside(family: &str, case: &Case, claim: ClaimReport) -> Self {
+        let names = &case.model.vocabulary;
+        let abbreviations: Vec<Definition> = names
+            .iter()
+            .filter_map(|(_, entry)| match entry.meaning {
+                Meaning::Abbreviation(index) => {
+                    Some(define(&entry.name, case.model.abbreviations[index].text()))
+                }
+                _ => None,
+            })
+            .collect();
+        let definitions = used_by(&[claim.formula.as_deref().unwrap_or_default()], &abbreviations);
+        let paper = Typesetter(names);
+        let shown = Shown {
+            statement: claim.formula.as_deref().and_then(|text| paper.formula(text)),
+            definitions: paper.definitions(&definitions),
+        };
         Self {
             claim,
-            family: OWN.to_string(),
-            definitions: Vec::new(),
+            family: family.to_string(),
+            definitions,
             images: Vec::new(),
             fixed_set: None,
             remark: None,
             is_general: false,
+            shown,
         }
-    }
-
-    /// Something that no family knows and no case claims.
-    pub fn found(claim: ClaimReport) -> Self {
-        Self { family: SEARCH.to_string(), ..Self::claimed(claim) }
     }
 
     /// Does it come from a family, rather than from the case or the search?
@@ -176,7 +203,8 @@ impl Question {
         let tables = self.tables();
         let images = tables.into_iter().chain(std::iter::repeat(Vec::new()));
         let found = report.claims.into_iter().zip(images);
-        Ok(Some(found.map(|(claim, images)| self.finding(claim, images)).collect()))
+        let paper = Typesetter(&asked.model.vocabulary);
+        Ok(Some(found.map(|(claim, images)| self.finding(claim, images, &paper)).collect()))
     }
 
     /// The tables of formulas that the claims state, one a claim.
@@ -185,21 +213,36 @@ impl Question {
         let claims = data::tables(document.get_ref(), "claim");
         let table = |claim: &&DeTable<'_>| {
             let entries = TABLES.iter().flat_map(|key| data::pairs(claim, key));
-            entries.map(|(name, formula)| Definition { name, formula }).collect()
+            let rate = data::word(claim, "equals").map(|rate| ("rate".to_string(), rate));
+            entries.chain(rate).map(|(name, formula)| Definition { name, formula }).collect()
         };
         claims.iter().map(table).collect()
     }
 
-    fn finding(&self, mut claim: ClaimReport, images: Vec<Definition>) -> Finding {
+    fn finding(
+        &self,
+        mut claim: ClaimReport,
+        images: Vec<Definition>,
+        paper: &Typesetter<'_>,
+    ) -> Finding {
         claim.source = match (self.source.as_str(), claim.source.as_str()) {
             (source, own) if own.is_empty() || source.contains(own) => source.to_string(),
             ("", own) => own.to_string(),
             (source, own) => format!("{source}, {own}"),
         };
-        let formula = claim.formula.as_deref().filter(|_| images.is_empty());
+        let is_rate = claim.kind == "rate";
+        let formula = claim.formula.as_deref().filter(|_| is_rate || images.is_empty());
         let used = images.iter().map(|image| image.formula.as_str()).chain(formula);
+        let definitions = used_by(&used.collect::<Vec<_>>(), &self.definitions);
+        let statement = match (formula, images.as_slice()) {
+            (Some(formula), [rate]) => paper.rate(formula, &rate.formula),
+            (Some(formula), _) => paper.formula(formula),
+            (None, images) if !images.is_empty() => paper.images(images),
+            (None, _) => None,
+        };
         Finding {
-            definitions: used_by(&used.collect::<Vec<_>>(), &self.definitions),
+            shown: Shown { statement, definitions: paper.definitions(&definitions) },
+            definitions,
             claim,
             images,
             family: self.family.clone(),

@@ -48,7 +48,7 @@ pub struct SphereMap {
 }
 
 /// One body of the case at points of the sphere.
-struct Body<'c> {
+pub(super) struct Body<'c> {
     model: &'c Model,
     parameters: Vec<f64>,
 }
@@ -121,7 +121,7 @@ fn degrees(angles: &[f64]) -> Vec<f64> {
     angles.iter().map(|angle| (angle.to_degrees() * 100.0).round() / 100.0).collect()
 }
 
-fn point(latitude: f64, longitude: f64) -> [f64; 3] {
+pub(super) fn point(latitude: f64, longitude: f64) -> [f64; 3] {
     let (sine, cosine) = (libm::sin(latitude), libm::cos(latitude));
     [cosine * libm::cos(longitude), cosine * libm::sin(longitude), sine]
 }
@@ -132,8 +132,9 @@ fn rounded(value: f64) -> Option<f64> {
 }
 
 impl<'c> Body<'c> {
-    /// The body with the parameters of the first state.
-    fn first(
+    /// The body with the parameters of the first state; none where the case is about no body, or
+    /// has further variables.
+    pub fn first(
         case: &'c Case,
         options: &Options,
     ) -> Result<Option<(Self, Vec<(String, String)>)>, JudgeError> {
@@ -159,6 +160,14 @@ impl<'c> Body<'c> {
     fn at<R>(&self, gamma: [f64; 3], read: impl FnOnce(&Phase<'_, f64>) -> R) -> R {
         let state = [[0.0; 3], gamma].concat();
         read(&Phase::new(self.model, &self.parameters, &state))
+    }
+
+    /// The point of contact r.
+    pub fn contact(&self, gamma: [f64; 3]) -> [f64; 3] {
+        self.at(gamma, |phase| match &self.model.system {
+            System::Rubber(body) => body.shape.contact(&phase.configuration).0.into(),
+            _ => [f64::NAN; 3],
+        })
     }
 
     /// ρ₀

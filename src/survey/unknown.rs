@@ -33,7 +33,12 @@ impl Unknown {
                 counts: report.counts,
                 excluded: report.excluded,
                 remarks: report.remarks,
-                findings: report.found.into_iter().filter(|one| !one.trivial).map(finding).collect(),
+                findings: report
+                    .found
+                    .into_iter()
+                    .filter(|one| !one.trivial)
+                    .map(|one| Finding::found(case, claim(one)))
+                    .collect(),
             },
             Err(error) => Self { remarks: vec![error.to_string()], ..Self::default() },
         }
@@ -50,8 +55,8 @@ impl Unknown {
     }
 }
 
-fn finding(found: Found) -> Finding {
-    Finding::found(ClaimReport {
+fn claim(found: Found) -> ClaimReport {
+    ClaimReport {
         name: format!("{} found by search", found.kind),
         formula: Some(found.formula),
         kind: found.kind,
@@ -63,5 +68,5 @@ fn finding(found: Found) -> Finding {
         cell: None,
         note: None,
         evidence: found.evidence,
-    })
+    }
 }
