@@ -82,6 +82,21 @@ impl Layout {
         Layout::Row(vec![left, Layout::Sign("↦"), right])
     }
 
+    /// Is it so high that brackets around it have to grow?
+    pub fn is_tall(&self) -> bool {
+        match self {
+            Layout::Fraction(..) | Layout::Matrix(_) => true,
+            Layout::Row(parts) => parts.iter().any(Layout::is_tall),
+            Layout::Fenced(_, inner, _) | Layout::Root(inner) => inner.is_tall(),
+            Layout::Raised(base, _) | Layout::Lowered(base, _) => base.is_tall(),
+            Layout::Number(_)
+            | Layout::Name { .. }
+            | Layout::Word(_)
+            | Layout::Sign(_)
+            | Layout::Space => false,
+        }
+    }
+
     fn fenced(self) -> Self {
         Layout::Fenced("(", Box::new(self), ")")
     }
@@ -113,7 +128,10 @@ impl Paper<'_> {
             Number(value) => number(value, inline),
             Symbol(slot) => whole(self.symbol(*slot)),
             Identity => whole(Layout::name("E", Type::Matrix)),
-            Negate(a) => (Layout::Row(vec![Layout::Sign("−"), self.at(*a, Bond::Cross, inline)]), Bond::Sum),
+            Negate(a) => {
+                let positive = self.at(*a, Bond::Product, inline);
+                (Layout::Row(vec![Layout::Sign("−"), positive]), Bond::Sum)
+            }
             Add(a, b) => self.between(*a, "+", *b, Bond::Sum, inline),
             Subtract(a, b) => self.between(*a, "−", *b, Bond::Sum, inline),
             Cross(a, b) => self.between(*a, "×", *b, Bond::Cross, inline),
@@ -123,8 +141,14 @@ impl Paper<'_> {
             }
             Divide(a, b) if inline => self.between(*a, "/", *b, Bond::Product, inline),
             Divide(a, b) => {
-                let (above, below) = (self.set(*a, inline).0, self.set(*b, inline).0);
-                (Layout::Fraction(Box::new(above), Box::new(below)), Bond::Power)
+                let below = Box::new(self.set(*b, inline).0);
+                match without_minus(self.set(*a, inline).0) {
+                    Ok(above) => {
+                        let fraction = Layout::Fraction(Box::new(above), below);
+                        (Layout::Row(vec![Layout::Sign("−"), fraction]), Bond::Sum)
+                    }
+                    Err(above) => (Layout::Fraction(Box::new(above), below), Bond::Power),
+                }
             }
             Dot(a, b) if a == b => {
                 (self.at(*a, Bond::Whole, inline).raised(digits("2")), Bond::Power)
@@ -202,13 +226,22 @@ impl Paper<'_> {
     }
 
     fn product(&self, a: NodeId, b: NodeId, inline: bool) -> Bonded {
-        let (left, right) =
-            (self.at(a, Bond::Product, inline), self.at(b, Bond::Product, inline));
+        let right = self.at(b, Bond::Product, inline);
         let sign = match starts_with_digit(&right) {
             true => Layout::Sign("·"),
             false => Layout::Space,
         };
-        (Layout::Row(vec![left, sign, right]), Bond::Product)
+        // (−a) b is written −a b.
+        match without_minus(self.set(a, inline).0) {
+            Ok(left) => {
+                let product = Layout::Row(vec![left, sign, right]);
+                (Layout::Row(vec![Layout::Sign("−"), product]), Bond::Sum)
+            }
+            Err(_) => {
+                let left = self.at(a, Bond::Product, inline);
+                (Layout::Row(vec![left, sign, right]), Bond::Product)
+            }
+        }
     }
 
     fn inverse(&self, a: NodeId, inline: bool) -> Layout {
@@ -280,21 +313,32 @@ fn digits(text: &str) -> Layout {
 
 /// A number, its sign before it, a fraction in line or over each other.
 fn number(value: &Rational, inline: bool) -> Bonded {
-    let negative = value.is_negative();
-    let magnitude = if negative { -value } else { value.clone() };
-    let text = magnitude.to_string();
-    let (layout, bond) = match text.split_once('/') {
-        None => (digits(&text), Bond::Whole),
-        Some((above, below)) if inline => {
-            (Layout::Row(vec![digits(above), Layout::Sign("/"), digits(below)]), Bond::Product)
+    let (above, below) = value.parts();
+    let (above, below) = (above.magnitude().to_string(), below.to_string());
+    let (layout, bond) = match below.as_str() {
+        "1" => (digits(&above), Bond::Whole),
+        _ if inline => {
+            let parts = vec![digits(&above), Layout::Sign("/"), digits(&below)];
+            (Layout::Row(parts), Bond::Product)
         }
-        Some((above, below)) => {
-            (Layout::Fraction(Box::new(digits(above)), Box::new(digits(below))), Bond::Power)
-        }
+        _ => (
+            Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))),
+            Bond::Power,
+        ),
     };
-    match negative {
+    match value.is_negative() {
         true => (Layout::Row(vec![Layout::Sign("−"), layout]), Bond::Sum),
         false => (layout, bond),
+    }
+}
+
+/// What stands behind a minus sign, if the box is that; the box itself otherwise.
+fn without_minus(layout: Layout) -> Result<Layout, Layout> {
+    match layout {
+        Layout::Row(mut parts) if parts.len() == 2 && parts[0] == Layout::Sign("−") => {
+            Ok(parts.swap_remove(1))
+        }
+        other => Err(other),
     }
 }
 
@@ -305,5 +349,69 @@ fn starts_with_digit(layout: &Layout) -> bool {
         Layout::Raised(base, _) => starts_with_digit(base),
         Layout::Row(parts) => parts.first().is_some_and(starts_with_digit),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Scope;
+
+    struct Letters;
+
+    impl Scope for Letters {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            let kinds = [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::Vector), ("J", Type::Matrix)];
+            let place = kinds.iter().position(|(known, _)| *known == name)?;
+            Some((Symbol(place as u32), kinds[place].1))
+        }
+
+        fn names(&self) -> Vec<String> {
+            Vec::new()
+        }
+    }
+
+    /// A plain reading of the boxes, with every bracket that they have.
+    fn plain(layout: &Layout) -> String {
+        match layout {
+            Layout::Number(text) => text.clone(),
+            Layout::Name { letter, index, primes, .. } => {
+                format!("{letter}{index}{}", "'".repeat(*primes))
+            }
+            Layout::Word(word) => word.to_string(),
+            Layout::Sign(sign) => sign.to_string(),
+            Layout::Space => " ".to_string(),
+            Layout::Row(parts) => parts.iter().map(plain).collect(),
+            Layout::Fenced(open, inner, close) => format!("{open}{}{close}", plain(inner)),
+            Layout::Fraction(above, below) => format!("{{{}/{}}}", plain(above), plain(below)),
+            Layout::Root(inner) => format!("√{{{}}}", plain(inner)),
+            Layout::Raised(base, power) => format!("{}^{{{}}}", plain(base), plain(power)),
+            Layout::Lowered(base, index) => format!("{}_{{{}}}", plain(base), plain(index)),
+            Layout::Matrix(rows) => format!("{} rows", rows.len()),
+        }
+    }
+
+    fn set(text: &str) -> String {
+        let formula = Formula::parse(text, &Letters).expect(text);
+        let name = |symbol: Symbol| ["m", "k", "ω", "J"][symbol.0 as usize].to_string();
+        plain(&formula.layout(&name))
+    }
+
+    #[test]
+    fn brackets_are_those_that_the_tree_needs() {
+        assert_eq!(set("|J*ω × ω|²"), "|J ω×ω|^{2}", "a vector product is looser than a product");
+        assert_eq!(set("m*(k + 1)²"), "m (k+1)^{2}", "a sum under an exponent");
+        assert_eq!(set("m − (k − 1)"), "m−(k−1)", "a difference on the right");
+        assert_eq!(set("(m − k) − 1"), "m−k−1", "and on the left");
+        assert_eq!(set("−(1 − k)*m"), "−(1−k) m", "a minus before a product");
+        assert_eq!(set("m*(−k)"), "m (−k)", "a minus inside one");
+        assert_eq!(set("(m/k)²"), "({m/k})^{2}", "a quotient under an exponent");
+        assert_eq!(set("m^((1 + k)/2)"), "m^{(1+k)/2}", "quotients in exponents stand in line");
+        assert_eq!(set("m^(1/2)"), "m^{1/2}", "and so do numbers");
+        assert_eq!(set("m*2"), "m·2", "digits are kept apart");
+        assert_eq!(set("(ω,J⁻¹*ω)*det(J)"), "(ω,J^{−1} ω) det J", "the dot product has its own");
+        assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
+        assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
+        assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
     }
 }

@@ -68,6 +68,7 @@ impl Axis {
             ("@γ", component("γ")),
             ("@S", component("S")),
             ("@M", component("M")),
+            ("@r", component("r")),
         ]
     }
 }

@@ -5,8 +5,8 @@
 //! them below) and then the tables `[let]` and `[[claim]]` of a case file. `general = true`: its
 //! integrals say nothing about the body. `gives = ["…", …]` names the integrals that follow from its
 //! claims by a linear equation. A family `around` an axis is tried for each axis;
-//! `@a`, `@γ`, `@ω`, `@S`, `@I1`, `@I3` and `@name` in it stand for the axis and for components and
-//! moments along and across it.
+//! `@a`, `@γ`, `@ω`, `@r`, `@S`, `@M`, `@I1`, `@I3`, `@x` and `@name` in it stand for the axis, for
+//! components and moments along and across it, and for the state's second vector.
 
 use toml::de::DeTable;
 

@@ -62,7 +62,11 @@ pub fn form(
             "hamiltonian" => format!("{energy}{potential}"),
             _ => "1/N".to_string(),
         };
-        finding.definitions = used_by(&[&text, "N", "M"], &names);
+        // The measure is told after H, in the same names.
+        finding.definitions = match finding.claim.kind {
+            "hamiltonian" => used_by(&[&text, "N", "M"], &names),
+            _ => Vec::new(),
+        };
         if let Some(asked) = &asked {
             let paper = Typesetter(&asked.model.vocabulary);
             finding.shown.definitions = paper.definitions(&finding.definitions);

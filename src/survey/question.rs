@@ -52,7 +52,7 @@ pub struct Finding {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub definitions: Vec<Definition>,
     /// Of a map or a field: the image, or the component, of each variable that is not left alone; of
-    /// a rate: what it equals.
+    /// a rate: the function, and what its rate equals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<Definition>,
     /// Of a reversor: the set that it leaves in place, where its dimension is known.
@@ -213,7 +213,7 @@ impl Question {
         let claims = data::tables(document.get_ref(), "claim");
         let table = |claim: &&DeTable<'_>| {
             let entries = TABLES.iter().flat_map(|key| data::pairs(claim, key));
-            let rate = data::word(claim, "equals").map(|rate| ("rate".to_string(), rate));
+            let rate = data::word(claim, "rate").zip(data::word(claim, "equals"));
             entries.chain(rate).map(|(name, formula)| Definition { name, formula }).collect()
         };
         claims.iter().map(table).collect()
@@ -231,23 +231,26 @@ impl Question {
             (source, own) => format!("{source}, {own}"),
         };
         let is_rate = claim.kind == "rate";
-        let formula = claim.formula.as_deref().filter(|_| is_rate || images.is_empty());
-        let used = images.iter().map(|image| image.formula.as_str()).chain(formula);
-        let definitions = used_by(&used.collect::<Vec<_>>(), &self.definitions);
+        let used = images.iter().map(|image| image.formula.as_str());
+        let function = images.iter().map(|image| image.name.as_str()).filter(|_| is_rate);
+        let formula = claim.formula.as_deref().filter(|_| images.is_empty());
+        let used: Vec<&str> = used.chain(function).chain(formula).collect();
+        let definitions = used_by(&used, &self.definitions);
         let statement = match (formula, images.as_slice()) {
-            (Some(formula), [rate]) => paper.rate(formula, &rate.formula),
+            (_, [rate]) if is_rate => paper.rate(&rate.name, &rate.formula),
             (Some(formula), _) => paper.formula(formula),
-            (None, images) if !images.is_empty() => paper.images(images),
-            (None, _) => None,
+            (None, []) => None,
+            (None, images) => paper.images(images),
         };
         Finding {
             shown: Shown { statement, definitions: paper.definitions(&definitions) },
+            // A note is about the formulas of its family.
+            remark: self.note.clone().filter(|_| images.is_empty() || is_rate),
             definitions,
             claim,
             images,
             family: self.family.clone(),
             fixed_set: None,
-            remark: self.note.clone(),
             is_general: self.is_general,
         }
     }
@@ -311,7 +314,11 @@ pub fn used_by(formulas: &[&str], definitions: &[Definition]) -> Vec<Definition>
     let mut texts = formulas.to_vec();
     let mut used = vec![false; definitions.len()];
     for (index, definition) in definitions.iter().enumerate().rev() {
-        if texts.iter().any(|text| mentions(text, &definition.name)) {
+        // g1 is a name of its own, and no component of g, where it is defined.
+        let own = |token: &str| {
+            token == definition.name || definitions.iter().all(|other| other.name != token)
+        };
+        if texts.iter().any(|text| mentions(text, &definition.name, &own)) {
             used[index] = true;
             texts.push(&definition.formula);
         }
@@ -320,9 +327,13 @@ pub fn used_by(formulas: &[&str], definitions: &[Definition]) -> Vec<Definition>
     pairs.filter(|(_, used)| *used).map(|(definition, _)| definition.clone()).collect()
 }
 
-/// Does the name stand in the formula, by itself or with an index?
-fn mentions(formula: &str, name: &str) -> bool {
-    places(formula, name).next().is_some()
+/// Does the name stand in the formula, by itself or with an index that makes a token of its own?
+fn mentions(formula: &str, name: &str, own: &dyn Fn(&str) -> bool) -> bool {
+    places(formula, name).any(|start| {
+        let after = &formula[start + name.len()..];
+        let digits = after.chars().take_while(char::is_ascii_digit).count();
+        own(&formula[start..start + name.len() + digits])
+    })
 }
 
 /// The formula with another name in the place of `name`.

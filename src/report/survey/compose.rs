@@ -1,7 +1,7 @@
 //! From a survey to a document: which sections there are, and what they say.
 
 use super::document::{Block, Cell, Document, Section};
-use super::entry::{blocks, grounds};
+use super::entry::{self, blocks, independence};
 use super::picture;
 use crate::survey::{Count, Finding, Integrals, Measure, Survey, Unknown};
 
@@ -78,6 +78,14 @@ fn system(survey: &Survey) -> Vec<Block> {
         let not = told(fails).join("; ");
         found.push(text(format!("Tried, and not so: {not}.")));
     }
+    let grounds = survey.facts.iter().map(|fact| match &fact.claim {
+        None => format!("{}: as the file says", fact.words),
+        Some(claim) => {
+            let grounds = entry::grounds(&claim.evidence).pop().unwrap_or_default();
+            format!("{}: {}; {grounds}", fact.words, claim.verdict.word())
+        }
+    });
+    found.push(Block::Folded("how each was decided", grounds.collect()));
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
     found
@@ -85,6 +93,8 @@ fn system(survey: &Survey) -> Vec<Block> {
 
 fn measure(survey: &Survey) -> Vec<Block> {
     let mut found = blocks(&survey.criterion);
+    let witness = survey.criterion.iter().find_map(|one| one.claim.evidence.witness.as_ref());
+    found.extend(witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))));
     found.extend(blocks(&survey.densities));
     let sentence = match survey.hierarchy.measure {
         Measure::ByQuadrature if survey.densities.is_empty() => Some(
@@ -153,9 +163,7 @@ fn integrals(survey: &Survey) -> Vec<Block> {
         }));
     }
     found.push(text(count(&survey.independence, survey.hierarchy.measure)));
-    if let Some(claim) = &survey.independence.claim {
-        found.push(Block::List(grounds(&claim.evidence)));
-    }
+    found.extend(survey.independence.claim.as_ref().map(independence));
     found
 }
 

@@ -29,6 +29,8 @@ pub enum Block {
     Text(String),
     /// Lines of a list.
     List(Vec<String>),
+    /// Lines that are folded away where a format can: what they are, and they.
+    Folded(&'static str, Vec<String>),
     /// A claim with its verdict.
     Entry(Box<Entry>),
     /// A table with a heading.

@@ -2,7 +2,7 @@
 
 use super::document::{Block, Entry, Mark};
 use crate::survey::Finding;
-use crate::verdict::{Evidence, Independence, Sign, Verdict, Witness};
+use crate::verdict::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
 
 /// Findings as blocks, one after the other.
 pub fn blocks(findings: &[Finding]) -> Vec<Block> {
@@ -14,7 +14,7 @@ fn entry(finding: &Finding) -> Entry {
     let evidence = &claim.evidence;
     let map = |one: &crate::survey::Definition| format!("{} ↦ {}", one.name, one.formula);
     let statement = match (claim.kind, finding.images.as_slice()) {
-        ("rate", [rate]) => claim.formula.as_ref().map(|f| format!("d/dt {f} = {}", rate.formula)),
+        ("rate", [rate]) => Some(format!("d/dt {} = {}", rate.name, rate.formula)),
         (_, []) => claim.formula.clone(),
         (_, images) => Some(images.iter().map(map).collect::<Vec<_>>().join(", ")),
     };
@@ -47,6 +47,21 @@ fn mark(verdict: Verdict) -> Mark {
         Verdict::Refuted => Mark::Fails,
         Verdict::Undecided => Mark::Open,
     }
+}
+
+/// The claim that integrals are independent.
+pub fn independence(claim: &ClaimReport) -> Block {
+    Block::Entry(Box::new(Entry {
+        mark: mark(claim.verdict),
+        verdict: claim.verdict.word(),
+        name: "they are independent".to_string(),
+        statement: None,
+        layout: None,
+        definitions: Vec::new(),
+        remarks: Vec::new(),
+        source: String::new(),
+        evidence: grounds(&claim.evidence),
+    }))
 }
 
 /// What a verdict says beside.

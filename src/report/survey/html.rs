@@ -34,6 +34,7 @@ fn set(block: &Block) -> String {
     match block {
         Block::Text(text) => format!("<p>{}</p>\n", escaped(text)),
         Block::List(items) => list(items),
+        Block::Folded(what, lines) => folded(what, lines),
         Block::Entry(entry) => self::entry(entry),
         Block::Table { head, rows } => table(head, rows),
         Block::Picture(picture) => format!(
@@ -47,6 +48,10 @@ fn set(block: &Block) -> String {
 fn list(items: &[String]) -> String {
     let lines: String = items.iter().map(|item| format!("<li>{}</li>\n", escaped(item))).collect();
     format!("<ul>\n{lines}</ul>\n")
+}
+
+fn folded(what: &str, lines: &[String]) -> String {
+    format!("<details><summary>{}</summary>\n{}</details>\n", escaped(what), list(lines))
 }
 
 fn table(head: &[&str], rows: &[Vec<Cell>]) -> String {
@@ -98,8 +103,7 @@ fn entry(entry: &Entry) -> String {
     let typed = entry.statement.iter().chain(entry.definitions.iter().map(|(text, _)| text));
     let typed: Vec<String> = typed.map(|text| format!("as typed: {text}")).collect();
     if !entry.evidence.is_empty() || !typed.is_empty() {
-        let lines = list(&[entry.evidence.as_slice(), &typed].concat());
-        out.push_str(&format!("<details><summary>evidence</summary>\n{lines}</details>\n"));
+        out.push_str(&folded("evidence", &[entry.evidence.as_slice(), &typed].concat()));
     }
     out + "</article>\n"
 }

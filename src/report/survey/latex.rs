@@ -25,6 +25,7 @@ fn set(block: &Block) -> String {
     match block {
         Block::Text(text) => format!("{}\n\n", escaped(text)),
         Block::List(items) => list(items),
+        Block::Folded(_, lines) => small(lines),
         Block::Entry(entry) => self::entry(entry),
         Block::Table { head, rows } => {
             let mut out = format!("\\begin{{longtable}}{{{}}}\n", "l".repeat(head.len()));
@@ -43,6 +44,10 @@ fn set(block: &Block) -> String {
 fn list(items: &[String]) -> String {
     let lines: String = items.iter().map(|item| format!("\\item {}\n", escaped(item))).collect();
     format!("\\begin{{itemize}}\n{lines}\\end{{itemize}}\n")
+}
+
+fn small(lines: &[String]) -> String {
+    format!("{{\\footnotesize\n{}}}\n", list(lines))
 }
 
 fn cell(cell: &Cell) -> String {
@@ -81,7 +86,7 @@ fn entry(entry: &Entry) -> String {
         out.push_str(&format!("where {}.\n\n", each.collect::<Vec<_>>().join(", ")));
     }
     if !entry.evidence.is_empty() {
-        out.push_str(&format!("{{\\footnotesize\n{}}}\n", list(&entry.evidence)));
+        out.push_str(&small(&entry.evidence));
     }
     out
 }

@@ -22,6 +22,7 @@ fn set(block: &Block) -> String {
             let lines: String = items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
             lines + "\n"
         }
+        Block::Folded(what, lines) => folded(what, lines),
         Block::Entry(entry) => self::entry(entry),
         Block::Table { head, rows } => {
             let mut out = format!("| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
@@ -33,6 +34,11 @@ fn set(block: &Block) -> String {
         }
         Block::Picture(picture) => format!("*{}* (in the HTML page)\n\n", escaped(&picture.caption)),
     }
+}
+
+fn folded(what: &str, lines: &[String]) -> String {
+    let lines: String = lines.iter().map(|line| format!("- {}\n", escaped(line))).collect();
+    format!("<details><summary>{what}</summary>\n\n{lines}\n</details>\n\n")
 }
 
 fn cell(cell: &Cell) -> String {
@@ -65,9 +71,7 @@ fn entry(entry: &Entry) -> String {
         out.push_str(&format!("where {}\n\n", each.collect::<Vec<_>>().join(", ")));
     }
     if !entry.evidence.is_empty() {
-        let lines: String =
-            entry.evidence.iter().map(|line| format!("- {}\n", escaped(line))).collect();
-        out.push_str(&format!("<details><summary>evidence</summary>\n\n{lines}\n</details>\n\n"));
+        out.push_str(&folded("evidence", &entry.evidence));
     }
     out
 }

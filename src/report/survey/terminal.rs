@@ -45,6 +45,10 @@ fn set(block: &Block, style: Style) -> String {
         Block::List(items) => {
             items.iter().map(|item| wrapped(item, "  - ", "    ", style.width)).collect()
         }
+        Block::Folded(..) if !style.verbose => String::new(),
+        Block::Folded(_, lines) => {
+            lines.iter().map(|line| wrapped(line, "  | ", "  | ", style.width)).collect()
+        }
         Block::Entry(entry) => self::entry(entry, style),
         Block::Table { head, rows } => table(head, rows, style),
         Block::Picture(_) => String::new(),

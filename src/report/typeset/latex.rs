@@ -12,9 +12,11 @@ pub fn formula(layout: &Layout) -> String {
         Layout::Sign(sign) => command(sign),
         Layout::Space => "\\,".to_string(),
         Layout::Row(parts) => parts.iter().map(formula).collect::<Vec<_>>().join(" "),
-        Layout::Fenced(open, inner, close) => {
+        Layout::Fenced(open, inner, close) if inner.is_tall() => {
             format!("\\left{open} {} \\right{close}", formula(inner))
         }
+        Layout::Fenced("|", inner, _) => format!("\\lvert {} \\rvert", formula(inner)),
+        Layout::Fenced(open, inner, close) => format!("{open}{}{close}", formula(inner)),
         Layout::Fraction(above, below) => {
             format!("\\frac{{{}}}{{{}}}", formula(above), formula(below))
         }

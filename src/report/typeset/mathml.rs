@@ -22,10 +22,13 @@ fn row(layout: &Layout) -> String {
         Layout::Sign(sign) => format!("<mo>{}</mo>", escaped(sign)),
         Layout::Space => "<mspace width=\"0.17em\"/>".to_string(),
         Layout::Row(parts) => format!("<mrow>{}</mrow>", parts.iter().map(row).collect::<String>()),
-        Layout::Fenced(open, inner, close) => format!(
-            "<mrow><mo fence=\"true\" form=\"prefix\">{open}</mo>{}<mo fence=\"true\" form=\"postfix\">{close}</mo></mrow>",
-            row(inner)
-        ),
+        Layout::Fenced(open, inner, close) => {
+            let (grows, inner) = (inner.is_tall(), row(inner));
+            let fence = |form: &str, sign: &str| {
+                format!("<mo fence=\"true\" form=\"{form}\" stretchy=\"{grows}\">{sign}</mo>")
+            };
+            format!("<mrow>{}{inner}{}</mrow>", fence("prefix", open), fence("postfix", close))
+        }
         Layout::Fraction(above, below) => {
             format!("<mfrac>{}{}</mfrac>", row(above), row(below))
         }
