@@ -63,7 +63,10 @@ fn readable(found: &Survey, format: ReportFormat, options: &Report) -> String {
     match format {
         ReportFormat::Text => {
             let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
-            written::text(found, written::Style { verbose: options.verbose, colour, width: width() })
+            written::text(
+                found,
+                written::Style { verbose: options.verbose, colour, width: width() },
+            )
         }
         ReportFormat::Markdown => written::markdown(found),
         ReportFormat::Latex => written::latex(found),

@@ -173,7 +173,11 @@ impl Paper<'_> {
                 (self.at(*a, Bond::Whole, inline).raised(Layout::Word("T")), Bond::Power)
             }
             Solve(a, b) => {
-                let parts = vec![self.inverse(*a, inline), Layout::Space, self.at(*b, Bond::Product, inline)];
+                let parts = vec![
+                    self.inverse(*a, inline),
+                    Layout::Space,
+                    self.at(*b, Bond::Product, inline),
+                ];
                 (Layout::Row(parts), Bond::Product)
             }
             Component(a, i) => whole(self.indexed(*a, (i + 1).to_string(), inline)),
@@ -184,7 +188,9 @@ impl Paper<'_> {
             Trace(a) => self.applied("tr", *a, inline),
             Diagonal(a) => self.applied("diag", *a, inline),
             Vector(parts) => whole(self.list(parts, inline)),
-            Rows(rows) => whole(Layout::Matrix(rows.iter().map(|row| self.row(*row, inline)).collect())),
+            Rows(rows) => {
+                whole(Layout::Matrix(rows.iter().map(|row| self.row(*row, inline)).collect()))
+            }
             Function(function, a) => self.function(*function, *a, inline),
             Antiderivative(f, x) => {
                 let parts = vec![
@@ -213,7 +219,14 @@ impl Paper<'_> {
     }
 
     /// a sign b; the right side holds together more tightly than the whole.
-    fn between(&self, a: NodeId, sign: &'static str, b: NodeId, bond: Bond, inline: bool) -> Bonded {
+    fn between(
+        &self,
+        a: NodeId,
+        sign: &'static str,
+        b: NodeId,
+        bond: Bond,
+        inline: bool,
+    ) -> Bonded {
         let tighter = match bond {
             Bond::Sum => Bond::Cross,
             Bond::Cross => Bond::Product,
@@ -279,7 +292,9 @@ impl Paper<'_> {
 
     fn row(&self, node: NodeId, inline: bool) -> Vec<Layout> {
         match &self.arena.nodes[node].operation {
-            Operation::Vector(parts) => parts.iter().map(|part| self.set(*part, inline).0).collect(),
+            Operation::Vector(parts) => {
+                parts.iter().map(|part| self.set(*part, inline).0).collect()
+            }
             _ => vec![self.set(node, inline).0],
         }
     }
@@ -321,10 +336,7 @@ fn number(value: &Rational, inline: bool) -> Bonded {
             let parts = vec![digits(&above), Layout::Sign("/"), digits(&below)];
             (Layout::Row(parts), Bond::Product)
         }
-        _ => (
-            Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))),
-            Bond::Power,
-        ),
+        _ => (Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))), Bond::Power),
     };
     match value.is_negative() {
         true => (Layout::Row(vec![Layout::Sign("−"), layout]), Bond::Sum),
@@ -361,7 +373,12 @@ mod tests {
 
     impl Scope for Letters {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
-            let kinds = [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::Vector), ("J", Type::Matrix)];
+            let kinds = [
+                ("m", Type::Scalar),
+                ("k", Type::Scalar),
+                ("ω", Type::Vector),
+                ("J", Type::Matrix),
+            ];
             let place = kinds.iter().position(|(known, _)| *known == name)?;
             Some((Symbol(place as u32), kinds[place].1))
         }

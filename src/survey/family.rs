@@ -46,7 +46,7 @@ macro_rules! files {
     };
 }
 
-const TEXTS: [&str; 49] = files![
+const TEXTS: [&str; 48] = files![
     "rubber",
     "rubber-free",
     "plane-reference",
@@ -75,7 +75,6 @@ const TEXTS: [&str; 49] = files![
     "sphere-revolution-rotor",
     "sphere-disk",
     "sphere-ellipsoid",
-    "sphere-plane-integrals",
     "flat-base",
     "flat-base-free",
     "flat-base-central",

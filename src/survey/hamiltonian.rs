@@ -71,7 +71,8 @@ pub fn form(
             let paper = Typesetter(&asked.model.vocabulary);
             finding.shown.definitions = paper.definitions(&finding.definitions);
             finding.shown.statement = asked.model.variables.as_ref().and_then(|variables| {
-                Typesetter(&variables.model.vocabulary).definition(&define(&finding.claim.name, &text))
+                Typesetter(&variables.model.vocabulary)
+                    .definition(&define(&finding.claim.name, &text))
             });
         }
         finding.claim.formula = Some(text);

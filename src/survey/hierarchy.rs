@@ -99,7 +99,8 @@ impl Standing {
         let grounds = vec![grounds_of(measure).to_string(), integrals.grounds()];
         let mut typical: Vec<String> =
             typical(class, integrals).iter().map(|line| line.to_string()).collect();
-        if reversors > 0 && matches!(class, Class::IntegralOnly | Class::Neither | Class::NotKnown) {
+        if reversors > 0 && matches!(class, Class::IntegralOnly | Class::Neither | Class::NotKnown)
+        {
             typical.push(
                 "each reversor takes an attractor to a repeller of the same kind; near its fixed set \
                  the motion may be like that of a conservative system, and a symmetric periodic orbit \
@@ -156,19 +157,19 @@ fn typical(class: Class, integrals: Integrals) -> &'static [&'static str] {
              points the motion is on two-dimensional tori, quasi-periodic after a change of time",
             "no attractors, no chaos",
         ],
-        (Class::IntegralAndMeasure, _) => &[
-            "motion on the joint levels keeps a measure: no attractors; one integral short of \
-             quadratures, chaos is possible and usually weak",
-        ],
+        (Class::IntegralAndMeasure, _) => {
+            &["motion on the joint levels keeps a measure: no attractors; one integral short of \
+             quadratures, chaos is possible and usually weak"]
+        }
         (Class::IntegralOnly, _) => &[
             "the phase space is foliated by the joint levels; on them there may be limit cycles, \
              towards which the motion settles, and rotation numbers may lock",
             "no chaos where the joint levels are two-dimensional",
         ],
-        (Class::MeasureOnly, _) => &[
-            "the Poincaré map keeps an area: no attractors, islands in a chaotic sea as in a \
-             Hamiltonian system",
-        ],
+        (Class::MeasureOnly, _) => {
+            &["the Poincaré map keeps an area: no attractors, islands in a chaotic sea as in a \
+             Hamiltonian system"]
+        }
         (Class::Neither, _) => &[
             "attractors and repellers are possible, strange ones among them, as in a dissipative \
              system, though the energy is kept",

@@ -80,7 +80,8 @@ fn candidates(case: &Case) -> Vec<Candidate> {
             let about_axis = turns().filter(|turn| turn.places[2] == 2 && turn.signs[2] == 1);
             both(about_axis, |turn, axial| {
                 let across = |name: &str, sign: i8| {
-                    (0..2).map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
+                    (0..2)
+                        .map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
                         .collect::<Vec<_>>()
                 };
                 let mut images = across("ω", axial * turn.determinant());
@@ -154,7 +155,8 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
                 }
                 let whole = !flips.contains(&false);
                 fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
-                let sign = |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
+                let sign =
+                    |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
                 let image = match whole {
                     true => format!("−{name}"),
                     false => format!("[{}, {}, {}]", sign(0), sign(1), sign(2)),
@@ -165,7 +167,12 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
             // On a level the dimension depends on how the fixed space meets it.
             let known = key == "reversor" && model.level.is_empty();
             let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
-            all.push(Candidate { name: format!("{key} {}", changed.join(", ")), key, images, fixed_set });
+            all.push(Candidate {
+                name: format!("{key} {}", changed.join(", ")),
+                key,
+                images,
+                fixed_set,
+            });
         }
     }
     all
@@ -175,7 +182,8 @@ impl Turn {
     /// All 48, those without exchanges first.
     fn all() -> Vec<Self> {
         let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
-        let signs = (0..8).map(|mask: i32| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { -1 } else { 1 }));
+        let signs =
+            (0..8).map(|mask: i32| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { -1 } else { 1 }));
         let signs: Vec<[i8; 3]> = signs.collect();
         orders
             .into_iter()

@@ -10,9 +10,7 @@ use super::family::Family;
 use super::shown::{Shown, Typesetter};
 use crate::case::Case;
 use crate::mechanics::Meaning;
-use crate::verdict::{
-    ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge,
-};
+use crate::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
 
 /// A name that formulas use, with its formula.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -281,7 +279,10 @@ pub fn merged(bindings: &[Definition], findings: &[&Finding]) -> (Vec<Definition
         for index in 0..own.len() {
             let clash = all.iter().any(|one| one.name == own[index].name && *one != own[index]);
             if clash {
-                let (old, new) = (own[index].name.clone(), format!("{}{}", "x".repeat(number + 1), own[index].name));
+                let (old, new) = (
+                    own[index].name.clone(),
+                    format!("{}{}", "x".repeat(number + 1), own[index].name),
+                );
                 own[index].name = new.clone();
                 for later in &mut own[index + 1..] {
                     later.formula = renamed(&later.formula, &old, &new);
@@ -371,7 +372,8 @@ mod tests {
 
     #[test]
     fn only_what_is_used_is_shown() {
-        let all = [define("m", "2*M"), define("J", "I + m*E"), define("g1", "I1"), define("g", "3")];
+        let all =
+            [define("m", "2*M"), define("J", "I + m*E"), define("g1", "I1"), define("g", "3")];
         let names = |formula: &str| {
             used_by(&[formula], &all).into_iter().map(|d| d.name).collect::<Vec<_>>()
         };

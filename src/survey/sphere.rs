@@ -99,7 +99,8 @@ pub fn criterion(case: &Case, options: &Options) -> Result<Option<SphereMap>, Ju
     let Some((body, parameters)) = Body::first(case, options)? else { return Ok(None) };
     let (latitudes, longitudes) = grid();
     let value = |latitude: f64, longitude: f64| rounded(body.criterion(point(latitude, longitude)));
-    let row = |latitude: &f64| longitudes.iter().map(|longitude| value(*latitude, *longitude)).collect();
+    let row =
+        |latitude: &f64| longitudes.iter().map(|longitude| value(*latitude, *longitude)).collect();
     Ok(Some(SphereMap {
         quantity: "C",
         parameters,

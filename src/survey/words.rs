@@ -52,14 +52,15 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
             with(body.gyrostat.is_some(), false)
         ),
         System::Ball(ball) => {
-            let surface = match (has("plane"), has("sphere"), has("circular cylinder"), has("quadric")) {
-                (true, ..) => "a plane",
-                (_, true, ..) => "a sphere",
-                (_, _, true, _) => "a circular cylinder",
-                (.., true) => "a surface parallel to a quadric",
-                _ if about().is_some() => "a surface of revolution",
-                _ => "a surface",
-            };
+            let surface =
+                match (has("plane"), has("sphere"), has("circular cylinder"), has("quadric")) {
+                    (true, ..) => "a plane",
+                    (_, true, ..) => "a sphere",
+                    (_, _, true, _) => "a circular cylinder",
+                    (.., true) => "a surface parallel to a quadric",
+                    _ if about().is_some() => "a surface of revolution",
+                    _ => "a surface",
+                };
             let turns = if ball.rotation.is_some() { " that turns" } else { "" };
             let with = with(false, ball.potential.is_some());
             format!("A homogeneous ball rolls, with spin, on {surface}{turns}{with}.")

@@ -72,7 +72,10 @@ fn system(survey: &Survey) -> Vec<Block> {
         facts.iter().map(|fact| fact.words.clone()).collect::<Vec<_>>()
     };
     if !holds.is_empty() {
-        found.extend([text("Recognised, each by a proof or as the file says it:"), Block::List(told(holds))]);
+        found.extend([
+            text("Recognised, each by a proof or as the file says it:"),
+            Block::List(told(holds)),
+        ]);
     }
     if !fails.is_empty() {
         let not = told(fails).join("; ");
@@ -94,7 +97,9 @@ fn system(survey: &Survey) -> Vec<Block> {
 fn measure(survey: &Survey) -> Vec<Block> {
     let mut found = blocks(&survey.criterion);
     let witness = survey.criterion.iter().find_map(|one| one.claim.evidence.witness.as_ref());
-    found.extend(witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))));
+    found.extend(
+        witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))),
+    );
     found.extend(blocks(&survey.densities));
     let sentence = match survey.hierarchy.measure {
         Measure::ByQuadrature if survey.densities.is_empty() => Some(
@@ -113,8 +118,12 @@ fn measure(survey: &Survey) -> Vec<Block> {
             format!(" Around closed parallels the quadrature gives 0 but for {error:e}.")
         });
         let what = match map.quantity {
-            "C" => "The criterion (γ, rot w) over the sphere of γ: it would be 0 everywhere if there were a density of the configuration.",
-            _ => "ln ρ over the sphere of γ, less its value at e₁, by quadrature from the criterion.",
+            "C" => {
+                "The criterion (γ, rot w) over the sphere of γ: it would be 0 everywhere if there were a density of the configuration."
+            }
+            _ => {
+                "ln ρ over the sphere of γ, less its value at e₁, by quadrature from the criterion."
+            }
         };
         let values: Vec<String> =
             map.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
@@ -131,7 +140,8 @@ fn measure(survey: &Survey) -> Vec<Block> {
 
 /// Every sixth column and fourth row of the map, for formats without pictures.
 fn table_of(map: &crate::survey::SphereMap) -> Block {
-    let shown = |value: &Option<f64>| Cell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
+    let shown =
+        |value: &Option<f64>| Cell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
     let rows = map.latitudes.iter().zip(&map.values).skip(1).step_by(4).map(|(latitude, row)| {
         let mut cells = vec![Cell::Text(format!("{latitude:+.1}°"))];
         cells.extend(row.iter().step_by(8).map(shown));
@@ -206,7 +216,9 @@ fn maps(survey: &Survey) -> Vec<Block> {
     if survey.reversors.is_empty() {
         found.push(text("No reversor was found among signed permutations of the axes."));
     } else {
-        found.push(text("Reversors, with the dimension of what they leave in place on the level set:"));
+        found.push(text(
+            "Reversors, with the dimension of what they leave in place on the level set:",
+        ));
         found.push(Block::Table {
             head: vec!["reversor", "map", "verdict", "dimension"],
             rows: survey.reversors.iter().map(|one| row(one, true)).collect(),

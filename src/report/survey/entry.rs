@@ -71,7 +71,9 @@ fn remarks(finding: &Finding) -> Vec<String> {
     if finding.holds() {
         remarks.extend(place(&evidence.holds));
         match evidence.sign {
-            Some(Sign::Changes) => remarks.push("zeros or poles: a measure between them".to_string()),
+            Some(Sign::Changes) => {
+                remarks.push("zeros or poles: a measure between them".to_string())
+            }
             Some(Sign::Negative) => remarks.push("negative: take −ρ".to_string()),
             _ => {}
         }

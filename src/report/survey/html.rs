@@ -63,7 +63,9 @@ fn table(head: &[&str], rows: &[Vec<Cell>]) -> String {
     let line = |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
     let head: String = head.iter().map(|word| format!("<th>{}</th>", escaped(word))).collect();
     let body: String = rows.iter().map(line).collect();
-    format!("<div class=\"scroll\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n")
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n"
+    )
 }
 
 fn entry(entry: &Entry) -> String {

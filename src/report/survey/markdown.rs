@@ -32,7 +32,9 @@ fn set(block: &Block) -> String {
             }
             out + "\n"
         }
-        Block::Picture(picture) => format!("*{}* (in the HTML page)\n\n", escaped(&picture.caption)),
+        Block::Picture(picture) => {
+            format!("*{}* (in the HTML page)\n\n", escaped(&picture.caption))
+        }
     }
 }
 

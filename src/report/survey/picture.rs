@@ -27,9 +27,8 @@ pub fn body(frame: &Wireframe) -> Picture {
     let along = |a: [f64; 3], b: [f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let reach = frame.lines.iter().flatten().map(|(r, _)| along(*r, *r).sqrt()).fold(0.0, f64::max);
     let scale = if reach > 0.0 { 0.46 * SIZE / reach } else { 1.0 };
-    let place = |r: [f64; 3]| {
-        (SIZE / 2.0 + scale * along(r, right), SIZE / 2.0 - scale * along(r, up))
-    };
+    let place =
+        |r: [f64; 3]| (SIZE / 2.0 + scale * along(r, right), SIZE / 2.0 - scale * along(r, up));
     let mut inner = String::new();
     for line in &frame.lines {
         for pair in line.windows(2) {
@@ -56,7 +55,8 @@ pub fn body(frame: &Wireframe) -> Picture {
             k + 1
         );
     }
-    let caption = "The surface of the body with its mass centre and the axes of the frame".to_string();
+    let caption =
+        "The surface of the body with its mass centre and the axes of the frame".to_string();
     Picture { svg: svg(SIZE, SIZE, &caption, &inner), caption }
 }
 
@@ -66,9 +66,8 @@ pub fn sphere(map: &SphereMap) -> Picture {
     const LEFT: f64 = 44.0;
     const TOP: f64 = 8.0;
     let values = map.values.iter().flatten().flatten();
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(*x), high.max(*x))
-    });
+    let (low, high) = values
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
     // The criterion has two signs, and 0 in the middle.
     let is_signed = map.quantity == "C";
     let (low, high) = match is_signed {
@@ -95,9 +94,13 @@ pub fn sphere(map: &SphereMap) -> Picture {
     }
     inner.push_str("</g>");
     let mut label = |x: f64, y: f64, anchor: &str, words: &str| {
-        let _ = write!(inner, "<text x=\"{x:.0}\" y=\"{y:.0}\" text-anchor=\"{anchor}\">{words}</text>");
+        let _ = write!(
+            inner,
+            "<text x=\"{x:.0}\" y=\"{y:.0}\" text-anchor=\"{anchor}\">{words}</text>"
+        );
     };
-    for (share, words) in [(0.0, "e₁"), (0.25, "e₂"), (0.5, "−e₁"), (0.75, "−e₂"), (1.0, "e₁")] {
+    for (share, words) in [(0.0, "e₁"), (0.25, "e₂"), (0.5, "−e₁"), (0.75, "−e₂"), (1.0, "e₁")]
+    {
         label(LEFT + share * width, TOP + height + 16.0, "middle", words);
     }
     for (share, words) in [(0.0, "e₃"), (0.5, "0°"), (1.0, "−e₃")] {
@@ -109,7 +112,8 @@ pub fn sphere(map: &SphereMap) -> Picture {
         let share = (k as f64 + 0.5) / STEPS as f64;
         let y = TOP + height - (k as f64 + 1.0) * step;
         let fill = if is_signed { mixed(&SIGNED, share) } else { mixed(&RISING, share) };
-        let _ = write!(inner, "<path d=\"M{bar} {y:.2}h14v{:.2}h-14z\" fill=\"{fill}\"/>", step + 0.3);
+        let _ =
+            write!(inner, "<path d=\"M{bar} {y:.2}h14v{:.2}h-14z\" fill=\"{fill}\"/>", step + 0.3);
     }
     for (y, value) in [(TOP + 9.0, high), (TOP + height, low)] {
         let _ = write!(inner, "<text x=\"{:.0}\" y=\"{y:.0}\">{value:.3}</text>", bar + 20.0);
@@ -122,11 +126,21 @@ pub fn sphere(map: &SphereMap) -> Picture {
 }
 
 /// Dark to light, readable without colours too.
-const RISING: [[f64; 3]; 5] =
-    [[59.0, 15.0, 112.0], [49.0, 87.0, 149.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [250.0, 230.0, 60.0]];
+const RISING: [[f64; 3]; 5] = [
+    [59.0, 15.0, 112.0],
+    [49.0, 87.0, 149.0],
+    [33.0, 145.0, 140.0],
+    [94.0, 201.0, 98.0],
+    [250.0, 230.0, 60.0],
+];
 /// Negative, zero, positive.
-const SIGNED: [[f64; 3]; 5] =
-    [[33.0, 72.0, 150.0], [130.0, 170.0, 215.0], [240.0, 240.0, 238.0], [228.0, 150.0, 120.0], [165.0, 30.0, 40.0]];
+const SIGNED: [[f64; 3]; 5] = [
+    [33.0, 72.0, 150.0],
+    [130.0, 170.0, 215.0],
+    [240.0, 240.0, 238.0],
+    [228.0, 150.0, 120.0],
+    [165.0, 30.0, 40.0],
+];
 
 fn mixed(stops: &[[f64; 3]], share: f64) -> String {
     let at = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;

@@ -21,7 +21,9 @@ pub fn formula(layout: &Layout) -> String {
             format!("\\frac{{{}}}{{{}}}", formula(above), formula(below))
         }
         Layout::Root(inner) => format!("\\sqrt{{{}}}", formula(inner)),
-        Layout::Raised(base, exponent) => format!("{{{}}}^{{{}}}", formula(base), formula(exponent)),
+        Layout::Raised(base, exponent) => {
+            format!("{{{}}}^{{{}}}", formula(base), formula(exponent))
+        }
         Layout::Lowered(base, index) => format!("{{{}}}_{{{}}}", formula(base), formula(index)),
         Layout::Matrix(rows) => {
             let line = |row: &Vec<Layout>| row.iter().map(formula).collect::<Vec<_>>().join(" & ");
