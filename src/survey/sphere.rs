@@ -28,13 +28,16 @@ const NODES: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
 
+/// Values of the free parameters, by names.
+type Parameters = Vec<(String, String)>;
+
 /// Values on a grid of the sphere of γ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereMap {
     /// `ln ρ`, less its value at e₁, or `C`, the criterion.
     pub quantity: &'static str,
     /// The values of the free parameters, by names.
-    pub parameters: Vec<(String, String)>,
+    pub parameters: Parameters,
     /// Latitudes of the rows, in degrees; γ₃ is the sine.
     pub latitudes: Vec<f64>,
     /// Longitudes of the columns, in degrees from e₁.
@@ -138,7 +141,7 @@ impl<'c> Body<'c> {
     pub fn first(
         case: &'c Case,
         options: &Options,
-    ) -> Result<Option<(Self, Vec<(String, String)>)>, JudgeError> {
+    ) -> Result<Option<(Self, Parameters)>, JudgeError> {
         let model = &case.model;
         if !matches!(model.system, System::Rubber(_)) || !model.extension.is_empty() {
             return Ok(None);
