@@ -147,6 +147,14 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
     let body = "[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n[body]\nshape = 'ball'\n";
     let claim = |text: &str| format!("{head}{body}[[claim]]\nintegral = '{text}'\n");
     let field = |text: &str| format!("title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\n{text}");
+    let lagrangian = |system: &str, text: &str| {
+        let state = "x = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n";
+        format!("title = 'x'\nsystem = '{system}'\n[state]\n{state}[lagrangian]\n{text}\n")
+    };
+    let turning = |claim: &str| field(&format!("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n{claim}\n"));
+    let skate = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\"]";
+    let twice = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\", \"2*x*y' = 2*x'\"]";
+    let quasi = "kinetic = 'y²'\nquasi-velocities = ['y']\nalgebra = 'so(4)'";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
         ("empty", String::new(), "the file is empty", "writing-a-case"),
@@ -164,7 +172,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("kinds", claim("ω3 + γ"), "scalar", ""),
         ("bracket", claim("((γ,ω)"), "bracket", ""),
         ("weights", claim("(γ,γ) + ω3"), "unequal weight", "check-weights"),
-        ("vector", claim("γ"), "should be a scalar, but this is a vector", ""),
+        (
+            "vector",
+            claim("γ").replace("integral", "density"),
+            "should be a scalar, but this is a vector",
+            "",
+        ),
         ("deep", claim(&deep), "nested too deeply", ""),
         ("nan", format!("{head}{}", body.replace("m = 1", "m = nan")), "is not a number", ""),
         ("range", format!("{head}{}", body.replace("m = 1", "m = '2..1'")), "is empty", ""),
@@ -191,6 +204,17 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             field("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[[claim]]\nanalytic-density = 'exists'\n"),
             "decided by a criterion",
             "",
+        ),
+        ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
+        ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
+        ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
+        ("algebra", lagrangian("nonholonomic", quasi), "is no algebra that is known", "so(3)"),
+        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [variables]"),
+        (
+            "two",
+            turning("[[claim]]\nintegral = 'x'\ndensity = '1'"),
+            "one statement",
+            "give one of",
         ),
         ("rate", field("[field]\n\"x'\" = 'y'\n"), "has no rate for `y`", "y'"),
     ];

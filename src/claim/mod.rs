@@ -43,7 +43,7 @@ macro_rules! kinds {
         /// What is claimed.
         #[derive(Clone, Debug)]
         pub enum Kind {
-            $(#[allow(missing_docs)] $kind($kind),)*
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
         }
 
         /// Does the same with whatever is claimed.

@@ -6,7 +6,7 @@ use crate::mechanics::Meaning;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// [u,v] = c v; c = 0 unless a weight is given.
+/// `[u,v] = c v`; c = 0 unless a weight is given.
 #[derive(Clone, Debug)]
 pub struct SymmetryField {
     /// One entry a state variable; 0 where none is given.

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use indicatif::ProgressBar;
 use liouville::report::{diagnostic, search as written};
-use liouville::search::{self, Effort};
+use liouville::search::{self, Effort, Wanted};
 
 use super::eval::open;
 use super::{Answer, Search, colour};
@@ -14,6 +14,12 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
+        terms: options.terms.clone(),
+        conditions: options.conditions.as_ref().map(|name| match name.as_str() {
+            "" => Wanted::Existence,
+            name => Wanted::Claim(name.to_string()),
+        }),
+        seconds: options.seconds,
         options: liouville::verdict::Options {
             seed: options.seed,
             ..liouville::verdict::Options::default()

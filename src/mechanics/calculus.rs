@@ -166,7 +166,7 @@ pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
         let inside = (0..n).filter(|j| columns >> j & 1 == 1);
         for (place, j) in inside.enumerate() {
             let term = matrix[row][j] * minors[columns & !(1 << j)];
-            sum = if (row + place) % 2 == 0 { sum + term } else { sum - term };
+            sum = if (row + place).is_multiple_of(2) { sum + term } else { sum - term };
         }
         minors[columns] = sum;
     }
@@ -240,6 +240,23 @@ mod tests {
         for (row, expected) in matrix.iter().zip([1.0, 2.0, 3.0]) {
             assert!((dot(row, &solution) - expected).abs() < 1e-14, "A x = b");
         }
+    }
+
+    #[test]
+    fn determinants_traces_and_characteristic_polynomials() {
+        // A = [[2,1,0],[0,3,1],[1,0,1]] by columns: det A = 7, tr A = 6, second invariant 11.
+        let a = vec![vec![2.0, 0.0, 1.0], vec![1.0, 3.0, 0.0], vec![0.0, 1.0, 1.0]];
+        assert_eq!(gram_determinant(&a), 49.0, "det(AᵀA) = (det A)²");
+        let dependent = vec![a[0].clone(), a[1].clone(), vec![3.0, 3.0, 1.0]];
+        assert_eq!(gram_determinant(&dependent), 0.0, "the third is the sum of the others");
+        assert_eq!(characteristic_polynomial(&a), [-6.0, 11.0, -7.0]);
+        // B = A C with C = diag(1,2,4): tr(B A⁻¹) = tr C.
+        let b: Vec<Vec<f64>> = [1.0, 2.0, 4.0]
+            .iter()
+            .zip(&a)
+            .map(|(c, column)| column.iter().map(|x| c * x).collect())
+            .collect();
+        assert!((trace_of_quotient(&a, &b) - 7.0).abs() < 1e-12);
     }
 
     #[test]

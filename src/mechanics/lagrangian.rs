@@ -8,8 +8,9 @@
 //! nonholonomic: 𝓛 = L          vakonomic: 𝓛 = L - Σ λ_k f_k, λ_k' = μ_k
 //! ```
 //!
-//! and f_k' = 0 gives the reactions μ. In coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov,
-//! Dynamics of systems with nonintegrable constraints II: (27), (28), (33).
+//! and f_k' = 0 gives the reactions μ. Where f_k is not linear, a_k = ∂f_k/∂w
+//! (Chetaev's rule). In coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov, Dynamics of systems with
+//! nonintegrable constraints II: (27), (28), (33).
 
 use num_dual::Dual;
 

@@ -99,6 +99,29 @@ impl System {
         }
     }
 
+    /// The same body without potential and gyrostat; nothing where it is not known what belongs to the
+    /// free motion (a further moment may be quadratic in the velocities).
+    pub fn without_forces(&self) -> Option<System> {
+        let mut free = self.clone();
+        match &mut free {
+            System::Rubber(body) => {
+                if body.moment.is_some() {
+                    return None;
+                }
+                (body.potential, body.gyrostat) = (None, None);
+            }
+            System::FlatBase(body) => body.gyrostat = None,
+            System::Ball(ball) => {
+                if ball.rotation.is_some() {
+                    return None;
+                }
+                ball.potential = None;
+            }
+            System::Lagrangian(_) | System::Field(_) => return None,
+        }
+        Some(free)
+    }
+
     /// Zero everywhere exactly when a density of the configuration alone exists.
     pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {

@@ -20,6 +20,9 @@ const SPARE: usize = 4;
 /// Numerators and denominators of coefficients are looked for up to here.
 const LARGEST: i128 = 1 << 20;
 
+/// What must vanish, from the values at some places; nothing if one of them is missing.
+type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
+
 /// constant + Σ multiples_i e_i over a basis e.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
@@ -143,11 +146,7 @@ impl<'g> Relations<'g> {
     }
 
     /// Proves that some functions of the values at these places vanish.
-    fn vanish(
-        &self,
-        places: &[usize],
-        defects: &dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>>,
-    ) -> bool {
+    fn vanish(&self, places: &[usize], defects: &Defects<'_>) -> bool {
         let reached = self.graph.reached_from(places);
         let recorded = record(self.sources.len(), |inputs| {
             defects(&self.graph.replay(&reached, inputs, |_, _, _| None))

@@ -11,6 +11,8 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
         "counts": report.counts,
         "found": report.found,
         "excluded": report.excluded,
+        "second_opinions": report.opinions,
+        "conditions": report.conditions,
         "remarks": report.remarks,
     }))
 }
@@ -26,18 +28,24 @@ pub fn text(title: &str, report: &Report) -> String {
             true => format!("up to degree {}", count.degree),
             false => format!("of degree {}", count.degree),
         };
-        let known = match (count.known, count.mixed) {
-            (0, _) => "none known".to_string(),
-            (known, false) => format!("{known} a power of the energy"),
-            (known, true) => format!("{known} of them constants and powers of the energy"),
+        let known = match (count.dimension.saturating_sub(count.known), count.free) {
+            (0, _) if count.dimension == 0 => "none".to_string(),
+            (0, false) => "all known".to_string(),
+            (0, true) => "powers of the energy".to_string(),
+            (new, false) => format!("{new} of them not known"),
+            (new, true) => format!("{new} of them no power of the energy"),
         };
+        let motion = if count.free { "free motion, " } else { "" };
         out.push_str(&format!(
-            "  {degree:<16} {:>3}   {known}   ({} unknowns, {} equations)\n",
+            "  {motion}{degree:<16} {:>3}   {known}   ({} unknowns, {} equations)\n",
             count.dimension, count.unknowns, count.equations
         ));
     }
     for found in &report.found {
         out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
+        for (name, text) in &found.abbreviations {
+            out.push_str(&format!("    {name} = {text}\n"));
+        }
         if let Some(proof) = &found.evidence.proof {
             out.push_str(&format!("  {proof}\n"));
         }
@@ -50,6 +58,22 @@ pub fn text(title: &str, report: &Report) -> String {
     }
     for excluded in &report.excluded {
         out.push_str(&format!("\ntheorem\n  {}\n", excluded.theorem));
+    }
+    for opinion in &report.opinions {
+        let Some(zero) = opinion.largest_zero else { continue };
+        let verdict = if opinion.agrees() { "agree" } else { "DO NOT AGREE" };
+        out.push_str(&format!(
+            "\nsecond opinion, terms over {}: the singular values of {} terms at {} states in f64 {verdict} \
+             with {} relations: {:.1e}, then {zero:.1e}\n",
+            opinion.denominator, opinion.terms, opinion.states, opinion.relations, opinion.smallest
+        ));
+    }
+    for condition in &report.conditions {
+        out.push_str(&format!("\ncondition for: {}\n", condition.of));
+        for equation in &condition.equations {
+            out.push_str(&format!("  {equation}\n"));
+        }
+        out.push_str(&format!("  ({})\n", condition.grounds));
     }
     for remark in &report.remarks {
         out.push_str(&format!("\nnote: {remark}\n"));

@@ -7,13 +7,12 @@ pub struct Echelon {
     modulus: Modulus,
     /// By pivot column: the row, 1 at its pivot and 0 before it.
     rows: Vec<Option<Vec<u64>>>,
-    rank: usize,
 }
 
 impl Echelon {
     /// No rows yet.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
-        Self { modulus, rows: vec![None; columns], rank: 0 }
+        Self { modulus, rows: vec![None; columns] }
     }
 
     /// Adds a row; `false` if it depends on those before it.
@@ -36,7 +35,6 @@ impl Echelon {
                     let inverse = m.inverse(row[column]);
                     row[column..].iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
                     self.rows[column] = Some(row);
-                    self.rank += 1;
                     return true;
                 }
             }
@@ -44,9 +42,9 @@ impl Echelon {
         false
     }
 
-    /// How many rows are independent.
-    pub fn rank(&self) -> usize {
-        self.rank
+    /// How many columns there are.
+    pub fn columns(&self) -> usize {
+        self.rows.len()
     }
 
     /// Has some row its pivot in this column?
@@ -89,7 +87,6 @@ mod tests {
         let added: Vec<bool> =
             rows.iter().map(|row| echelon.push(row.iter().map(|x| n(*x)).collect())).collect();
         assert_eq!(added, [true, true, false], "the third row is the sum of the others");
-        assert_eq!(echelon.rank(), 2);
         let vectors = echelon.null_space();
         assert_eq!(vectors.len(), 2);
         for vector in vectors {

@@ -14,20 +14,30 @@ use super::echelon::Echelon;
 use super::local::Local;
 use super::series::{Series, exponents};
 use crate::graph::{Evaluator, Tape};
-use crate::mechanics::Draw;
 use crate::number::prime::Modulus;
 use crate::proof::Chance;
 
 /// Points that are drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
 
+/// Velocity exponents with a series each.
+type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
+
+/// A power of the velocities and the number of a monomial of the positions.
+pub type RowKey = (Vec<u32>, usize);
+
+/// Columns and values of a sparse row.
+type Entries = Vec<(usize, u64)>;
+
+/// The rates at a point of the velocities, if they have a value.
+type Rates<'a> = dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>> + 'a;
+
 /// The field's Taylor series: polynomials in the velocities with series as coefficients.
-struct Expansion {
-    series: Series,
+pub struct Expansion {
     /// For each position: velocity exponents and coefficient of its rate.
-    positions: Vec<Vec<(Vec<u32>, Vec<u64>)>>,
+    positions: Vec<Polynomial>,
     /// The same for each velocity.
-    velocities: Vec<Vec<(Vec<u32>, Vec<u64>)>>,
+    velocities: Vec<Polynomial>,
 }
 
 /// The number of integrals of one degree, as an upper bound for generic parameters.
@@ -43,13 +53,19 @@ pub struct Count {
     pub size: (usize, usize),
 }
 
-/// Counts integrals of a degree; the order of the Taylor coefficients rises until the count stands
-/// still.
-pub fn count(local: &Local, degree: u32, mixed: bool, seed: u64) -> Result<Count, SearchError> {
+/// Counts integrals of a degree, of which `least` are known to be there; the order of the Taylor
+/// coefficients rises until the count stands still.
+pub fn count(
+    local: &Local,
+    degree: u32,
+    mixed: bool,
+    least: usize,
+    seed: u64,
+) -> Result<Count, SearchError> {
     let mut last = None;
     for order in [2 * degree + 2, 2 * degree + 3, 2 * degree + 5, 2 * degree + 7] {
         let found = count_to_order(local, degree, mixed, order, seed)?;
-        if last == Some(found.dimension) {
+        if found.dimension <= least || last == Some(found.dimension) {
             return Ok(found);
         }
         last = Some(found.dimension);
@@ -66,130 +82,194 @@ fn count_to_order(
 ) -> Result<Count, SearchError> {
     let mut chance = Chance::new(seed, 40);
     let modulus = chance.prime(&[], &[]);
-    let expansion = Expansion::of(local, modulus, order, &mut chance)?;
-    let m = &modulus;
-    let velocities = local.coordinates.velocities;
-    let lowest = if mixed { 0 } else { degree };
-    let powers: Vec<Vec<u32>> = (lowest..=degree).flat_map(|n| exponents(velocities, n)).collect();
-    let monomials = expansion.series.monomials();
-    let total = |monomial: &[u32]| monomial.iter().sum::<u32>();
-    let place: FxHashMap<&[u32], usize> =
-        monomials.iter().enumerate().map(|(k, monomial)| (monomial.as_slice(), k)).collect();
-    // Columns from high order to low: what is left free at the end is of low order.
-    let mut columns: Vec<(usize, usize)> =
-        (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
-    columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));
-    let mut rows: FxHashMap<(Vec<u32>, usize), Vec<(usize, u64)>> = FxHashMap::default();
-    for (column, (a, k)) in columns.iter().enumerate() {
-        let mut add = |power: Vec<u32>, monomial: &[u32], coefficient: &[u64], factor: u64| {
-            for (other, value) in monomials.iter().zip(coefficient) {
-                if *value == 0 {
-                    continue;
-                }
-                let sum: Vec<u32> = monomial.iter().zip(other).map(|(x, y)| x + y).collect();
-                if total(&sum) < order {
-                    let row = rows.entry((power.clone(), place[sum.as_slice()])).or_default();
-                    row.push((column, m.mul(factor, *value)));
-                }
-            }
-        };
-        let (power, monomial) = (&powers[*a], &monomials[*k]);
-        // ∂C/∂q_i q_i'
-        for (i, rate) in expansion.positions.iter().enumerate().filter(|(i, _)| monomial[*i] > 0) {
-            let mut lower = monomial.clone();
-            lower[i] -= 1;
-            let factor = m.integer(u64::from(monomial[i]));
-            for (w, coefficient) in rate {
-                let raised = power.iter().zip(w).map(|(x, y)| x + y).collect();
-                add(raised, &lower, coefficient, factor);
-            }
-        }
-        // C ∂w^a/∂w_i w_i'
-        for (i, rate) in expansion.velocities.iter().enumerate().filter(|(i, _)| power[*i] > 0) {
-            let factor = m.integer(u64::from(power[i]));
-            for (w, coefficient) in rate {
-                let mut raised: Vec<u32> = power.iter().zip(w).map(|(x, y)| x + y).collect();
-                raised[i] -= 1;
-                add(raised, monomial, coefficient, factor);
-            }
+    let mut taylor = Taylor::new(local, modulus, order);
+    for _ in 0..MOST_POINTS {
+        let parameters = local.parameters(&modulus, &mut chance);
+        let positions = taylor.positions(&mut chance);
+        if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
+            let system = Equations::of(&expansion, &taylor, degree, mixed);
+            let dimension = system.dimension(&system.solved().0);
+            let size = (system.columns.len(), system.rows.len());
+            return Ok(Count { degree, mixed, dimension, size });
         }
     }
-    let mut rows: Vec<_> = rows.into_iter().collect();
-    rows.sort_by(|(a, _), (b, _)| a.cmp(b));
-    let size = (columns.len(), rows.len());
-    let mut echelon = Echelon::new(columns.len(), modulus);
-    for (_, entries) in rows {
-        let mut row = vec![0; columns.len()];
-        for (column, value) in entries {
-            row[column] = m.add(row[column], value);
-        }
-        echelon.push(row);
-    }
-    let low = |column: usize| total(&monomials[columns[column].1]) <= degree;
-    let dimension =
-        (0..columns.len()).filter(|column| low(*column) && !echelon.has_pivot(*column)).count();
-    Ok(Count { degree, mixed, dimension, size })
+    Err(SearchError::NoSeries)
 }
 
-impl Expansion {
-    fn of(
-        local: &Local,
-        modulus: Modulus,
-        order: u32,
-        chance: &mut Chance,
-    ) -> Result<Self, SearchError> {
-        let (positions, velocities) = (local.coordinates.positions, local.coordinates.velocities);
-        let series = Series::new(modulus, positions, order);
+/// Linear equations for the Taylor coefficients of the C_a.
+pub struct Equations {
+    /// Whose coefficient of which order each column is, from high order to low: what is left free at
+    /// the end is of low order.
+    columns: Vec<u32>,
+    degree: u32,
+    /// By the power of the velocities and the monomial of the positions whose coefficient it is.
+    rows: Vec<(RowKey, Entries)>,
+    modulus: Modulus,
+}
+
+impl Equations {
+    /// The rows, dense, with what they belong to.
+    pub fn rows(&self) -> impl Iterator<Item = (&RowKey, Vec<u64>)> {
+        self.rows.iter().map(|(key, entries)| {
+            let mut row = vec![0; self.columns.len()];
+            for (column, value) in entries {
+                row[*column] = self.modulus.add(row[*column], *value);
+            }
+            (key, row)
+        })
+    }
+
+    /// All equations in echelon form, and what the independent rows belong to.
+    pub fn solved(&self) -> (Echelon, Vec<RowKey>) {
+        let mut echelon = Echelon::new(self.columns.len(), self.modulus);
+        let independent = self.rows().filter(|(_, row)| echelon.push(row.clone()));
+        let keys = independent.map(|(key, _)| key.clone()).collect();
+        (echelon, keys)
+    }
+
+    /// How many integrals the equations leave, as they are determined by coefficients of low order.
+    pub fn dimension(&self, echelon: &Echelon) -> usize {
+        let free =
+            |column: &usize| self.columns[*column] <= self.degree && !echelon.has_pivot(*column);
+        (0..self.columns.len()).filter(free).count()
+    }
+
+    /// The equations at a point, for integrals of a degree.
+    pub fn of(expansion: &Expansion, taylor: &Taylor<'_>, degree: u32, mixed: bool) -> Self {
+        let (modulus, order) = (taylor.modulus, taylor.order);
+        let velocities = taylor.local.coordinates.velocities;
+        let m = &modulus;
+        let lowest = if mixed { 0 } else { degree };
+        let powers: Vec<Vec<u32>> =
+            (lowest..=degree).flat_map(|n| exponents(velocities, n)).collect();
+        let monomials = taylor.series.monomials();
+        let total = |monomial: &[u32]| monomial.iter().sum::<u32>();
+        let place: FxHashMap<&[u32], usize> =
+            monomials.iter().enumerate().map(|(k, monomial)| (monomial.as_slice(), k)).collect();
+        // Columns from high order to low: what is left free at the end is of low order.
+        let mut columns: Vec<(usize, usize)> =
+            (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
+        columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));
+        let mut rows: FxHashMap<RowKey, Entries> = FxHashMap::default();
+        for (column, (a, k)) in columns.iter().enumerate() {
+            let mut add = |power: Vec<u32>, monomial: &[u32], coefficient: &[u64], factor: u64| {
+                for (other, value) in monomials.iter().zip(coefficient) {
+                    if *value == 0 {
+                        continue;
+                    }
+                    let sum: Vec<u32> = monomial.iter().zip(other).map(|(x, y)| x + y).collect();
+                    if total(&sum) < order {
+                        let row = rows.entry((power.clone(), place[sum.as_slice()])).or_default();
+                        row.push((column, m.mul(factor, *value)));
+                    }
+                }
+            };
+            let (power, monomial) = (&powers[*a], &monomials[*k]);
+            // ∂C/∂q_i q_i'
+            for (i, rate) in
+                expansion.positions.iter().enumerate().filter(|(i, _)| monomial[*i] > 0)
+            {
+                let mut lower = monomial.clone();
+                lower[i] -= 1;
+                let factor = m.integer(u64::from(monomial[i]));
+                for (w, coefficient) in rate {
+                    let raised = power.iter().zip(w).map(|(x, y)| x + y).collect();
+                    add(raised, &lower, coefficient, factor);
+                }
+            }
+            // C ∂w^a/∂w_i w_i'
+            for (i, rate) in expansion.velocities.iter().enumerate().filter(|(i, _)| power[*i] > 0)
+            {
+                let factor = m.integer(u64::from(power[i]));
+                for (w, coefficient) in rate {
+                    let mut raised: Vec<u32> = power.iter().zip(w).map(|(x, y)| x + y).collect();
+                    raised[i] -= 1;
+                    add(raised, monomial, coefficient, factor);
+                }
+            }
+        }
+        let mut rows: Vec<_> = rows.into_iter().collect();
+        rows.sort_by(|(a, _), (b, _)| a.cmp(b));
+        let columns = columns.into_iter().map(|(_, k)| total(&monomials[k])).collect();
+        Self { columns, degree, rows, modulus }
+    }
+}
+
+/// The field's Taylor series up to an order, at points of the configuration.
+pub struct Taylor<'l> {
+    local: &'l Local,
+    modulus: Modulus,
+    order: u32,
+    series: Series,
+    tape: Tape,
+}
+
+impl<'l> Taylor<'l> {
+    /// Series modulo a prime.
+    pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
+        let series = Series::new(modulus, local.coordinates.positions, order);
         let tape = Tape::new(&local.graph, &local.rates);
-        let mut evaluator = Evaluator::new(&tape, series.clone());
-        for _ in 0..MOST_POINTS {
-            let mut inputs: Vec<Vec<u64>> = local
-                .draws
-                .iter()
-                .map(|draw| {
-                    let listed = match draw {
-                        Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)),
-                        Draw::Within(_) => None,
-                    };
-                    series.number(listed.unwrap_or_else(|| chance.element(&modulus)))
-                })
-                .collect();
-            inputs.extend((0..positions).map(|k| series.variable(k, chance.element(&modulus))));
-            let mut rates_at = |point: &[u64]| -> Option<Vec<Vec<u64>>> {
-                let mut inputs = inputs.clone();
-                inputs.extend(point.iter().map(|w| series.number(*w)));
-                evaluator.run(&inputs);
-                let found: Vec<Vec<u64>> = evaluator.outputs().cloned().collect();
-                found.iter().all(|rate| !rate.is_empty()).then_some(found)
-            };
-            let check: Vec<u64> = (0..velocities).map(|_| chance.element(&modulus)).collect();
-            let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else {
-                continue;
-            };
-            let Some(found) = rates_at(&check) else { continue };
-            if !agrees(&polynomials, &check, &found, &modulus) {
-                return Err(SearchError::NotQuadratic);
-            }
-            let mut rates = polynomials.into_iter();
-            return Ok(Self {
-                positions: rates.by_ref().take(positions).collect(),
-                velocities: rates.collect(),
-                series,
-            });
+        Self { local, modulus, order, series, tape }
+    }
+
+    /// Random positions.
+    pub fn positions(&self, chance: &mut Chance) -> Vec<u64> {
+        (0..self.local.coordinates.positions).map(|_| chance.element(&self.modulus)).collect()
+    }
+
+    /// The series about a point; nothing where the field has none.
+    pub fn at(
+        &mut self,
+        parameters: &[u64],
+        positions: &[u64],
+        chance: &mut Chance,
+    ) -> Result<Option<Expansion>, SearchError> {
+        let (modulus, series) = (self.modulus, &self.series);
+        let velocities = self.local.coordinates.velocities;
+        let mut evaluator = Evaluator::new(&self.tape, series.clone());
+        let mut inputs: Vec<Vec<u64>> = parameters.iter().map(|x| series.number(*x)).collect();
+        inputs.extend(positions.iter().enumerate().map(|(k, x)| series.variable(k, *x)));
+        let mut rates_at = |point: &[u64]| -> Option<Vec<Vec<u64>>> {
+            let mut inputs = inputs.clone();
+            inputs.extend(point.iter().map(|w| series.number(*w)));
+            evaluator.run(&inputs);
+            let found: Vec<Vec<u64>> = evaluator.outputs().cloned().collect();
+            found.iter().all(|rate| !rate.is_empty()).then_some(found)
+        };
+        let check: Vec<u64> = (0..velocities).map(|_| chance.element(&modulus)).collect();
+        let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else {
+            return Ok(None);
+        };
+        let Some(found) = rates_at(&check) else { return Ok(None) };
+        if !agrees(&polynomials, &check, &found, &modulus) {
+            return Err(SearchError::NotQuadratic);
         }
-        Err(SearchError::NoSeries)
+        if !spans(&polynomials[..positions.len()], velocities, modulus) {
+            return Err(SearchError::NotSpanned);
+        }
+        let mut rates = polynomials.into_iter();
+        Ok(Some(Expansion {
+            positions: rates.by_ref().take(positions.len()).collect(),
+            velocities: rates.collect(),
+        }))
     }
 }
 
-/// Velocity exponents with a series each.
-type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
+/// Do the rates of the positions take all directions? Then Σ w_i X_i C = 0 determines the
+/// coefficients of degree n by their n-jets, as for Killing tensors.
+fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
+    let mut echelon = Echelon::new(velocities, modulus);
+    rates.iter().all(|rate| {
+        let slope = |i: usize| {
+            let is_unit = |e: &Vec<u32>| e[i] == 1 && e.iter().sum::<u32>() == 1;
+            rate.iter().find(|(exponent, _)| is_unit(exponent)).map_or(0, |(_, series)| series[0])
+        };
+        echelon.push((0..velocities).map(slope).collect())
+    })
+}
 
 /// Polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.
-fn quadratic(
-    velocities: usize,
-    m: &Modulus,
-    rates_at: &mut dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>>,
-) -> Option<Vec<Polynomial>> {
+fn quadratic(velocities: usize, m: &Modulus, rates_at: &mut Rates<'_>) -> Option<Vec<Polynomial>> {
     let unit = |entries: &[(usize, u64)]| -> Vec<u64> {
         let mut point = vec![0; velocities];
         entries.iter().for_each(|(i, value)| point[*i] = *value);

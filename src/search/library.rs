@@ -17,13 +17,12 @@ fn has(model: &Model, name: &str, kind: Type) -> bool {
 /// The names of scalar parameters that the formula of a potential uses.
 fn potential_parameters(model: &Model) -> Texts {
     use crate::mechanics::Potential;
-    let formula = match &model.system {
-        System::Rubber(body) => match &body.potential {
-            Some(Potential::Formula(formula)) => formula,
-            _ => return Vec::new(),
-        },
+    let potential = match &model.system {
+        System::Rubber(body) => &body.potential,
+        System::Ball(ball) => &ball.potential,
         _ => return Vec::new(),
     };
+    let Some(Potential::Formula(formula)) = potential else { return Vec::new() };
     let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
     formula
         .symbols()
@@ -52,6 +51,22 @@ struct Pieces {
     weights: Texts,
     /// Terms free of the velocities, that a potential may ask for.
     free: Texts,
+}
+
+/// What potentials that separate in the sphero-conical coordinates of a tensor A add: polynomials of
+/// degree 2 and 4, and p/γ_k².
+fn separable(parameter: &str, a: &str) -> Texts {
+    let mut terms = vec![
+        format!("{parameter}*(γ,adj({a})*γ)"),
+        format!("{parameter}*tr({a})*(γ,{a}*γ)"),
+        format!("{parameter}*({a}*γ,{a}*γ)"),
+        format!("{parameter}*(γ,{a}*γ)*(γ,adj({a})*γ)"),
+    ];
+    for k in 1..=3 {
+        let entries = [format!("({a})[{k},{k}]"), format!("tr({a})"), format!("(γ,{a}*γ)")];
+        terms.extend(entries.iter().map(|entry| format!("{parameter}/γ{k}²*{entry}")));
+    }
+    terms
 }
 
 fn pieces(model: &Model) -> Pieces {
@@ -107,9 +122,12 @@ fn pieces(model: &Model) -> Pieces {
                 pieces
                     .free
                     .push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
+                let tensor = if matrix("B") { "B⁻¹" } else { constant };
+                pieces.free.extend(separable(&parameter, tensor));
             }
             if body.potential.is_some() {
-                pieces.free.extend(["U", "m*r²*U", "m*U"].map(str::to_string));
+                pieces.free.extend(pieces.weights.iter().map(|weight| product(&["U", weight])));
+                pieces.free.push("U*(γ,adj(B⁻¹)*(B*γ))".to_string());
             }
         }
         System::FlatBase(body) => {
@@ -128,6 +146,16 @@ fn pieces(model: &Model) -> Pieces {
                 pieces.linear.extend(["B⁻¹*(γ × M)", "B⁻¹*M"].map(str::to_string));
             }
             pieces.forms.push("M3".to_string());
+            if matrix("B") {
+                for parameter in potential_parameters(model) {
+                    let coefficient = format!("(μ + D)*{parameter}");
+                    pieces.free.extend([coefficient.clone(), format!("{coefficient}*(r,B⁻¹*r)")]);
+                    pieces.free.extend((1..=3).flat_map(|i| {
+                        let below = format!("{coefficient}/(B{i}{i}*r{i}²)");
+                        [below, format!("{coefficient}*r{i}²/B{i}{i}")]
+                    }));
+                }
+            }
         }
         System::Lagrangian(_) | System::Field(_) => {
             for variable in &model.state {
@@ -189,48 +217,75 @@ pub fn denominators(model: &Model) -> Texts {
     found
 }
 
-/// Factors of which a density, or an integral, may be a product of powers.
+/// Factors of which a density, or an integral, may be a product of powers, simple ones first.
 pub fn factors(model: &Model) -> Texts {
     let matrix = |name: &str| has(model, name, Type::Matrix);
     let scalar = |name: &str| has(model, name, Type::Scalar);
-    let mut factors: Vec<&str> = Vec::new();
+    let mut factors: Texts = Vec::new();
     match &model.system {
         System::Rubber(_) => {
             if scalar("g1") {
-                factors.extend(["g1", "g2"]);
+                factors.extend(["g1", "g2"].map(str::to_string));
             }
             if matrix("J") {
-                factors.push("(γ,J⁻¹*γ)");
+                factors.push("(γ,J⁻¹*γ)".to_string());
             }
-            if scalar("μ") {
-                factors.extend(["(μ + m*r²)", "(μ + m*(r,γ)²)"]);
+            if !scalar("g1") {
+                // g₁ and g₂ of a body of revolution; with I = μE they are μ + m(r,γ)² and μ + mr².
+                factors.push("(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)".to_string());
+                factors.push("(I1 + m*r²)".to_string());
             }
-            factors.extend(["det(Ĩ)", "(γ,Ĩ⁻¹*γ)"]);
+            if matrix("B") {
+                factors.extend(["X0", "Y0"].map(str::to_string));
+            }
+            factors.extend(["det(Ĩ)", "(γ,Ĩ⁻¹*γ)"].map(str::to_string));
             if scalar("D_T") {
-                factors.push("D_T");
+                factors.push("D_T".to_string());
             }
             if matrix("𝒥") {
-                factors.extend(["det(𝒥)", "(γ,𝒥⁻¹*γ)"]);
+                factors.extend(["det(𝒥)", "(γ,𝒥⁻¹*γ)"].map(str::to_string));
             }
             if matrix("B") {
-                factors.push("(γ,B*γ)");
+                factors.push("(γ,B*γ)".to_string());
             }
         }
-        System::FlatBase(_) => factors.extend([
-            "(I1 + m*(r1² + r2² + z²))",
-            "(I1*I2 + m*(I1*r1² + I2*r2²))",
-            "det(Ĩ)",
-            "exp(k*z*m*(r1² + r2²)/(I1 + m*z²))",
-        ]),
+        System::FlatBase(_) => factors.extend(
+            [
+                "(I1 + m*(r1² + r2² + z²))",
+                "(I1*I2 + m*(I1*r1² + I2*r2²))",
+                "det(Ĩ)",
+                "exp(k*z*m*(r1² + r2²)/(I1 + m*z²))",
+            ]
+            .map(str::to_string),
+        ),
         System::Ball(_) => {
-            factors.push(if scalar("h") { "det(∂r + γ⊗γ)" } else { "|n|" });
+            factors.push(if scalar("h") { "det(∂r + γ⊗γ)" } else { "|n|" }.to_string());
             if matrix("B") {
-                factors.push("(γ,B*γ)");
+                factors.push("(γ,B*γ)".to_string());
             }
         }
         System::Lagrangian(_) | System::Field(_) => {}
     }
-    factors.into_iter().map(str::to_string).collect()
+    factors
+}
+
+/// Abbreviations that the terms use, in order.
+///
+/// X₀ and Y₀ are the factors of det Ĩ (γ,Ĩ⁻¹γ) (r,γ)² for an ellipsoid on (3.8): X and Y of §3.3 with
+/// β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that I₁ = I₂ is
+/// no exception: for I = μE they are the factors of (3.7).
+pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
+    if !matches!(model.system, System::Rubber(_)) || !has(model, "B", Type::Matrix) {
+        return Vec::new();
+    }
+    vec![
+        ("d0", "I1 − I2"),
+        ("β0", "m*B[3,3]*(B[2,2] − B[1,1]) − I1*B[1,1] + I2*B[2,2]"),
+        ("α0", "I1*β0 + d0*(I1*B[1,1] − m*B[2,2]*B[3,3])"),
+        ("Δ0", "α0 + m*d0*tr(adj(B))"),
+        ("X0", "(m*β0² + m*β0*d0*tr(B) + d0*Δ0)*(r,γ)² + α0*β0 − m*d0²*det(B)"),
+        ("Y0", "(r,γ)²*(Δ0 + m*β0*r²) − m*d0*det(B)"),
+    ]
 }
 
 /// What exponents may be multiples of.

@@ -6,9 +6,11 @@ use super::echelon::Echelon;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Graph, Tape};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, Draws};
+use crate::number::ball::Ball;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::rational::Rational;
+use crate::number::{Domain, Enclosing};
 use crate::proof::{Chance, reconstruct};
 use crate::verdict::Sampler;
 
@@ -16,6 +18,8 @@ use crate::verdict::Sampler;
 const SPARE: usize = 8;
 /// Lanes of the evaluation.
 const LANES: usize = 8;
+/// Blocks at which a function may be undefined before it is given up; roots exist at half of them.
+const TRIALS: usize = 16;
 
 /// Functions on the level, evaluated at random states for random parameters modulo a prime.
 pub struct Functions {
@@ -45,36 +49,96 @@ impl Functions {
         Ok(Self { graph, outputs, draws: sampler.recipes().to_vec(), modulus, chance })
     }
 
+    /// The functions that have a value somewhere.
+    pub fn defined(&mut self) -> Vec<usize> {
+        let mut has_value = vec![false; self.outputs.len()];
+        self.visit(TRIALS, &mut |row| {
+            for (known, value) in has_value.iter_mut().zip(row) {
+                *known |= value != UNDEFINED;
+            }
+            !has_value.iter().all(|known| *known)
+        });
+        (0..has_value.len()).filter(|column| has_value[*column]).collect()
+    }
+
+    /// Leaves only some of the functions.
+    pub fn restrict(&mut self, columns: &[usize]) {
+        self.outputs = columns.iter().map(|j| self.outputs[*j].clone()).collect();
+    }
+
+    /// How many functions there are.
+    pub fn count(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The functions at states and parameters in f64, a row for each component; what rounding does not
+    /// tell from 0 is 0.
+    pub fn floats(&self, states: usize, seed: u64) -> Vec<Vec<f64>> {
+        let height = self.outputs.first().map_or(0, Vec::len);
+        let tape = Tape::new(&self.graph, &self.outputs.concat());
+        let mut evaluator = Evaluator::new(&tape, Ball::<1>);
+        let first = |draw: &Draw| match draw {
+            Draw::OneOf(values) => Draw::OneOf(values.iter().take(1).cloned().collect()),
+            within => within.clone(),
+        };
+        let draws = Draws::new(&self.draws.iter().map(first).collect::<Vec<Draw>>());
+        let mut rows = Vec::new();
+        for index in 0..states as u64 {
+            let drawn = draws.state(seed, index);
+            let mut inputs: Vec<_> =
+                drawn.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
+            inputs.resize(self.graph.inputs(), Ball::<1>.constant(&Rational::from(1)));
+            evaluator.run(&inputs);
+            let value = |block| match Ball::<1>::enclosure(block, 0) {
+                Some((middle, radius)) if middle.abs() > radius => middle,
+                Some(_) => 0.0,
+                None => f64::NAN,
+            };
+            let values: Vec<f64> = evaluator.outputs().map(value).collect();
+            rows.extend((0..height).map(|component| {
+                values.iter().skip(component).step_by(height).copied().collect::<Vec<f64>>()
+            }));
+        }
+        rows.retain(|row| row.iter().all(|x| x.is_finite()));
+        rows
+    }
+
     /// A basis of the relations among the columns, by echelon form.
     pub fn relations(&mut self) -> Result<Relations, SearchError> {
         let columns = self.outputs.len();
-        let height = self.outputs.first().map_or(0, Vec::len);
-        let outputs = self.outputs.concat();
-        let tape = Tape::new(&self.graph, &outputs);
-        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; LANES]));
         let mut echelon = Echelon::new(columns, self.modulus);
-        let (mut dependent, mut blocks) = (0, 0);
-        while dependent < SPARE {
-            blocks += 1;
-            if blocks > 64 * (columns + SPARE) {
-                return Err(SearchError::NoPoints);
+        let mut dependent = 0;
+        self.visit(64 * (columns + SPARE), &mut |row| {
+            if !row.contains(&UNDEFINED) {
+                dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             }
+            dependent < SPARE
+        });
+        match dependent < SPARE {
+            true => Err(SearchError::NoPoints),
+            false => Ok(Relations { echelon, modulus: self.modulus }),
+        }
+    }
+
+    /// Shows the functions at random points, component by component, until `look` has seen enough.
+    fn visit(&mut self, blocks: usize, look: &mut dyn FnMut(Vec<u64>) -> bool) {
+        let height = self.outputs.first().map_or(0, Vec::len);
+        let tape = Tape::new(&self.graph, &self.outputs.concat());
+        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; LANES]));
+        for _ in 0..blocks {
             let inputs: Vec<[u64; LANES]> =
                 (0..self.graph.inputs()).map(|input| self.draw(input)).collect();
             evaluator.run(&inputs);
             let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
             for lane in 0..LANES {
                 for component in 0..height {
-                    let row: Vec<u64> =
-                        (0..columns).map(|j| values[j * height + component][lane]).collect();
-                    if row.contains(&UNDEFINED) {
-                        continue;
+                    let column = values.iter().skip(component).step_by(height);
+                    if !look(column.map(|block| block[lane]).collect()) {
+                        return;
                     }
-                    dependent = if echelon.push(row) { 0 } else { dependent + 1 };
                 }
             }
         }
-        Ok(Relations { echelon, modulus: self.modulus })
     }
 
     fn draw(&mut self, input: usize) -> [u64; LANES] {
@@ -96,8 +160,8 @@ pub struct Relations {
 
 impl Relations {
     /// The columns that do not depend on those before them.
-    pub fn independent(&self, columns: usize) -> Vec<usize> {
-        (0..columns).filter(|column| self.echelon.has_pivot(*column)).collect()
+    pub fn independent(&self) -> Vec<usize> {
+        (0..self.echelon.columns()).filter(|column| self.echelon.has_pivot(*column)).collect()
     }
 
     /// A basis of the relations with rational coefficients; others are left out and counted.
@@ -110,10 +174,5 @@ impl Relations {
             found
         });
         (vectors.collect(), irrational)
-    }
-
-    /// The dimension of the space of relations.
-    pub fn dimension(&self, columns: usize) -> usize {
-        columns - self.echelon.rank()
     }
 }

@@ -7,7 +7,9 @@ use crate::case::Case;
 use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::{dot, solve_positive};
 use crate::mechanics::{Chart, Draw, Phase, Role, System};
+use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
+use crate::proof::Chance;
 use crate::scalar::Scalar;
 
 /// Coordinates of the level: how many are positions, how many velocities, and where they go.
@@ -67,7 +69,7 @@ impl Coordinates {
     }
 
     /// The state at a point of these coordinates.
-    fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
+    pub fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
         let (one, two) = (T::one(), T::from(2.0));
         let normal = |u: T, v: T| {
             let scale = (one + u * u + v * v).recip();
@@ -153,6 +155,22 @@ impl Local {
         })?;
         Ok(Self { coordinates, graph, rates, draws })
     }
+}
+
+impl Local {
+    /// Random draws of the parameters; of a list the first is taken.
+    pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
+        random(&self.draws, modulus, chance)
+    }
+}
+
+/// Random values for draws of parameters; of a list the first is taken.
+pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
+    let value = |draw: &Draw| match draw {
+        Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)).unwrap_or(0),
+        Draw::Within(_) => chance.element(modulus),
+    };
+    draws.iter().map(value).collect()
 }
 
 fn zero() -> Expr {

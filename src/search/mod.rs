@@ -7,23 +7,32 @@
 //! verdict    each find is a claim like any other, and climbs the same ladder
 //! ```
 
+mod ask;
+mod conditions;
+mod counts;
+mod densities;
 mod echelon;
-mod find;
+mod integrals;
 mod jets;
 mod library;
 mod linear;
 mod local;
+mod products;
+mod second_opinion;
 mod series;
+mod terms;
 
 use serde::Serialize;
 
-use crate::case::Case;
+use self::ask::quoted;
+use crate::case::{Case, CaseError};
 use crate::graph::Fault;
-use crate::verdict::{Evidence, JudgeError, Options, Verdict};
+use crate::mechanics::Model;
+use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
-pub use find::{densities, integrals};
-pub use jets::Count;
-use local::Local;
+pub use conditions::{Condition, Wanted};
+pub use counts::CountReport;
+pub use second_opinion::SecondOpinion;
 
 /// Why a search cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -34,9 +43,21 @@ pub enum SearchError {
     /// The rates are no polynomials of degree 2 in the velocities.
     #[error("integrals cannot be counted: the rates are not quadratic in the velocities")]
     NotQuadratic,
+    /// The equations for the coefficients are not of finite type as for Killing tensors.
+    #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
+    NotSpanned,
     /// The field has functions that no prime field has, or no value anywhere.
     #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
     NoSeries,
+    /// A minor is no fraction of low degree in a parameter.
+    #[error("the equations are no fractions of low degree in the parameter")]
+    NoFraction,
+    /// A term of the user's cannot be read.
+    #[error("the term `{0}` is no scalar in the names of the case")]
+    NoTerm(String),
+    /// The case has no such claim.
+    #[error("the case has no claim `{0}`")]
+    NoClaim(String),
     /// The count did not come to rest.
     #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
     Unsettled(u32),
@@ -49,6 +70,9 @@ pub enum SearchError {
     /// Recording failed.
     #[error(transparent)]
     Fault(#[from] Fault),
+    /// A find cannot be asked about the case.
+    #[error("a find cannot be read in the names of the case: {}", .0.message())]
+    Unreadable(#[from] CaseError),
     /// Judging failed.
     #[error(transparent)]
     Judge(#[from] JudgeError),
@@ -60,6 +84,7 @@ impl SearchError {
         match self {
             SearchError::Judge(error) => error.help(),
             SearchError::NoChart => "give [level.chart], or level equations that can be solved",
+            SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
             _ => "see docs/writing-a-case.md",
         }
@@ -73,6 +98,12 @@ pub struct Effort {
     pub degree: u32,
     /// Ignore what the case claims.
     pub blind: bool,
+    /// Terms of integrals beside those that the system offers.
+    pub terms: Vec<String>,
+    /// Look for conditions on the parameters too.
+    pub conditions: Option<Wanted>,
+    /// A count that may take longer is left out.
+    pub seconds: f64,
     /// How finds are judged.
     pub options: Options,
 }
@@ -84,6 +115,9 @@ pub struct Found {
     pub kind: &'static str,
     /// In the names of the case.
     pub formula: String,
+    /// Abbreviations in it that are not the case's, in order.
+    #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
+    pub abbreviations: Vec<(&'static str, &'static str)>,
     /// Is it a function of what is known anyway?
     pub trivial: bool,
     /// The claim of the case that it follows from.
@@ -93,6 +127,38 @@ pub struct Found {
     pub verdict: Verdict,
     /// On what grounds.
     pub evidence: Evidence,
+}
+
+impl Found {
+    /// A formula and the grounds for it.
+    fn new(
+        kind: &'static str,
+        formula: &str,
+        known: Option<String>,
+        report: ClaimReport,
+        model: &Model,
+    ) -> Self {
+        let mut needed = vec![formula];
+        let mut abbreviations = library::abbreviations(model);
+        abbreviations.reverse();
+        abbreviations.retain(|(name, text)| {
+            let used = needed.iter().any(|formula| formula.contains(name));
+            if used {
+                needed.push(text);
+            }
+            used
+        });
+        abbreviations.reverse();
+        Self {
+            kind,
+            formula: formula.to_string(),
+            abbreviations,
+            trivial: false,
+            known,
+            verdict: report.verdict,
+            evidence: report.evidence,
+        }
+    }
 }
 
 /// What cannot be.
@@ -120,121 +186,58 @@ pub struct Report {
     pub found: Vec<Found>,
     /// What cannot be.
     pub excluded: Vec<Excluded>,
+    /// Singular values of the matrices in which integrals were looked for.
+    pub opinions: Vec<SecondOpinion>,
+    /// For which parameters claims hold that fail in general.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<Condition>,
     /// What could not be done, and why.
     pub remarks: Vec<String>,
 }
 
-/// The number of integrals of a degree.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct CountReport {
-    /// The degree in the velocities.
-    pub degree: u32,
-    /// All degrees up to it together?
-    pub mixed: bool,
-    /// The number of independent ones, an upper bound for generic parameters.
-    pub dimension: usize,
-    /// Powers of the energy among them, and constants.
-    pub known: usize,
-    /// Unknowns of the linear system.
-    pub unknowns: usize,
-    /// Its equations.
-    pub equations: usize,
+impl Report {
+    /// The formulas that were found, of one kind.
+    pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
+        let found = self.found.iter().filter(move |found| found.kind == kind);
+        found.map(|found| found.formula.as_str())
+    }
+
+    fn remark(&mut self, remark: String) {
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
+        }
+    }
 }
 
 /// Searches a case for integrals and densities.
+///
+/// `progress` is told what comes next, with its size.
 pub fn search(
     case: &Case,
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Report, SearchError> {
     let mut report = Report::default();
-    match Local::of(case, &[]) {
-        Ok(local) => count(case, &local, effort, &mut report, progress),
-        Err(error @ SearchError::Unsplit(_)) => report.remarks.push(error.to_string()),
-        Err(error) => return Err(error),
-    }
-    progress("terms of integrals");
-    find::integrals(case, effort, &mut report)?;
+    let case = &abbreviated(case)?;
+    counts::count(case, effort, &mut report, progress)?;
+    // Integrals of degree 1 come first: those of degree 2 may be functions of them.
     progress("factors of densities");
-    find::densities(case, effort, &mut report)?;
-    exclude(case, &mut report);
+    densities::densities(case, effort, &mut report)?;
+    progress("terms of integrals");
+    integrals::integrals(case, effort, &mut report)?;
+    counts::conclude(case, effort, &mut report)?;
+    if let Some(wanted) = &effort.conditions {
+        report.conditions = conditions::conditions(case, wanted, effort, progress)?;
+    }
     Ok(report)
 }
 
-/// Counts integrals degree by degree, as far as the effort goes.
-fn count(
-    case: &Case,
-    local: &Local,
-    effort: &Effort,
-    report: &mut Report,
-    progress: &mut dyn FnMut(&str),
-) {
-    let mixed = case.model.system.energy_is_inhomogeneous();
-    let with_energy = case.model.system.has_energy();
-    for degree in 1..=effort.degree {
-        let velocities = local.coordinates.velocities as u32;
-        let size = binomial(degree + velocities - 1, velocities - 1)
-            * binomial(
-                2 * degree + 3 + local.coordinates.positions as u32,
-                local.coordinates.positions as u32,
-            );
-        progress(&format!("integrals of degree {degree}: some {size} unknowns"));
-        match jets::count(local, degree, mixed, effort.options.seed) {
-            Ok(Count { dimension, size: (unknowns, equations), .. }) => {
-                // 1, E, E², … as far as their degree fits.
-                let known = match (mixed, with_energy) {
-                    (true, true) => degree as usize / 2 + 1,
-                    (true, false) => 1,
-                    (false, true) => usize::from(degree % 2 == 0),
-                    (false, false) => 0,
-                };
-                report.counts.push(CountReport {
-                    degree,
-                    mixed,
-                    dimension,
-                    known,
-                    unknowns,
-                    equations,
-                });
-            }
-            Err(error) => {
-                report.remarks.push(error.to_string());
-                return;
-            }
-        }
-    }
-}
-
-fn binomial(n: u32, k: u32) -> u64 {
-    (1..=u64::from(k)).fold(1, |product, i| product * (u64::from(n - k) + i) / i)
-}
-
-/// States what the counts exclude.
-fn exclude(case: &Case, report: &mut Report) {
-    let last = report.counts.iter().take_while(|count| count.dimension == count.known).last();
-    let Some(last) = last else { return };
-    let forces = if last.mixed {
-        "with these forces"
-    } else if case.model.system.is_free() {
-        "and, as the leading form of such an integral is one of the free motion, for every gyrostat \
-         and every potential"
-    } else {
-        "for the free motion"
-    };
-    report.excluded.push(Excluded {
-        ansatz: format!(
-            "polynomials in the velocities of degree {} {}, with any smooth coefficients in the positions",
-            if report.counts[0].degree == last.degree { "" } else { "up to" },
-            last.degree
-        )
-        .replace("  ", " "),
-        dimension: last.dimension,
-        known: last.known,
-        error_log2: None,
-        theorem: format!(
-            "For generic values of the free parameters, and the given values of the fixed ones, no integral \
-             polynomial in the velocities of degree at most {} is independent of the energy, {forces}.",
-            last.degree
-        ),
-    });
+/// The case with the names that the library's terms use.
+fn abbreviated(case: &Case) -> Result<Case, SearchError> {
+    let names = library::abbreviations(&case.model);
+    let definition = |(name, text): &(&str, &str)| format!("{} = {}\n", quoted(name), quoted(text));
+    let entries: String = names.iter().map(definition).collect();
+    let mut named = case.ask(&format!("[let]\n{entries}"))?;
+    named.claims = case.claims.clone();
+    Ok(named)
 }

@@ -69,11 +69,6 @@ impl Series {
         &self.monomials
     }
 
-    /// The place of a monomial.
-    pub fn place(&self, monomial: &[u32]) -> Option<usize> {
-        self.monomials.iter().position(|known| known == monomial)
-    }
-
     /// A constant, in the modulus's form.
     pub fn number(&self, value: u64) -> Vec<u64> {
         let mut series = vec![0; self.monomials.len()];

@@ -84,27 +84,25 @@ const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
 impl Finding {
     /// A claim of the case itself, with the abbreviations that it uses.
     pub fn claimed(case: &Case, claim: ClaimReport) -> Self {
-        Self::beside(OWN, case, claim)
-    }
-
-    /// Something that no family knows and no case claims.
-    pub fn found(case: &Case, claim: ClaimReport) -> Self {
-        Self::beside(SEARCH, case, claim)
-    }
-
-    fn beside(family: &str, case: &Case, claim: ClaimReport) -> Self {
         let names = &case.model.vocabulary;
-        let abbreviations: Vec<Definition> = names
-            .iter()
-            .filter_map(|(_, entry)| match entry.meaning {
-                Meaning::Abbreviation(index) => {
-                    Some(define(&entry.name, case.model.abbreviations[index].text()))
-                }
-                _ => None,
-            })
-            .collect();
-        let definitions = used_by(&[claim.formula.as_deref().unwrap_or_default()], &abbreviations);
-        let paper = Typesetter(names);
+        let abbreviations = names.iter().filter_map(|(_, entry)| match entry.meaning {
+            Meaning::Abbreviation(index) => {
+                Some(define(&entry.name, case.model.abbreviations[index].text()))
+            }
+            _ => None,
+        });
+        Self::beside(OWN, case, claim, abbreviations.collect())
+    }
+
+    /// Something that no family knows and no case claims, with the names that its formula may use.
+    pub fn found(case: &Case, claim: ClaimReport, names: Vec<Definition>) -> Self {
+        Self::beside(SEARCH, case, claim, names)
+    }
+
+    fn beside(family: &str, case: &Case, claim: ClaimReport, names: Vec<Definition>) -> Self {
+        let definitions = used_by(&[claim.formula.as_deref().unwrap_or_default()], &names);
+        let asked = case.ask(&definitions_text(&definitions)).ok();
+        let paper = Typesetter(&asked.as_ref().unwrap_or(case).model.vocabulary);
         let shown = Shown {
             statement: claim.formula.as_deref().and_then(|text| paper.formula(text)),
             definitions: paper.definitions(&definitions),

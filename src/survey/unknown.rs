@@ -2,13 +2,16 @@
 
 use serde::Serialize;
 
-use super::question::Finding;
+use super::question::{Finding, define};
 use crate::case::Case;
 use crate::search::{CountReport, Effort, Excluded, Found, search};
 use crate::verdict::{ClaimReport, Options};
 
 /// Integrals are counted up to this degree in the velocities: a fraction of a second.
 const DEGREE: u32 = 4;
+
+/// A count that may take longer is left out.
+const SECONDS: f64 = 2.0;
 
 /// The outcome of a search.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -27,7 +30,14 @@ pub struct Unknown {
 impl Unknown {
     /// Searches; what the search cannot do is a remark.
     pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
-        let effort = Effort { degree: DEGREE, blind: true, options: *options };
+        let effort = Effort {
+            degree: DEGREE,
+            blind: true,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: SECONDS,
+            options: *options,
+        };
         match search(case, &effort, progress) {
             Ok(report) => Self {
                 counts: report.counts,
@@ -37,7 +47,7 @@ impl Unknown {
                     .found
                     .into_iter()
                     .filter(|one| !one.trivial)
-                    .map(|one| Finding::found(case, claim(one)))
+                    .map(|one| found(case, one))
                     .collect(),
             },
             Err(error) => Self { remarks: vec![error.to_string()], ..Self::default() },
@@ -55,8 +65,10 @@ impl Unknown {
     }
 }
 
-fn claim(found: Found) -> ClaimReport {
-    ClaimReport {
+/// A find as a finding: a claim, with the names that the search added.
+fn found(case: &Case, found: Found) -> Finding {
+    let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
+    let claim = ClaimReport {
         name: format!("{} found by search", found.kind),
         formula: Some(found.formula),
         kind: found.kind,
@@ -68,5 +80,6 @@ fn claim(found: Found) -> ClaimReport {
         cell: None,
         note: None,
         evidence: found.evidence,
-    }
+    };
+    Finding::found(case, claim, names)
 }

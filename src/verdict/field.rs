@@ -156,7 +156,8 @@ mod tests {
         let bench = Bench { case, common: &common, options: &options, graph: &graph, inputs };
         let mut found = Vec::new();
         for (claim, residual) in case.claims.iter().zip(residuals) {
-            if claim.expect == Expect::Fails {
+            // What is claimed to be independent fails where the residual does vanish.
+            if claim.expect == Expect::Fails && !claim.kind.is_negated() {
                 let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
                 let outcome = Field::new(&bench, &sampler).test(&[residual]).expect("tested");
                 found.push((claim.name.clone(), outcome.into_iter().next().expect("one group")));
@@ -170,7 +171,7 @@ mod tests {
             let path = entry.path();
             if path.is_dir() {
                 visit(&path, found);
-            } else {
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
                 let case = Case::read(&path, &[]).1.expect("a case");
                 let outcomes = outcomes_of_false_claims(&case).into_iter();
                 let shown = path.display();
@@ -183,13 +184,13 @@ mod tests {
     fn no_false_claim_is_zero_in_prime_fields() {
         let mut found = Vec::new();
         visit(Path::new("cases"), &mut found);
-        assert!(found.len() > 300, "{} false claims", found.len());
+        assert!(found.len() > 1000, "{} false claims", found.len());
         let mut refuted = 0;
         for (name, outcome) in &found {
             assert!(!matches!(outcome, Outcome::Zero(_)), "{name} is false");
             refuted += usize::from(*outcome == Outcome::NonZero);
         }
         // The others contain symbols of transcendental functions, or fail for listed values only.
-        assert!(refuted > 280, "{refuted} of {} are seen not to be identities", found.len());
+        assert!(refuted > 900, "{refuted} of {} are seen not to be identities", found.len());
     }
 }

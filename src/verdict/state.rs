@@ -39,7 +39,7 @@ pub enum StateError {
     Number(String),
 }
 
-/// Reads `ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]`.
+/// Reads `ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]`; matrices row by row, `Q=[[1,0,0],[0,1,0],[0,0,1]]`.
 pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> {
     let variables = &case.model.state;
     let mut values: Vec<Option<Vec<Rational>>> = vec![None; variables.len()];
@@ -48,11 +48,9 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
         let (name, after) =
             rest.split_once('=').ok_or_else(|| StateError::Malformed(rest.to_string()))?;
         let after = after.trim_start();
-        let (list, remaining) = match after.strip_prefix('[') {
-            Some(inner) => {
-                inner.split_once(']').ok_or_else(|| StateError::Malformed(after.to_string()))?
-            }
-            None => after.split_once(char::is_whitespace).unwrap_or((after, "")),
+        let (list, remaining) = match after.starts_with('[') {
+            true => bracketed(after).ok_or_else(|| StateError::Malformed(after.to_string()))?,
+            false => after.split_once(char::is_whitespace).unwrap_or((after, "")),
         };
         rest = remaining.trim_start_matches(|c: char| c.is_whitespace() || c == ',' || c == ';');
         let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
@@ -60,6 +58,8 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
             let known: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             StateError::Unknown { name: name.clone(), known: known.join(", ") }
         })?;
+        // The rows of a matrix may stand in brackets of their own.
+        let list = list.replace(['[', ']'], " ");
         let numbers: Result<Vec<Rational>, _> = list.split(',').map(|x| x.trim().parse()).collect();
         let numbers =
             numbers.map_err(|error: RationalError| StateError::Number(error.to_string()))?;
@@ -77,4 +77,20 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
         state.extend(value.ok_or_else(|| StateError::Missing(variable.name.clone()))?);
     }
     Ok(state)
+}
+
+/// What stands in the bracket that opens a text, and what follows it.
+fn bracketed(text: &str) -> Option<(&str, &str)> {
+    let mut depth = 0;
+    for (place, letter) in text.char_indices() {
+        match letter {
+            '[' => depth += 1,
+            ']' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return Some((&text[..place], &text[place + 1..]));
+        }
+    }
+    None
 }

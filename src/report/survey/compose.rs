@@ -261,19 +261,20 @@ fn theorems(search: &Unknown) -> Vec<Block> {
     if !search.counts.is_empty() {
         found.push(text(
             "Integrals polynomial in the velocities, with any smooth coefficients in the positions: at most \
-             so many independent over the constants.",
+             so many independent over the constants, and how many products of known ones are among them.",
         ));
         let row = |count: &crate::search::CountReport| {
-            let degree = match count.mixed {
-                true => format!("up to {}", count.degree),
-                false => count.degree.to_string(),
+            let degree = match (count.mixed, count.free) {
+                (true, _) => format!("up to {}", count.degree),
+                (false, true) => format!("{} of the free motion", count.degree),
+                (false, false) => count.degree.to_string(),
             };
             let numbers = [count.dimension, count.known, count.unknowns, count.equations];
             let cells = numbers.iter().map(|number| Cell::Text(number.to_string()));
             std::iter::once(Cell::Text(degree)).chain(cells).collect()
         };
         found.push(Block::Table {
-            head: vec!["degree", "at most", "powers of the energy", "unknowns", "equations"],
+            head: vec!["degree", "at most", "known", "unknowns", "equations"],
             rows: search.counts.iter().map(row).collect(),
         });
     }

@@ -1,0 +1,28 @@
+//! The parameters of a case as coordinates: components that vary, by their names.
+
+use crate::case::Case;
+use crate::formula::Type;
+use crate::mechanics::Origin;
+use crate::search::terms::{Term, read};
+
+/// The components of the parameters that are drawn, also those that are constant or equal to others.
+pub fn components(case: &Case) -> Vec<Term> {
+    let model = &case.model;
+    let drawn = model.parameters.iter().filter(|p| matches!(p.origin, Origin::Free(_)));
+    let texts = drawn.flat_map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Type::Scalar => vec![name.clone()],
+            Type::Vector => (1..=3).map(|i| format!("{name}{i}")).collect(),
+            Type::Matrix => {
+                let pairs = (1..=3).flat_map(|i| (i..=3).map(move |j| (i, j)));
+                let entry = |(i, j)| match name == "I" && i == j {
+                    true => format!("I{i}"),
+                    false => format!("{name}{i}{j}"),
+                };
+                pairs.map(entry).collect()
+            }
+        }
+    });
+    read(texts.collect(), &model.vocabulary)
+}

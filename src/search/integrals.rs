@@ -1,0 +1,127 @@
+//! Integrals that are sums of terms which the system offers.
+
+use num_dual::Dual;
+
+use super::ask::{claimed, holds, independent, judged, quoted};
+use super::library;
+use super::linear::Functions;
+use super::second_opinion::second_opinion;
+use super::terms::{Term, read, recorded, sum};
+use super::{Effort, Found, Report, SearchError};
+use crate::case::Case;
+use crate::graph::Expr;
+use crate::verdict::{ClaimReport, Independence};
+
+/// Looks for integrals; what is found and proved goes into the report.
+pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+    let candidates = candidates(case, effort, report)?;
+    let statements: Vec<String> =
+        candidates.iter().map(|formula| format!("integral = {}", quoted(formula))).collect();
+    let reports = judged(case, &statements, effort)?;
+    let mut proved: Vec<(String, ClaimReport)> = candidates
+        .into_iter()
+        .zip(reports)
+        .filter(|(_, found)| {
+            let new = matches!(found.evidence.independence, Some(Independence::Independent));
+            new && holds(found)
+        })
+        .collect();
+    // Of functions that depend on each other, the shortest is told.
+    proved.sort_by_key(|(formula, _)| formula.chars().count());
+    for (formula, found) in proved {
+        tell(case, &formula, found, effort, report)?;
+    }
+    Ok(())
+}
+
+/// Adds an integral to the report, unless it depends on those that are there.
+pub fn tell(
+    case: &Case,
+    formula: &str,
+    found: ClaimReport,
+    effort: &Effort,
+    report: &mut Report,
+) -> Result<(), SearchError> {
+    let told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
+    if independent(case, &told, formula, effort)?.is_none() {
+        return Ok(());
+    }
+    let mut known = None;
+    for (name, own) in claimed(case, effort)? {
+        if independent(case, &[own], formula, effort)?.is_none() {
+            known = Some(name);
+            break;
+        }
+    }
+    report.found.push(Found::new("integral", formula, known, found, &case.model));
+    Ok(())
+}
+
+/// Sums of terms, over the denominators that can occur, whose rate is zero at random points.
+fn candidates(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+) -> Result<Vec<String>, SearchError> {
+    let model = &case.model;
+    let vocabulary = &model.vocabulary;
+    let own = read(effort.terms.clone(), vocabulary);
+    if own.len() < effort.terms.len() {
+        let unread = |text: &&String| !own.iter().any(|term| &term.text == *text);
+        let text = effort.terms.iter().find(unread).cloned().unwrap_or_default();
+        return Err(SearchError::NoTerm(text));
+    }
+    let offered = read(library::integrals(model), vocabulary);
+    let terms = distinct(case, [own, offered].concat(), effort, report)?;
+    let mut candidates = Vec::new();
+    if terms.is_empty() {
+        return Ok(candidates);
+    }
+    for denominator in read(library::denominators(model), vocabulary) {
+        let (graph, rates) = recorded(case, |jet| {
+            let moved = jet.along_field();
+            let below: Dual<Expr> = moved.scalar(&denominator.formula);
+            let rate = |term: &Term| (moved.scalar(&term.formula) / below).eps;
+            terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
+        })?;
+        let seed = effort.options.seed;
+        let mut functions = Functions::new(case, &graph, &rates, seed)?;
+        let (vectors, irrational) = functions.relations()?.rational();
+        let dimension = vectors.len() + irrational;
+        report.opinions.extend(second_opinion(&functions, &denominator.text, dimension, seed));
+        if irrational > 0 {
+            let many = format!("{irrational} relations have no small rational coefficients");
+            report.remark(many);
+        }
+        let texts: Vec<&str> = terms.iter().map(|term| term.text.as_str()).collect();
+        candidates.extend(vectors.iter().map(|vector| match denominator.text.as_str() {
+            "1" => sum(vector, &texts),
+            below => format!("({})/{below}", sum(vector, &texts)),
+        }));
+    }
+    Ok(candidates)
+}
+
+/// The terms that do not depend on those before them on the level.
+fn distinct(
+    case: &Case,
+    terms: Vec<Term>,
+    effort: &Effort,
+    report: &mut Report,
+) -> Result<Vec<Term>, SearchError> {
+    let (graph, values) = recorded(case, |jet| {
+        terms.iter().map(|term| vec![jet.phase.scalar(&term.formula)]).collect::<Vec<_>>()
+    })?;
+    let mut functions = Functions::new(case, &graph, &values, effort.options.seed)?;
+    let defined = functions.defined();
+    functions.restrict(&defined);
+    let kept = match functions.relations() {
+        Ok(relations) => relations.independent(),
+        Err(SearchError::NoPoints) => {
+            report.remark(SearchError::NoPoints.to_string());
+            return Ok(Vec::new());
+        }
+        Err(error) => return Err(error),
+    };
+    Ok(kept.into_iter().map(|index| terms[defined[index]].clone()).collect())
+}

@@ -1,0 +1,72 @@
+//! The same matrix in f64: its singular values show the relations as a gap.
+
+use serde::Serialize;
+
+use super::linear::Functions;
+
+/// States beyond the number of terms.
+const SPARE: usize = 32;
+
+/// Singular values on both sides of the gap where the relations modulo a prime say it should be.
+#[derive(Clone, Debug, Serialize)]
+pub struct SecondOpinion {
+    /// What the terms are divided by.
+    pub denominator: String,
+    /// States in f64.
+    pub states: usize,
+    /// Columns of the matrix.
+    pub terms: usize,
+    /// Relations modulo a prime.
+    pub relations: usize,
+    /// The smallest singular value that should not be 0, over the largest one.
+    pub smallest: f64,
+    /// The largest one that should be 0, over the largest one; absent without relations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_zero: Option<f64>,
+}
+
+impl SecondOpinion {
+    /// Do the singular values agree: is there a gap where it should be?
+    pub fn agrees(&self) -> bool {
+        self.largest_zero.is_none_or(|zero| zero < 1e-3 * self.smallest)
+    }
+}
+
+/// The singular values of the functions, each scaled to length 1 over the states; nothing if they have
+/// too few values there.
+#[cfg(feature = "svd")]
+pub fn second_opinion(
+    functions: &Functions,
+    denominator: &str,
+    relations: usize,
+    seed: u64,
+) -> Option<SecondOpinion> {
+    let terms = functions.count();
+    let rows = functions.floats(terms + SPARE, seed);
+    if rows.len() < terms {
+        return None;
+    }
+    let length = |j: usize| rows.iter().map(|row| row[j] * row[j]).sum::<f64>().sqrt();
+    let lengths: Vec<f64> = (0..terms).map(length).collect();
+    let entry = |i: usize, j: usize| match lengths[j] {
+        0.0 => 0.0,
+        length => rows[i][j] / length,
+    };
+    let values = faer::Mat::from_fn(rows.len(), terms, entry).singular_values().ok()?;
+    let largest = values.first().copied().filter(|value| *value > 0.0)?;
+    let kept = terms.checked_sub(relations).filter(|kept| *kept > 0)?;
+    Some(SecondOpinion {
+        denominator: denominator.to_string(),
+        states: rows.len(),
+        terms,
+        relations,
+        smallest: values[kept - 1] / largest,
+        largest_zero: values.get(kept).map(|value| value / largest),
+    })
+}
+
+/// Without the feature `svd` there is none.
+#[cfg(not(feature = "svd"))]
+pub fn second_opinion(_: &Functions, _: &str, _: usize, _: u64) -> Option<SecondOpinion> {
+    None
+}

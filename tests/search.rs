@@ -1,0 +1,193 @@
+//! Search: what the papers state is found with their formulas hidden, counted, excluded, and bounded by
+//! conditions on the parameters.
+
+use std::path::Path;
+
+use liouville::case::Case;
+use liouville::search::{Effort, Report, Wanted, search};
+use liouville::verdict::{Options, Verdict};
+
+fn effort(degree: u32) -> Effort {
+    Effort {
+        degree,
+        blind: false,
+        seconds: 60.0,
+        terms: Vec::new(),
+        conditions: None,
+        options: Options::default(),
+    }
+}
+
+fn searched(path: &str, effort: &Effort) -> Report {
+    let path = Path::new("cases").join(path).with_extension("toml");
+    let case = Case::read(&path, &[]).1.expect("a case of the catalogue");
+    search(&case, effort, &mut |_| {}).expect("it can be searched")
+}
+
+fn case(text: &str) -> Case {
+    Case::parse(text, &[]).expect("a case")
+}
+
+#[test]
+fn integrals_of_the_papers_are_found_and_proved() {
+    let cases = [
+        ("plane/balanced-ball", "F2"),
+        ("plane/unbalanced-ball", "F2"),
+        ("plane/ellipsoid-mb-mu", "F2"),
+        ("plane/balanced-ball-gyrostat", "F2"),
+        ("plane/balanced-ball-brun", "F2"),
+        ("plane/revolution", "F2"),
+        ("sphere/borisov-mamaev-ball", "F2"),
+        ("sphere/borisov-mamaev-ball-potential", "F2"),
+        ("sphere/symmetric-ball", "F2"),
+        ("flat-base/base-through-centre", "F2"),
+        ("flat-base/symmetric-base", "F2"),
+        ("surface/ellipsoid", "F2"),
+        ("surface/ellipsoid-potential", "F2"),
+    ];
+    for (path, name) in cases {
+        let report = searched(path, &effort(2));
+        let found: Vec<_> = report.found.iter().filter(|found| found.kind == "integral").collect();
+        assert_eq!(found.len(), 1, "{path}: {found:?}");
+        assert_eq!(found[0].verdict, Verdict::Proved, "{path}: {}", found[0].formula);
+        // The library knows neither the claim nor its form: the two are shown to be dependent.
+        let known = found[0].known.as_deref().unwrap_or("");
+        assert!(known.starts_with(name), "{path}: {} comes from `{known}`", found[0].formula);
+        assert!(report.opinions.iter().all(|opinion| opinion.agrees()), "{path}: singular values");
+        let last = report.counts.last().expect("integrals were counted");
+        assert_eq!(last.dimension, last.known, "{path}: all that are counted are found");
+        assert!(report.excluded[0].theorem.contains("is a polynomial in"), "{path}: a theorem");
+    }
+}
+
+#[test]
+fn densities_of_the_papers_are_found_and_proved() {
+    let cases = [
+        ("plane/revolution", "g1^(1/2)*g2"),
+        ("plane/spherical-inertia", "(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)^(1/2)*(I1 + m*r²)"),
+        ("plane/ellipsoid", "X0^(−1/2)*det(Ĩ)*(γ,Ĩ⁻¹*γ)"),
+        ("plane/balanced-ball", "(γ,J⁻¹*γ)^(1/2)"),
+        ("sphere/balanced-ball", "(γ,J⁻¹*γ)^((1 + k*R)/2)"),
+        ("sphere/ellipsoid", "det(Ĩ)*(γ,Ĩ⁻¹*γ)*D_T"),
+        ("sphere/equal-sphere", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"),
+        ("sphere/symmetric-ball", "(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)^((1 + k*R)/2)*(I1 + m*r²)"),
+    ];
+    for (path, formula) in cases {
+        let report = searched(path, &effort(0));
+        let found: Vec<&str> = report.formulas("density").collect();
+        assert_eq!(found, [formula], "{path}");
+        let density = report.found.iter().find(|found| found.kind == "density");
+        assert_eq!(density.map(|found| found.verdict), Some(Verdict::Proved), "{path}");
+    }
+}
+
+#[test]
+fn integrals_are_counted() {
+    // By degree 1, 2, 3, 4; with a gyrostat or a potential all degrees up to it together.
+    let cases: [(&str, [usize; 4]); 8] = [
+        ("plane/balanced-ball", [0, 2, 0, 3]),
+        ("plane/unbalanced-ball", [0, 2, 0, 3]),
+        ("plane/ellipsoid-mb-mu", [0, 2, 0, 3]),
+        ("plane/spherical-inertia", [0, 1, 0, 1]),
+        ("plane/revolution", [1, 2, 2, 3]),
+        ("sphere/balanced-ball", [0, 1, 0, 1]),
+        ("sphere/borisov-mamaev-ball", [0, 2, 0, 3]),
+        ("flat-base/symmetric-base", [1, 2, 2, 3]),
+    ];
+    for (path, expected) in cases {
+        let report = searched(path, &effort(4));
+        let counts: Vec<usize> = report.counts.iter().map(|count| count.dimension).collect();
+        assert_eq!(counts, expected, "{path}");
+    }
+    let report = searched("plane/balanced-ball-gyrostat", &effort(4));
+    let mixed: Vec<(u32, usize)> =
+        report.counts.iter().filter(|c| !c.free).map(|c| (c.degree, c.dimension)).collect();
+    assert_eq!(mixed, [(2, 3), (3, 3), (4, 6)], "1, E, F; and their products");
+}
+
+#[test]
+fn nothing_is_found_where_there_is_nothing() {
+    let report = searched("plane/ellipsoid-generic", &effort(4));
+    assert!(report.found.is_empty(), "{:?}", report.found);
+    let theorem = &report.excluded[0].theorem;
+    assert!(theorem.contains("of degree at most 4 is a polynomial in energy"), "{theorem}");
+}
+
+#[test]
+fn a_force_that_is_no_potential_makes_no_false_theorem() {
+    let oscillator = case(
+        "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\n\"x'\" = '1..2'\n[lagrangian]\n\
+         kinetic = \"x'²/2\"\npotential = 'x²/2'\nforces = { x = '-x' }\n",
+    );
+    let report = search(&oscillator, &effort(2), &mut |_| {}).expect("it can be searched");
+    // The energy is no integral, 2x² + x'² is one.
+    let found: Vec<&str> = report.formulas("integral").collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(report.excluded.iter().all(|excluded| !excluded.theorem.contains("energy")));
+}
+
+#[test]
+fn conditions_on_parameters_are_found() {
+    let mut wanted = effort(0);
+    wanted.conditions = Some(Wanted::Existence);
+    let ellipsoid = case(
+        "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nB = 'diag(1..3)'\n\
+         I = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
+    );
+    let report = search(&ellipsoid, &wanted, &mut |_| {}).expect("it can be searched");
+    // (3.8), multiplied out
+    let condition = "B11*I1*I2 − B11*I1*I3 − B22*I1*I2 + B22*I2*I3 + B33*I1*I3 − B33*I2*I3 − m*B11*B22*I1 + \
+                     m*B11*B22*I2 + m*B11*B33*I1 − m*B11*B33*I3 − m*B22*B33*I2 + m*B22*B33*I3 = 0";
+    let equations = &report.conditions[0].equations;
+    assert!(equations.iter().any(|equation| equation == condition), "{equations:?}");
+
+    let report = searched("sphere/unbalanced-ball", &wanted);
+    let equations = &report.conditions[0].equations;
+    assert!(equations.iter().any(|equation| equation == "1 − R*k = 0"), "{equations:?}");
+
+    let flat = case(
+        "title = 'x'\nsystem = 'flat-base'\n[parameters]\nm = '0.5..2'\nk = '0.2..1'\nz = '0.2..1'\n\
+         I = 'inertia(0.5..5)'\n[body]\nheight = 'z'\n",
+    );
+    let report = search(&flat, &wanted, &mut |_| {}).expect("it can be searched");
+    let mut equations = report.conditions[0].equations.clone();
+    equations.sort();
+    assert_eq!(equations, ["I1 = I2", "k = 0", "m = 0", "z = 0"], "the base of (4.5)");
+
+    wanted.degree = 2;
+    let report = searched("sphere/balanced-ball", &wanted);
+    let by_k =
+        report.conditions.iter().find(|c| c.of == "more integrals of degree 2, by the value of k");
+    let equations = &by_k.expect("there are two values").equations;
+    // κ = 1/(1 + kR) = 1, a plane, and κ = −1
+    assert_eq!(equations, &["k = 0", "k*R = -2"]);
+}
+
+#[test]
+fn conditions_of_codimension_two_are_met_in_small_fields() {
+    let mut wanted = effort(0);
+    wanted.conditions = Some(Wanted::Existence);
+    let ellipsoid = case(
+        "title = 'x'\nsystem = 'rubber-sphere'\n[parameters]\nm = '0.5..2'\nk = '0.1..0.3'\n\
+         B = 'diag(1..3)'\nI = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
+    );
+    let report = search(&ellipsoid, &wanted, &mut |_| {}).expect("it can be searched");
+    let equations = &report.conditions[0].equations;
+    // I = mB + μE, and the bodies of revolution
+    let homogeneous = "I1 − I2 − m*B11 + m*B22 = 0 and I1 − I3 − m*B11 + m*B33 = 0";
+    assert!(equations.iter().any(|equation| equation.contains(homogeneous)), "{equations:?}");
+    assert!(equations.iter().any(|equation| equation == "B11 = B22 and I1 = I2"), "{equations:?}");
+}
+
+#[test]
+fn a_claim_that_fails_in_general_is_given_its_condition() {
+    let mut wanted = effort(0);
+    wanted.conditions = Some(Wanted::Claim("F2 of κ = −1".to_string()));
+    let report = searched("sphere/balanced-ball", &wanted);
+    assert_eq!(report.conditions[0].equations, ["2 + R*k = 0"]);
+    wanted.conditions = Some(Wanted::Claim("no such claim".to_string()));
+    let path = Path::new("cases/sphere/balanced-ball.toml");
+    let read = Case::read(path, &[]).1.expect("a case of the catalogue");
+    let error = search(&read, &wanted, &mut |_| {}).expect_err("there is none");
+    assert!(error.to_string().contains("no such claim"), "{error}");
+}
