@@ -75,4 +75,5 @@ pub mod report;
 pub mod scalar;
 pub mod search;
 pub mod stress;
+pub mod survey;
 pub mod verdict;

@@ -17,7 +17,7 @@ impl Case {
     /// `[poisson]` and `[[claim]]` of a case file, and nothing else.
     ///
     /// Names mean what they mean in the case; an abbreviation of the text hides a name of the case.
-    /// Weights are not checked.
+    /// Weights are not checked, and a claim has no source but its own.
     ///
     /// ```
     /// use liouville::case::Case;
@@ -58,7 +58,7 @@ impl Case {
         }
         let mut stated: Vec<Claim> = Vec::new();
         for section in root.sections("claim")? {
-            stated.push(claims::read(&section, &asked.model, &stated, &self.source)?);
+            stated.push(claims::read(&section, &asked.model, &stated, "")?);
         }
         asked.claims = stated;
         Ok(asked)

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod check;
 pub mod eval;
 mod files;
+pub mod report;
 pub mod search;
 pub mod stress;
 pub mod table;
@@ -28,6 +29,8 @@ pub enum Command {
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     Eval(Eval),
+    /// Tell which invariants a body has: everything known is tried, and what is found is proved
+    Report(Report),
     /// Look for integrals and densities that nobody typed: count them, find them, prove them
     Search(Search),
     /// Print a hierarchy table of the paper, filled from verdicts
@@ -121,6 +124,42 @@ pub struct Eval {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Report {
+    /// A case file; it needs no claims
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// How to write it; for a terminal, unless --out says otherwise
+    #[arg(long, value_enum)]
+    pub format: Option<ReportFormat>,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Show evidence and witnesses in text
+    #[arg(short, long)]
+    pub verbose: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+/// How a report is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReportFormat {
+    /// For a terminal
+    Text,
+    /// Markdown, with formulas as LaTeX between dollars
+    Markdown,
+    /// LaTeX: a document of its own
+    Latex,
+    /// One self-contained page
+    Html,
 }
 
 #[derive(Debug, Args)]
@@ -223,11 +262,11 @@ pub struct Stress {
     pub svg: Option<PathBuf>,
 }
 
-/// Writes a file that the user asked for.
-pub fn write(path: &Path, text: &str) -> Result<(), String> {
+/// Writes a file that the user asked for by an option.
+pub fn write(path: &Path, option: &str, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| {
         format!(
-            "error: cannot write {}: {error}\nhelp: give --svg a file in a folder that exists",
+            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
             path.display()
         )
     })

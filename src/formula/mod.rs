@@ -46,6 +46,7 @@ mod error;
 mod evaluate;
 mod functions;
 mod homogeneity;
+mod layout;
 mod lexer;
 mod logarithm;
 mod mutation;
@@ -70,6 +71,7 @@ use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
+pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
 pub use scope::{Scope, Symbol};

@@ -7,8 +7,10 @@ pub mod json;
 pub mod point;
 pub mod search;
 pub mod stress;
+pub mod survey;
 pub mod table;
 pub mod terminal;
+mod typeset;
 
 use std::time::Duration;
 

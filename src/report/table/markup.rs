@@ -1,6 +1,7 @@
 //! The paper's tables as Markdown and as LaTeX.
 
 use super::{CellClaim, Filled, Regenerated};
+use crate::report::typeset::latex::escaped;
 
 /// A Markdown table: rows as in the paper, verdicts as links.
 pub fn markdown(table: &Regenerated) -> String {
@@ -67,29 +68,4 @@ fn joined(
     let lines: Vec<String> =
         cell.words.iter().map(|w| words(w)).chain(cell.claims.iter().map(claim)).collect();
     if lines.is_empty() { "–".to_string() } else { lines.join(separator) }
-}
-
-/// What LaTeX would read as a command.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', c]),
-            '~' => out.push_str("\\textasciitilde{}"),
-            '^' => out.push_str("\\textasciicircum{}"),
-            '\\' => out.push_str("\\textbackslash{}"),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn special_characters_are_escaped() {
-        assert_eq!(escaped("a_1^2 & {50%}"), "a\\_1\\textasciicircum{}2 \\& \\{50\\%\\}");
-    }
 }

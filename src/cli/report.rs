@@ -1,0 +1,75 @@
+//! `liouville report`
+
+use std::io::IsTerminal;
+
+use indicatif::ProgressBar;
+use liouville::report::{diagnostic, survey as written};
+use liouville::survey::{self, Survey};
+
+use super::eval::open;
+use super::{Answer, Report, ReportFormat, colour, width};
+
+pub fn run(options: &Report) -> Result<Answer, String> {
+    let case = open(&options.case, &options.settings)?;
+    let spinner = match std::io::stderr().is_terminal() {
+        true => ProgressBar::new_spinner(),
+        false => ProgressBar::hidden(),
+    };
+    let mut progress = |what: &str| {
+        spinner.set_message(what.to_string());
+        spinner.tick();
+    };
+    let found = survey::survey(&case, &options.sampling.options(), &mut progress);
+    spinner.finish_and_clear();
+    let found = found.map_err(|error| {
+        let shown = options.case.display().to_string();
+        let coloured = colour(std::io::stderr().is_terminal());
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
+    })?;
+    let text = match form(options) {
+        Form::Json => written::json(&found).map_err(|error| format!("error: {error}"))? + "\n",
+        Form::Readable(format) => readable(&found, format, options),
+    };
+    match &options.out {
+        None => Ok(Answer { text, code: 0 }),
+        Some(path) => {
+            super::write(path, "--out", &text)?;
+            Ok(Answer { text: format!("{}\n", path.display()), code: 0 })
+        }
+    }
+}
+
+/// What is written.
+enum Form {
+    Json,
+    Readable(ReportFormat),
+}
+
+/// The format that is asked for, or that the name of the file says.
+fn form(options: &Report) -> Form {
+    let extension = options.out.as_deref().and_then(|path| path.extension()?.to_str());
+    match (options.json, options.format, extension) {
+        (true, ..) => Form::Json,
+        (_, Some(format), _) => Form::Readable(format),
+        (_, None, Some("json")) => Form::Json,
+        (_, None, Some("html" | "htm")) => Form::Readable(ReportFormat::Html),
+        (_, None, Some("md" | "markdown")) => Form::Readable(ReportFormat::Markdown),
+        (_, None, Some("tex")) => Form::Readable(ReportFormat::Latex),
+        (_, None, _) => Form::Readable(ReportFormat::Text),
+    }
+}
+
+fn readable(found: &Survey, format: ReportFormat, options: &Report) -> String {
+    match format {
+        ReportFormat::Text => {
+            let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
+            written::text(
+                found,
+                written::Style { verbose: options.verbose, colour, width: width() },
+            )
+        }
+        ReportFormat::Markdown => written::markdown(found),
+        ReportFormat::Latex => written::latex(found),
+        ReportFormat::Html => written::html(found),
+    }
+}

@@ -1,0 +1,434 @@
+//! How a formula looks on paper: boxes made from its tree, for any typesetter.
+//!
+//! Brackets are those that the tree needs; products stand side by side, quotients over each other,
+//! and in line within exponents.
+
+use super::Formula;
+use super::arena::{Arena, Function, NodeId, Operation};
+use super::scope::Symbol;
+use super::value::Type;
+use crate::number::rational::Rational;
+
+/// A box on paper.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Digits, without a sign.
+    Number(String),
+    /// A name: letter, what it stands for, index, and how many primes.
+    Name {
+        /// One letter, perhaps with an accent, or a word.
+        letter: String,
+        /// Vectors and matrices are set bold.
+        kind: Type,
+        /// The index; empty where there is none.
+        index: String,
+        /// Primes.
+        primes: usize,
+    },
+    /// The name of a function, upright.
+    Word(&'static str),
+    /// A sign between or before others.
+    Sign(&'static str),
+    /// The small space of a product.
+    Space,
+    /// Boxes in a row.
+    Row(Vec<Layout>),
+    /// Between brackets or bars.
+    Fenced(&'static str, Box<Layout>, &'static str),
+    /// One over the other.
+    Fraction(Box<Layout>, Box<Layout>),
+    /// Under a root.
+    Root(Box<Layout>),
+    /// With an exponent.
+    Raised(Box<Layout>, Box<Layout>),
+    /// With an index.
+    Lowered(Box<Layout>, Box<Layout>),
+    /// Rows of a matrix.
+    Matrix(Vec<Vec<Layout>>),
+}
+
+/// How tightly a box holds together; one that is looser than its place asks for gets brackets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Bond {
+    Sum,
+    Cross,
+    Product,
+    Power,
+    Whole,
+}
+
+type Bonded = (Layout, Bond);
+
+impl Layout {
+    /// A name by itself.
+    pub fn name(text: &str, kind: Type) -> Self {
+        let bare = text.trim_end_matches('\'');
+        let primes = text.len() - bare.len();
+        let (letter, index) = match bare.split_once('_') {
+            Some((letter, index)) => (letter, index),
+            None => bare.split_at(bare.trim_end_matches(|c: char| c.is_ascii_digit()).len()),
+        };
+        let (letter, index) = (letter.to_string(), index.to_string());
+        Layout::Name { letter, kind, index, primes }
+    }
+
+    /// left = right
+    pub fn equation(left: Layout, right: Layout) -> Self {
+        Layout::Row(vec![left, Layout::Sign("="), right])
+    }
+
+    /// left ↦ right
+    pub fn image(left: Layout, right: Layout) -> Self {
+        Layout::Row(vec![left, Layout::Sign("↦"), right])
+    }
+
+    /// Is it so high that brackets around it have to grow?
+    pub fn is_tall(&self) -> bool {
+        match self {
+            Layout::Fraction(..) | Layout::Matrix(_) => true,
+            Layout::Row(parts) => parts.iter().any(Layout::is_tall),
+            Layout::Fenced(_, inner, _) | Layout::Root(inner) => inner.is_tall(),
+            Layout::Raised(base, _) | Layout::Lowered(base, _) => base.is_tall(),
+            Layout::Number(_)
+            | Layout::Name { .. }
+            | Layout::Word(_)
+            | Layout::Sign(_)
+            | Layout::Space => false,
+        }
+    }
+
+    fn fenced(self) -> Self {
+        Layout::Fenced("(", Box::new(self), ")")
+    }
+
+    fn raised(self, exponent: Layout) -> Self {
+        Layout::Raised(Box::new(self), Box::new(exponent))
+    }
+}
+
+impl Formula {
+    /// The formula as it looks on paper, with the names that symbols have.
+    pub fn layout(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
+        let paper = Paper { arena: &self.arena, names };
+        paper.set(self.arena.nodes.len() - 1, false).0
+    }
+}
+
+struct Paper<'f> {
+    arena: &'f Arena,
+    names: &'f dyn Fn(Symbol) -> String,
+}
+
+impl Paper<'_> {
+    /// The box of a node; `inline` where fractions would be too high.
+    fn set(&self, node: NodeId, inline: bool) -> Bonded {
+        use Operation::*;
+        let whole = |layout| (layout, Bond::Whole);
+        match &self.arena.nodes[node].operation {
+            Number(value) => number(value, inline),
+            Symbol(slot) => whole(self.symbol(*slot)),
+            Identity => whole(Layout::name("E", Type::Matrix)),
+            Negate(a) => {
+                let positive = self.at(*a, Bond::Product, inline);
+                (Layout::Row(vec![Layout::Sign("−"), positive]), Bond::Sum)
+            }
+            Add(a, b) => self.between(*a, "+", *b, Bond::Sum, inline),
+            Subtract(a, b) => self.between(*a, "−", *b, Bond::Sum, inline),
+            Cross(a, b) => self.between(*a, "×", *b, Bond::Cross, inline),
+            Outer(a, b) => self.between(*a, "⊗", *b, Bond::Cross, inline),
+            Multiply(a, b) | Scale(a, b) | Apply(a, b) | Compose(a, b) => {
+                self.product(*a, *b, inline)
+            }
+            Divide(a, b) if inline => self.between(*a, "/", *b, Bond::Product, inline),
+            Divide(a, b) => {
+                let below = Box::new(self.set(*b, inline).0);
+                match without_minus(self.set(*a, inline).0) {
+                    Ok(above) => {
+                        let fraction = Layout::Fraction(Box::new(above), below);
+                        (Layout::Row(vec![Layout::Sign("−"), fraction]), Bond::Sum)
+                    }
+                    Err(above) => (Layout::Fraction(Box::new(above), below), Bond::Power),
+                }
+            }
+            Dot(a, b) if a == b => {
+                (self.at(*a, Bond::Whole, inline).raised(digits("2")), Bond::Power)
+            }
+            Dot(a, b) => {
+                let parts = vec![self.set(*a, inline).0, Layout::Sign(","), self.set(*b, inline).0];
+                whole(Layout::Row(parts).fenced())
+            }
+            Power(a, exponent) => {
+                let exponent = number(exponent, true).0;
+                (self.at(*a, Bond::Whole, inline).raised(exponent), Bond::Power)
+            }
+            PowerOf(a, b) => {
+                let exponent = self.set(*b, true).0;
+                (self.at(*a, Bond::Whole, inline).raised(exponent), Bond::Power)
+            }
+            MatrixPower(a, n) => {
+                (self.at(*a, Bond::Whole, inline).raised(digits(&n.to_string())), Bond::Power)
+            }
+            Inverse(a) => (self.inverse(*a, inline), Bond::Power),
+            Transpose(a) => {
+                (self.at(*a, Bond::Whole, inline).raised(Layout::Word("T")), Bond::Power)
+            }
+            Solve(a, b) => {
+                let parts = vec![
+                    self.inverse(*a, inline),
+                    Layout::Space,
+                    self.at(*b, Bond::Product, inline),
+                ];
+                (Layout::Row(parts), Bond::Product)
+            }
+            Component(a, i) => whole(self.indexed(*a, (i + 1).to_string(), inline)),
+            Entry(a, i, j) if i == j => whole(self.indexed(*a, (i + 1).to_string(), inline)),
+            Entry(a, i, j) => whole(self.indexed(*a, format!("{}{}", i + 1, j + 1), inline)),
+            Adjugate(a) => self.applied("adj", *a, inline),
+            Determinant(a) => self.applied("det", *a, inline),
+            Trace(a) => self.applied("tr", *a, inline),
+            Diagonal(a) => self.applied("diag", *a, inline),
+            Vector(parts) => whole(self.list(parts, inline)),
+            Rows(rows) => {
+                whole(Layout::Matrix(rows.iter().map(|row| self.row(*row, inline)).collect()))
+            }
+            Function(function, a) => self.function(*function, *a, inline),
+            Antiderivative(f, x) => {
+                let parts = vec![
+                    Layout::Sign("∫"),
+                    self.at(*f, Bond::Product, inline),
+                    Layout::Space,
+                    Layout::Word("d"),
+                    self.at(*x, Bond::Whole, inline),
+                ];
+                (Layout::Row(parts), Bond::Product)
+            }
+        }
+    }
+
+    /// The box of a node in a place that asks for this bond.
+    fn at(&self, node: NodeId, least: Bond, inline: bool) -> Layout {
+        match self.set(node, inline) {
+            (layout, bond) if bond >= least => layout,
+            (layout, _) => layout.fenced(),
+        }
+    }
+
+    fn symbol(&self, slot: usize) -> Layout {
+        let (symbol, kind) = self.arena.symbols[slot];
+        Layout::name(&(self.names)(symbol), kind)
+    }
+
+    /// a sign b; the right side holds together more tightly than the whole.
+    fn between(
+        &self,
+        a: NodeId,
+        sign: &'static str,
+        b: NodeId,
+        bond: Bond,
+        inline: bool,
+    ) -> Bonded {
+        let tighter = match bond {
+            Bond::Sum => Bond::Cross,
+            Bond::Cross => Bond::Product,
+            _ => Bond::Power,
+        };
+        // A row of vector products needs brackets.
+        let left = if bond == Bond::Cross { tighter } else { bond };
+        let parts = vec![self.at(a, left, inline), Layout::Sign(sign), self.at(b, tighter, inline)];
+        (Layout::Row(parts), bond)
+    }
+
+    fn product(&self, a: NodeId, b: NodeId, inline: bool) -> Bonded {
+        let right = self.at(b, Bond::Product, inline);
+        let sign = match starts_with_digit(&right) {
+            true => Layout::Sign("·"),
+            false => Layout::Space,
+        };
+        // (−a) b is written −a b.
+        match without_minus(self.set(a, inline).0) {
+            Ok(left) => {
+                let product = Layout::Row(vec![left, sign, right]);
+                (Layout::Row(vec![Layout::Sign("−"), product]), Bond::Sum)
+            }
+            Err(_) => {
+                let left = self.at(a, Bond::Product, inline);
+                (Layout::Row(vec![left, sign, right]), Bond::Product)
+            }
+        }
+    }
+
+    fn inverse(&self, a: NodeId, inline: bool) -> Layout {
+        let minus_one = Layout::Row(vec![Layout::Sign("−"), digits("1")]);
+        self.at(a, Bond::Whole, inline).raised(minus_one)
+    }
+
+    /// `det A`, with brackets unless A is one letter, or its power.
+    fn applied(&self, word: &'static str, a: NodeId, inline: bool) -> Bonded {
+        let argument = self.at(a, Bond::Power, inline);
+        (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), Bond::Power)
+    }
+
+    fn indexed(&self, a: NodeId, digits: String, inline: bool) -> Layout {
+        if let Operation::Symbol(slot) = self.arena.nodes[a].operation
+            && let Layout::Name { letter, index, primes, .. } = self.symbol(slot)
+        {
+            let index = if index.is_empty() { digits } else { format!("{index},{digits}") };
+            return Layout::Name { letter, kind: Type::Scalar, index, primes };
+        }
+        let base = Box::new(self.at(a, Bond::Whole, inline));
+        Layout::Lowered(base, Box::new(Layout::Number(digits)))
+    }
+
+    fn list(&self, parts: &[NodeId], inline: bool) -> Layout {
+        let mut row = Vec::new();
+        for part in parts {
+            if !row.is_empty() {
+                row.push(Layout::Sign(","));
+            }
+            row.push(self.set(*part, inline).0);
+        }
+        Layout::Row(row).fenced()
+    }
+
+    fn row(&self, node: NodeId, inline: bool) -> Vec<Layout> {
+        match &self.arena.nodes[node].operation {
+            Operation::Vector(parts) => {
+                parts.iter().map(|part| self.set(*part, inline).0).collect()
+            }
+            _ => vec![self.set(node, inline).0],
+        }
+    }
+
+    fn function(&self, function: Function, a: NodeId, inline: bool) -> Bonded {
+        let bars = |layout| (Layout::Fenced("|", Box::new(layout), "|"), Bond::Whole);
+        let word = match function {
+            Function::Modulus => return bars(self.set(a, inline).0),
+            Function::Sqrt => {
+                // |v| is read as √(v,v)
+                return match self.arena.nodes[a].operation {
+                    Operation::Dot(x, y) if x == y => bars(self.set(x, inline).0),
+                    _ => (Layout::Root(Box::new(self.set(a, inline).0)), Bond::Power),
+                };
+            }
+            Function::Exp => "exp",
+            Function::Ln => "ln",
+            Function::Sin => "sin",
+            Function::Cos => "cos",
+            Function::Tan => "tan",
+            Function::Atan => "arctan",
+        };
+        let argument = self.set(a, inline).0.fenced();
+        (Layout::Row(vec![Layout::Word(word), argument]), Bond::Power)
+    }
+}
+
+fn digits(text: &str) -> Layout {
+    Layout::Number(text.to_string())
+}
+
+/// A number, its sign before it, a fraction in line or over each other.
+fn number(value: &Rational, inline: bool) -> Bonded {
+    let (above, below) = value.parts();
+    let (above, below) = (above.magnitude().to_string(), below.to_string());
+    let (layout, bond) = match below.as_str() {
+        "1" => (digits(&above), Bond::Whole),
+        _ if inline => {
+            let parts = vec![digits(&above), Layout::Sign("/"), digits(&below)];
+            (Layout::Row(parts), Bond::Product)
+        }
+        _ => (Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))), Bond::Power),
+    };
+    match value.is_negative() {
+        true => (Layout::Row(vec![Layout::Sign("−"), layout]), Bond::Sum),
+        false => (layout, bond),
+    }
+}
+
+/// What stands behind a minus sign, if the box is that; the box itself otherwise.
+fn without_minus(layout: Layout) -> Result<Layout, Layout> {
+    match layout {
+        Layout::Row(mut parts) if parts.len() == 2 && parts[0] == Layout::Sign("−") => {
+            Ok(parts.swap_remove(1))
+        }
+        other => Err(other),
+    }
+}
+
+fn starts_with_digit(layout: &Layout) -> bool {
+    match layout {
+        Layout::Number(_) => true,
+        Layout::Fraction(above, _) => starts_with_digit(above),
+        Layout::Raised(base, _) => starts_with_digit(base),
+        Layout::Row(parts) => parts.first().is_some_and(starts_with_digit),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Scope;
+
+    struct Letters;
+
+    impl Scope for Letters {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            let kinds = [
+                ("m", Type::Scalar),
+                ("k", Type::Scalar),
+                ("ω", Type::Vector),
+                ("J", Type::Matrix),
+            ];
+            let place = kinds.iter().position(|(known, _)| *known == name)?;
+            Some((Symbol(place as u32), kinds[place].1))
+        }
+
+        fn names(&self) -> Vec<String> {
+            Vec::new()
+        }
+    }
+
+    /// A plain reading of the boxes, with every bracket that they have.
+    fn plain(layout: &Layout) -> String {
+        match layout {
+            Layout::Number(text) => text.clone(),
+            Layout::Name { letter, index, primes, .. } => {
+                format!("{letter}{index}{}", "'".repeat(*primes))
+            }
+            Layout::Word(word) => word.to_string(),
+            Layout::Sign(sign) => sign.to_string(),
+            Layout::Space => " ".to_string(),
+            Layout::Row(parts) => parts.iter().map(plain).collect(),
+            Layout::Fenced(open, inner, close) => format!("{open}{}{close}", plain(inner)),
+            Layout::Fraction(above, below) => format!("{{{}/{}}}", plain(above), plain(below)),
+            Layout::Root(inner) => format!("√{{{}}}", plain(inner)),
+            Layout::Raised(base, power) => format!("{}^{{{}}}", plain(base), plain(power)),
+            Layout::Lowered(base, index) => format!("{}_{{{}}}", plain(base), plain(index)),
+            Layout::Matrix(rows) => format!("{} rows", rows.len()),
+        }
+    }
+
+    fn set(text: &str) -> String {
+        let formula = Formula::parse(text, &Letters).expect(text);
+        let name = |symbol: Symbol| ["m", "k", "ω", "J"][symbol.0 as usize].to_string();
+        plain(&formula.layout(&name))
+    }
+
+    #[test]
+    fn brackets_are_those_that_the_tree_needs() {
+        assert_eq!(set("|J*ω × ω|²"), "|J ω×ω|^{2}", "a vector product is looser than a product");
+        assert_eq!(set("m*(k + 1)²"), "m (k+1)^{2}", "a sum under an exponent");
+        assert_eq!(set("m − (k − 1)"), "m−(k−1)", "a difference on the right");
+        assert_eq!(set("(m − k) − 1"), "m−k−1", "and on the left");
+        assert_eq!(set("−(1 − k)*m"), "−(1−k) m", "a minus before a product");
+        assert_eq!(set("m*(−k)"), "m (−k)", "a minus inside one");
+        assert_eq!(set("(m/k)²"), "({m/k})^{2}", "a quotient under an exponent");
+        assert_eq!(set("m^((1 + k)/2)"), "m^{(1+k)/2}", "quotients in exponents stand in line");
+        assert_eq!(set("m^(1/2)"), "m^{1/2}", "and so do numbers");
+        assert_eq!(set("m*2"), "m·2", "digits are kept apart");
+        assert_eq!(set("(ω,J⁻¹*ω)*det(J)"), "(ω,J^{−1} ω) det J", "the dot product has its own");
+        assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
+        assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
+        assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
+    }
+}

@@ -1,0 +1,45 @@
+//! What is known about a system, for people: on a terminal, as Markdown, LaTeX and one HTML page.
+//!
+//! ```text
+//! Survey ─ compose ─▶ Document ─▶ terminal, markdown, latex, html
+//! ```
+//!
+//! What is said is said once, in `compose`; a format only sets it.
+
+mod compose;
+mod document;
+mod entry;
+mod html;
+mod latex;
+mod markdown;
+mod picture;
+mod terminal;
+
+use crate::survey::Survey;
+
+pub use terminal::Style;
+
+/// The survey as JSON.
+pub fn json(survey: &Survey) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(survey)
+}
+
+/// The survey for a terminal.
+pub fn text(survey: &Survey, style: Style) -> String {
+    terminal::render(&compose::document(survey), style)
+}
+
+/// The survey as Markdown, with formulas as LaTeX between dollars.
+pub fn markdown(survey: &Survey) -> String {
+    markdown::render(&compose::document(survey))
+}
+
+/// The survey as a LaTeX document, for XeLaTeX or LuaLaTeX.
+pub fn latex(survey: &Survey) -> String {
+    latex::render(&compose::document(survey))
+}
+
+/// The survey as one self-contained HTML page.
+pub fn html(survey: &Survey) -> String {
+    html::render(&compose::document(survey))
+}

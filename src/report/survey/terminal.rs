@@ -1,0 +1,124 @@
+//! A document on a terminal.
+
+use comfy_table::{ContentArrangement, Table, presets};
+
+use super::document::{Block, Cell, Document, Entry, Mark};
+
+/// How much is shown, and whether in colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Show the grounds of each verdict.
+    pub verbose: bool,
+    /// Use colours.
+    pub colour: bool,
+    /// The width to lay out for.
+    pub width: u16,
+}
+
+const GREEN: &str = "\u{1b}[32m";
+const RED: &str = "\u{1b}[31m";
+const YELLOW: &str = "\u{1b}[33m";
+const BOLD: &str = "\u{1b}[1m";
+const PLAIN: &str = "\u{1b}[0m";
+
+impl Style {
+    fn painted(self, text: &str, colour: &str) -> String {
+        if self.colour { format!("{colour}{text}{PLAIN}") } else { text.to_string() }
+    }
+}
+
+/// The whole document.
+pub fn render(document: &Document, style: Style) -> String {
+    let mut out = format!("{}\n", style.painted(&document.title, BOLD));
+    for section in &document.sections {
+        out.push_str(&format!("\n{}\n", style.painted(section.title, BOLD)));
+        for block in &section.blocks {
+            out.push_str(&set(block, style));
+        }
+    }
+    out
+}
+
+fn set(block: &Block, style: Style) -> String {
+    match block {
+        Block::Text(text) => wrapped(text, "  ", "  ", style.width),
+        Block::List(items) => {
+            items.iter().map(|item| wrapped(item, "  - ", "    ", style.width)).collect()
+        }
+        Block::Folded(..) if !style.verbose => String::new(),
+        Block::Folded(_, lines) => {
+            lines.iter().map(|line| wrapped(line, "  | ", "  | ", style.width)).collect()
+        }
+        Block::Entry(entry) => self::entry(entry, style),
+        Block::Table { head, rows } => table(head, rows, style),
+        Block::Picture(_) => String::new(),
+    }
+}
+
+fn entry(entry: &Entry, style: Style) -> String {
+    let colour = match entry.mark {
+        Mark::Holds => GREEN,
+        Mark::Fails => RED,
+        Mark::Open => YELLOW,
+    };
+    let mark = style.painted(&format!("{} {:<9}", entry.mark.sign(), entry.verdict), colour);
+    let mut out = format!("  {mark} {}", entry.name);
+    if !entry.source.is_empty() {
+        out.push_str(&format!("   [{}]", entry.source));
+    }
+    out.push('\n');
+    let deep = "              ";
+    if let Some(statement) = &entry.statement {
+        out.push_str(&wrapped(statement, deep, "                ", style.width));
+    }
+    for (definition, _) in &entry.definitions {
+        out.push_str(&wrapped(definition, "                ", "                  ", style.width));
+    }
+    for remark in &entry.remarks {
+        out.push_str(&wrapped(remark, deep, deep, style.width));
+    }
+    if style.verbose {
+        for line in &entry.evidence {
+            out.push_str(&wrapped(line, "              | ", "              | ", style.width));
+        }
+    }
+    out
+}
+
+fn table(head: &[&str], rows: &[Vec<Cell>], style: Style) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(style.width.saturating_sub(4)).force_no_tty();
+    table.set_header(head.to_vec());
+    for row in rows {
+        let cells = row.iter().map(|cell| match cell {
+            Cell::Text(text) | Cell::Formula(text, _) => text.clone(),
+        });
+        table.add_row(cells.collect::<Vec<_>>());
+    }
+    table.trim_fmt().lines().map(|line| format!("   {line}\n")).collect()
+}
+
+/// Lines no longer than the terminal is wide; words stay whole.
+fn wrapped(text: &str, first: &str, next: &str, width: u16) -> String {
+    let mut out = String::from(first);
+    let mut length = first.chars().count();
+    let mut is_start = true;
+    for word in text.split_whitespace() {
+        let size = word.chars().count();
+        if !is_start && length + 1 + size > usize::from(width) {
+            out.push('\n');
+            out.push_str(next);
+            length = next.chars().count();
+            is_start = true;
+        }
+        if !is_start {
+            out.push(' ');
+            length += 1;
+        }
+        out.push_str(word);
+        length += size;
+        is_start = false;
+    }
+    out + "\n"
+}

@@ -1,0 +1,4 @@
+//! Formulas for a browser and for LaTeX, from the boxes of their trees.
+
+pub mod latex;
+pub mod mathml;

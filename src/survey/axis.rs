@@ -1,0 +1,74 @@
+//! Axes about which a body, or a surface, may be turned.
+
+use crate::case::Case;
+use crate::formula::Type;
+use crate::mechanics::System;
+
+/// An axis about which the body and its tensor of inertia may be turned.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// Its name.
+    pub name: String,
+    /// Unit vector along it.
+    pub vector: String,
+    /// Its number, if it is one of the frame's.
+    pub index: Option<usize>,
+    /// The name of the state's second vector: γ, or r of a surface given as a level.
+    second: &'static str,
+}
+
+/// The axes that are worth a try: the frame's, and those along the vectors of the case.
+pub fn tried(case: &Case) -> Vec<Axis> {
+    let second = match &case.model.system {
+        System::Rubber(_) => "γ",
+        System::Ball(ball) if matches!(ball.surface, crate::mechanics::Surface::Level(_)) => "r",
+        System::Ball(_) => "γ",
+        _ => return Vec::new(),
+    };
+    let frame = ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"];
+    let mut axes: Vec<Axis> = frame
+        .into_iter()
+        .enumerate()
+        .map(|(k, vector)| Axis {
+            name: format!("e{}", k + 1),
+            vector: vector.to_string(),
+            index: Some(k),
+            second,
+        })
+        .collect();
+    let vectors = case.model.parameters.iter().filter(|one| one.kind == Type::Vector);
+    axes.extend(vectors.map(|one| Axis {
+        name: one.name.clone(),
+        vector: format!("({0}/|{0}|)", one.name),
+        index: None,
+        second,
+    }));
+    axes
+}
+
+impl Axis {
+    /// What stands for the placeholders of a family.
+    pub fn words(&self) -> Vec<(&'static str, String)> {
+        let a = &self.vector;
+        let component = |name: &str| match self.index {
+            Some(k) => format!("{name}{}", k + 1),
+            None => format!("({name},{a})"),
+        };
+        let (across, along) = match self.index {
+            Some(k) => (format!("I{}", (k + 1) % 3 + 1), format!("I{}", k + 1)),
+            None => (format!("(trace(I) − ({a},I*{a}))/2"), format!("({a},I*{a})")),
+        };
+        vec![
+            ("@name", self.name.clone()),
+            ("@I1", across),
+            ("@I3", along),
+            ("@a", a.clone()),
+            ("@x", self.second.to_string()),
+            ("@ω", component("ω")),
+            ("@γ", component("γ")),
+            ("@S", component("S")),
+            ("@M", component("M")),
+            ("@r", component("r")),
+        ]
+    }
+}

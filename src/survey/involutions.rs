@@ -1,0 +1,280 @@
+//! Symmetries and reversors among the maps that permute the axes of the frame and change signs.
+//!
+//! With Q in O(3), Qᵀ = Q⁻¹, an axial vector goes to det Q Qω and a polar one to Qγ; a reversor
+//! has −det Q Qω, and Q² = E. If Q takes the body, its inertia, its rotor and the potential to
+//! themselves the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides it all the same.
+
+use super::question::{Finding, FixedSet, Question};
+use crate::case::Case;
+use crate::formula::Type;
+use crate::mechanics::{Surface, System};
+use crate::verdict::{JudgeError, Options};
+
+/// A vector's component i goes to `signs[i]` times component `places[i]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Turn {
+    places: [usize; 3],
+    signs: [i8; 3],
+}
+
+/// A map that is tried: its name, its key in a claim, the images by state variable, the dimension
+/// of what it leaves in place.
+struct Candidate {
+    name: String,
+    key: &'static str,
+    images: Vec<(String, String)>,
+    fixed_set: Option<FixedSet>,
+}
+
+/// Reversors and symmetries that were proved, reversors first; those that fail are not told.
+pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
+    let candidates = candidates(case);
+    let claim = |one: &Candidate| {
+        let images = one.images.iter().map(|(name, image)| format!("\"{name}\" = \"{image}\""));
+        let images = images.collect::<Vec<_>>().join(", ");
+        format!("[[claim]]\nname = \"{}\"\n{} = {{ {images} }}\n", one.name, one.key)
+    };
+    let body: String = candidates.iter().map(claim).collect();
+    let question = Question::plain("maps of the frame", &[], body);
+    let mut found = question.ask(case, options)?.unwrap_or_default();
+    for (finding, candidate) in found.iter_mut().zip(&candidates) {
+        finding.fixed_set = candidate.fixed_set;
+    }
+    found.retain(Finding::holds);
+    Ok(found)
+}
+
+fn candidates(case: &Case) -> Vec<Candidate> {
+    let turns = || Turn::all().into_iter();
+    match &case.model.system {
+        System::Rubber(_) => both(turns(), |turn, axial| Candidate {
+            name: turn.name(axial < 0),
+            key: key(axial),
+            images: vec![
+                ("ω".into(), turn.image("ω", axial * turn.determinant())),
+                ("γ".into(), turn.image("γ", 1)),
+            ],
+            // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+            fixed_set: fixed(axial, turn, |along, velocity| match turn.determinant() {
+                1 => along.checked_sub(1).map(|d| d + velocity),
+                _ => along.checked_sub(1).map(|d| d + velocity - 1),
+            }),
+        }),
+        System::Ball(ball) => {
+            let is_level = matches!(ball.surface, Surface::Level(_));
+            let second = if is_level { "r" } else { "γ" };
+            both(turns(), |turn, axial| Candidate {
+                name: turn.name(axial < 0),
+                key: key(axial),
+                images: vec![
+                    ("M".into(), turn.image("M", axial * turn.determinant())),
+                    (second.into(), turn.image(second, 1)),
+                ],
+                fixed_set: fixed(axial, turn, |along, velocity| match is_level {
+                    true => Some(along + velocity),
+                    false => along.checked_sub(1).map(|d| d + velocity),
+                }),
+            })
+        }
+        System::FlatBase(_) => {
+            let about_axis = turns().filter(|turn| turn.places[2] == 2 && turn.signs[2] == 1);
+            both(about_axis, |turn, axial| {
+                let across = |name: &str, sign: i8| {
+                    (0..2)
+                        .map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
+                        .collect::<Vec<_>>()
+                };
+                let mut images = across("ω", axial * turn.determinant());
+                images.extend(across("r", 1));
+                // Both fixed spaces have the axis beside what lies in the plane.
+                let fixed_set = fixed(axial, turn, |along, velocity| {
+                    let of_axis = usize::from(axial * turn.determinant() == 1);
+                    Some(along - 1 + velocity - of_axis)
+                });
+                Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set }
+            })
+        }
+        System::Lagrangian(_) | System::Field(_) => sign_changes(case),
+    }
+}
+
+fn key(axial: i8) -> &'static str {
+    if axial < 0 { "reversor" } else { "symmetry" }
+}
+
+/// The dimension of what a reversor leaves in place, from those of the fixed spaces of polar and of
+/// axial vectors.
+fn fixed(
+    axial: i8,
+    turn: Turn,
+    dimension: impl Fn(usize, usize) -> Option<usize>,
+) -> Option<FixedSet> {
+    (axial < 0).then(|| {
+        let velocity = turn.fixed_space(axial * turn.determinant());
+        FixedSet { dimension: dimension(turn.fixed_space(1), velocity) }
+    })
+}
+
+/// Reversors (axial −1) of all involutions, then symmetries (axial 1) but the identity.
+fn both(
+    turns: impl Iterator<Item = Turn>,
+    mut candidate: impl FnMut(Turn, i8) -> Candidate,
+) -> Vec<Candidate> {
+    let turns: Vec<Turn> = turns.collect();
+    let mut all: Vec<Candidate> =
+        turns.iter().filter(|turn| turn.is_involution()).map(|turn| candidate(*turn, -1)).collect();
+    all.extend(turns.iter().filter(|turn| !turn.is_identity()).map(|turn| candidate(*turn, 1)));
+    all
+}
+
+/// Components of a state of the user's own whose signs are all tried.
+const MOST_COMPONENTS: usize = 6;
+
+/// Changes of sign of the components of a state that has no frame; of whole variables if there are
+/// many.
+fn sign_changes(case: &Case) -> Vec<Candidate> {
+    let model = &case.model;
+    let single = model.dimension() <= MOST_COMPONENTS;
+    let parts = |kind: Type| if single && kind == Type::Vector { 3 } else { 1 };
+    let count: usize = model.state.iter().map(|variable| parts(variable.kind)).sum();
+    if count > MOST_COMPONENTS {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    for key in ["reversor", "symmetry"] {
+        for mask in 1u32..1 << count {
+            let (mut images, mut changed, mut bit) = (Vec::new(), Vec::new(), 0);
+            let mut fixed = model.dimension();
+            for variable in &model.state {
+                let name = &variable.name;
+                let flips: Vec<bool> =
+                    (bit..bit + parts(variable.kind)).map(|b| mask >> b & 1 == 1).collect();
+                bit += flips.len();
+                if !flips.contains(&true) {
+                    continue;
+                }
+                let whole = !flips.contains(&false);
+                fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
+                let sign =
+                    |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
+                let image = match whole {
+                    true => format!("−{name}"),
+                    false => format!("[{}, {}, {}]", sign(0), sign(1), sign(2)),
+                };
+                changed.push(format!("{name} → {image}"));
+                images.push((name.clone(), image));
+            }
+            // On a level the dimension depends on how the fixed space meets it.
+            let known = key == "reversor" && model.level.is_empty();
+            let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
+            all.push(Candidate {
+                name: format!("{key} {}", changed.join(", ")),
+                key,
+                images,
+                fixed_set,
+            });
+        }
+    }
+    all
+}
+
+impl Turn {
+    /// All 48, those without exchanges first.
+    fn all() -> Vec<Self> {
+        let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
+        let signs =
+            (0..8).map(|mask: i32| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { -1 } else { 1 }));
+        let signs: Vec<[i8; 3]> = signs.collect();
+        orders
+            .into_iter()
+            .flat_map(|places| signs.iter().map(move |signs| Self { places, signs: *signs }))
+            .collect()
+    }
+
+    fn determinant(self) -> i8 {
+        let exchanges = (0..3).flat_map(|i| (i + 1..3).map(move |j| (i, j)));
+        let odd = exchanges.filter(|(i, j)| self.places[*i] > self.places[*j]).count() % 2 == 1;
+        self.signs.iter().product::<i8>() * if odd { -1 } else { 1 }
+    }
+
+    fn is_identity(self) -> bool {
+        self == Self { places: [0, 1, 2], signs: [1, 1, 1] }
+    }
+
+    fn is_involution(self) -> bool {
+        (0..3).all(|i| {
+            let j = self.places[i];
+            self.places[j] == i && self.signs[i] * self.signs[j] == 1
+        })
+    }
+
+    /// The dimension of {x : sign Qx = x}: one for each cycle whose signs multiply to 1.
+    fn fixed_space(self, sign: i8) -> usize {
+        let mut seen = [false; 3];
+        let mut dimension = 0;
+        for start in 0..3 {
+            let (mut at, mut product) = (start, 1);
+            while !std::mem::replace(&mut seen[at], true) {
+                product *= sign * self.signs[at];
+                at = self.places[at];
+                if at == start {
+                    dimension += usize::from(product == 1);
+                }
+            }
+        }
+        dimension
+    }
+
+    /// Component i of sign·Q x as a formula.
+    fn component(self, name: &str, i: usize, sign: i8) -> String {
+        let minus = if self.signs[i] * sign < 0 { "−" } else { "" };
+        format!("{minus}{name}{}", self.places[i] + 1)
+    }
+
+    fn image(self, name: &str, sign: i8) -> String {
+        let parts = [0, 1, 2].map(|i| self.component(name, i, sign));
+        format!("[{}]", parts.join(", "))
+    }
+
+    /// The name in BMB 2013, A.1, where it has one.
+    fn name(self, reverses: bool) -> String {
+        let tilde = if reverses { "\u{303}" } else { "" };
+        let minus = self.signs.iter().filter(|sign| **sign < 0).count();
+        let odd_one = |sign: i8| self.signs.iter().position(|s| *s == sign).map_or(0, |k| k + 1);
+        match (self.places, minus) {
+            ([0, 1, 2], 0) => "R(0)".to_string(),
+            ([0, 1, 2], 1) => format!("Σ{tilde}({})", odd_one(-1)),
+            ([0, 1, 2], 2) => format!("Π{tilde}({})", odd_one(1)),
+            ([0, 1, 2], _) => format!("Σ{tilde}(0)"),
+            _ => {
+                let parts = [0, 1, 2].map(|i| self.component("", i, 1));
+                let word = if reverses { "reversor" } else { "symmetry" };
+                format!("{word} ({})", parts.join(" "))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_are_as_many_as_in_the_octahedral_group() {
+        let all = Turn::all();
+        assert_eq!(all.len(), 48, "signed permutations");
+        assert_eq!(all.iter().filter(|turn| turn.determinant() == 1).count(), 24, "rotations");
+        assert_eq!(all.iter().filter(|turn| turn.is_involution()).count(), 20, "Q² = E");
+    }
+
+    #[test]
+    fn fixed_spaces_are_those_of_the_paper() {
+        let diagonal = |signs| Turn { places: [0, 1, 2], signs };
+        assert_eq!(diagonal([1, -1, -1]).fixed_space(1), 1, "Π(1) keeps e₁");
+        assert_eq!(diagonal([-1, 1, 1]).fixed_space(1), 2, "Σ(1) keeps a plane");
+        let exchange = Turn { places: [1, 0, 2], signs: [1, 1, -1] };
+        assert_eq!((exchange.fixed_space(1), exchange.fixed_space(-1)), (1, 2), "a half turn");
+        assert_eq!(exchange.name(false), "symmetry (2 1 −3)", "named by what it does");
+        assert_eq!(diagonal([-1, -1, -1]).name(true), "Σ\u{303}(0)", "named as in the appendix");
+    }
+}

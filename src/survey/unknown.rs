@@ -1,0 +1,85 @@
+//! What the search finds beside the families, and what it excludes.
+
+use serde::Serialize;
+
+use super::question::{Finding, define};
+use crate::case::Case;
+use crate::search::{CountReport, Effort, Excluded, Found, search};
+use crate::verdict::{ClaimReport, Options};
+
+/// Integrals are counted up to this degree in the velocities: a fraction of a second.
+const DEGREE: u32 = 4;
+
+/// A count that may take longer is left out.
+const SECONDS: f64 = 2.0;
+
+/// The outcome of a search.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Unknown {
+    /// The numbers of integrals, degree by degree.
+    pub counts: Vec<CountReport>,
+    /// What cannot be, by theorems.
+    pub excluded: Vec<Excluded>,
+    /// What could not be done, and why.
+    pub remarks: Vec<String>,
+    /// What was found, as claims with verdicts.
+    #[serde(skip)]
+    pub findings: Vec<Finding>,
+}
+
+impl Unknown {
+    /// Searches; what the search cannot do is a remark.
+    pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
+        let effort = Effort {
+            degree: DEGREE,
+            blind: true,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: SECONDS,
+            options: *options,
+        };
+        match search(case, &effort, progress) {
+            Ok(report) => Self {
+                counts: report.counts,
+                excluded: report.excluded,
+                remarks: report.remarks,
+                findings: report
+                    .found
+                    .into_iter()
+                    .filter(|one| !one.trivial)
+                    .map(|one| found(case, one))
+                    .collect(),
+            },
+            Err(error) => Self { remarks: vec![error.to_string()], ..Self::default() },
+        }
+    }
+
+    /// Up to which degree there is no integral that is independent of the energy.
+    pub fn excluded_to(&self) -> Option<u32> {
+        // Powers of the energy are integrals: a count without them is wrong, and says nothing.
+        if self.counts.iter().any(|count| count.dimension < count.known) {
+            return None;
+        }
+        let empty = self.counts.iter().take_while(|count| count.dimension == count.known);
+        empty.last().map(|count| count.degree)
+    }
+}
+
+/// A find as a finding: a claim, with the names that the search added.
+fn found(case: &Case, found: Found) -> Finding {
+    let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
+    let claim = ClaimReport {
+        name: format!("{} found by search", found.kind),
+        formula: Some(found.formula),
+        kind: found.kind,
+        source: "found by the search".to_string(),
+        place: "level".to_string(),
+        expect: "open",
+        verdict: found.verdict,
+        agrees: true,
+        cell: None,
+        note: None,
+        evidence: found.evidence,
+    };
+    Finding::found(case, claim, names)
+}
