@@ -155,6 +155,14 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
     let skate = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\"]";
     let twice = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\", \"2*x*y' = 2*x'\"]";
     let quasi = "kinetic = 'y²'\nquasi-velocities = ['y']\nalgebra = 'so(4)'";
+    let exists = |more: &str, kind: &str| {
+        format!("{head}{body}{more}[[claim]]\n{kind}-density = 'exists'\n")
+    };
+    let moved = "[state]\ns = '-1..1'\n[field]\n\"s'\" = '2*s'\n";
+    let twisted = exists("", "position").replace(
+        "shape = 'ball'",
+        "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'",
+    );
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
         ("empty", String::new(), "the file is empty", "writing-a-case"),
@@ -205,6 +213,15 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "decided by a criterion",
             "",
         ),
+        (
+            "damped",
+            exists("moment = '−ω'\n", "analytic"),
+            "`moment` depends on `ω`",
+            "state a density instead",
+        ),
+        ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
+        ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
+        ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),

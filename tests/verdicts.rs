@@ -174,7 +174,7 @@ fn what_the_criterion_does_not_exclude_stays_open() {
         )
     };
     assert_eq!(claims(&text(""))[0].verdict, Verdict::Refuted, "free: no analytic density at all");
-    for forced in ["gyrostat = 'S'\n", "potential = 'm*γ3'\n"] {
+    for forced in ["gyrostat = 'S'\n", "potential = 'm*γ3'\n", "moment = '[0,0,m] × γ'\n"] {
         let found = claims(&text(forced));
         assert_eq!(found[0].verdict, Verdict::Undecided, "only ρ(γ) is excluded");
         assert_eq!(found[1].verdict, Verdict::Refuted, "and that it is");

@@ -58,7 +58,7 @@ fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
     match kind.objection(model) {
         None => Ok(kind),
         Some(objection) => {
-            Err(entries.complaint(kind.name(), objection, "see docs/writing-a-case.md"))
+            Err(entries.complaint(kind.name(), objection.message, objection.remedy))
         }
     }
 }

@@ -5,7 +5,7 @@ use super::error::{CaseError, Problem};
 use super::section::Section;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Block, Meaning, Model, Quantity, Reach, System, Variable, Variables, Vocabulary,
+    Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary,
 };
 
 /// Reads both tables into the model, if they are there.
@@ -53,7 +53,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
     let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
-        Meaning::Quantity(quantity) if keeps_body && is_of_position(quantity) => true,
+        Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
         _ => entry.reach == Reach::Parameters,
     });
     for (index, variable) in state.iter().enumerate() {
@@ -62,21 +62,6 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
         names.add(&variable.name, Meaning::State(index), variable.kind, reach);
     }
     model.with_names(names, state)
-}
-
-fn is_of_position(quantity: Quantity) -> bool {
-    use Quantity::*;
-    !matches!(
-        quantity,
-        ContactRate
-            | Energy
-            | AngularAcceleration
-            | AngularVelocity
-            | NormalRate
-            | Multiplier
-            | Reaction(_)
-            | Rate(_)
-    )
 }
 
 /// The blocks of a Poisson tensor.

@@ -20,7 +20,7 @@ mod transformation;
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, rejection};
-use crate::mechanics::{Meaning, Model};
+use crate::mechanics::Model;
 use crate::scalar::Scalar;
 
 pub use criterion::{AnalyticDensity, PositionDensity};
@@ -33,7 +33,7 @@ pub use integral::Integral;
 pub use limit::Limit;
 pub use place::Place;
 pub use reader::Reader;
-pub use statement::Statement;
+pub use statement::{Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
 
@@ -165,7 +165,7 @@ impl Kind {
     }
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.
-    pub fn objection(&self, model: &Model) -> Option<String> {
+    pub fn objection(&self, model: &Model) -> Option<Objection> {
         of_each!(self, statement => statement.objection(model))
     }
 
@@ -212,7 +212,8 @@ pub struct Novelty {
 fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();
-    for used in with_abbreviations(model, formula).into_iter().filter(|f| f.has_antiderivative()) {
+    let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
+    for used in all.into_iter().filter(|f| f.has_antiderivative()) {
         let level = jet.level_gradients(kept);
         let columns: Vec<_> = jet
             .along_axes()
@@ -229,22 +230,4 @@ fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> 
         }));
     }
     defects
-}
-
-/// A formula with the abbreviations it uses, and those that they use.
-fn with_abbreviations<'m>(model: &'m Model, formula: &'m Formula) -> Vec<&'m Formula> {
-    let mut met = vec![false; model.abbreviations.len()];
-    let mut all = vec![formula];
-    let mut next = 0;
-    while let Some(formula) = all.get(next).copied() {
-        next += 1;
-        for symbol in formula.symbols() {
-            if let Meaning::Abbreviation(index) = model.vocabulary.entry(symbol).meaning
-                && !std::mem::replace(&mut met[index], true)
-            {
-                all.push(&model.abbreviations[index]);
-            }
-        }
-    }
-    all
 }

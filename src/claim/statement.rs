@@ -7,6 +7,15 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
+/// Why a claim cannot be made about a model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// What stands against it.
+    pub message: String,
+    /// What to do instead.
+    pub remedy: &'static str,
+}
+
 /// A kind of claim: how it is read, and which scalars vanish where it holds.
 pub trait Statement: Clone {
     /// Its key in case files, and its name in reports.
@@ -55,7 +64,7 @@ pub trait Statement: Clone {
     }
 
     /// Why it cannot be claimed of this model, if it cannot.
-    fn objection(&self, _: &Model) -> Option<String> {
+    fn objection(&self, _: &Model) -> Option<Objection> {
         None
     }
 

@@ -155,6 +155,25 @@ impl System {
         }
     }
 
+    /// (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ there, as it is
+    /// for the surface of a body; nothing where r is the gradient of a support function anyhow.
+    pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) if matches!(body.shape, Shape::Contact(_)) => {
+                Some(body.contact_twist(at))
+            }
+            _ => None,
+        }
+    }
+
+    /// The moment of forces that a case gives beside or in place of a potential.
+    pub fn moment(&self) -> Option<&Formula> {
+        match self {
+            System::Rubber(body) => body.moment.as_ref(),
+            _ => None,
+        }
+    }
+
     /// Are the level functions integrals in all of phase space by construction?
     ///
     /// True for a body whose r is homogeneous of degree 0: then Γγ = γ and γ' is across γ.
@@ -175,10 +194,11 @@ impl System {
     }
 
     /// Is ω' homogeneous and quadratic in ω? Then the criterion excludes every density that is
-    /// analytic near ω = 0; with a potential or a gyrostat only those of the configuration alone.
+    /// analytic near ω = 0; with a potential, a moment or a gyrostat only those of the
+    /// configuration alone.
     pub fn is_free(&self) -> bool {
         match self {
-            System::Rubber(body) => body.potential.is_none() && body.gyrostat.is_none(),
+            System::Rubber(_) => !self.energy_is_inhomogeneous(),
             System::FlatBase(body) => body.gyrostat.is_none(),
             _ => false,
         }
