@@ -163,6 +163,8 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         "shape = 'ball'",
         "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'",
     );
+    let bent = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\nu = '1..2'\n[field]\n\"x'\" = 'u²'\n\
+                [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
         ("empty", String::new(), "the file is empty", "writing-a-case"),
@@ -222,6 +224,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
         ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
         ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
+        (
+            "bent",
+            bent.into(),
+            "the rate of `x` is not linear in the velocities",
+            "other quasi-velocities",
+        ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
@@ -282,6 +290,23 @@ fn what_is_impossible_but_meaningful_runs_with_a_warning() {
         .stdout(contains("triangle inequality"))
         .stdout(contains("not convex"))
         .stdout(contains("outside the ball"));
+}
+
+#[test]
+fn a_reaction_by_definition_is_named() {
+    let text = |constraint: &str| {
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\ny = '1..2'\ns = '0..1'\n\"x'\" = '1..2'\n\
+             \"y'\" = '1..2'\n[field]\n\"s'\" = \"√(x'² + y'²)\"\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\n\
+             constraints = [\"{constraint}\"]\n[[claim]]\nintegral = 'energy'\n"
+        )
+    };
+    for (constraint, warned) in [("x'² = y*y'²", true), ("x' = y*y'", false)] {
+        let path = folder("chetaev", &[("case.toml", &text(constraint))]);
+        let report = json(&["check", "--json", path.to_str().expect("UTF-8")], 0);
+        let warnings = report["cases"][0]["warnings"].to_string();
+        assert_eq!(warnings.contains("Chetaev's rule"), warned, "{constraint}: {warnings}");
+    }
 }
 
 #[test]

@@ -7,7 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, solvable, variables, weights,
+    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, solvable, variables, velocities,
+    weights,
 };
 use crate::mechanics::{Chart, Surface, System, Vocabulary};
 
@@ -50,6 +51,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let (system, mut parts) = systems::read(&root, vocabulary, parameters, settings)?;
     parameters::unknown_setting(settings, &parts.model.parameters)?;
     extend_support(&mut parts);
+    let warnings = velocities::check(&root, &parts.model)?;
     variables::read(&root, &mut parts.model)?;
     if let Some(level) = root.section("level")? {
         parts.chart = level_chart(&level, &parts, names_of_parameters)?;
@@ -67,7 +69,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     }
     let column = column(&root)?;
     let Parts { model, chart, free_draws } = parts;
-    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes })
+    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes, warnings })
 }
 
 /// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.

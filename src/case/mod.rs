@@ -14,6 +14,7 @@ mod section;
 mod solvable;
 mod systems;
 mod variables;
+mod velocities;
 mod weights;
 
 use std::path::Path;
@@ -49,6 +50,8 @@ pub struct Case {
     pub column: Option<Column>,
     /// What to know beside the verdicts.
     pub notes: Vec<String>,
+    /// What the file may not mean to say.
+    pub warnings: Vec<String>,
 }
 
 /// A column of one of the paper's tables.

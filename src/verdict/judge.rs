@@ -144,7 +144,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     })?;
     let bench = Bench { case, common: &common, options, graph: &graph, inputs };
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
-    let mut warnings = bench.check()?;
+    let mut warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&Place> = Vec::new();
     for claim in &case.claims {
         if !places.contains(&&claim.place) {
