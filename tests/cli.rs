@@ -230,6 +230,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "the rate of `x` is not linear in the velocities",
             "other quasi-velocities",
         ),
+        (
+            "block",
+            turning("[variables]\nX = 'x'\nY = 'y'\n[poisson]\n'X,Y' = '1'\n'Y,X' = '1'"),
+            "the block Y,X is given already",
+            "follows from skewness",
+        ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),

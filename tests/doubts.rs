@@ -143,3 +143,19 @@ fn an_inertia_tensor_is_symmetric() {
                 I = [[1, 0.5, 0], [0, 2, 0], [0, 0, 2.5]]\n[body]\nshape = 'ball'\n";
     assert!(matches!(judged(text), Err(JudgeError::AsymmetricInertia)));
 }
+
+#[test]
+fn a_bracket_that_is_not_skew_proves_nothing() {
+    let text = |block: &str| {
+        format!(
+            "title = 'x'\n[state]\nM = 'vector(1..2)'\n[field]\n\"M'\" = '({block})*M'\n[variables]\nM = 'M'\n\
+             [poisson]\n'M,M' = '{block}'\n[[claim]]\njacobi-identity = 'holds'\n[[claim]]\n\
+             hamiltonian = '(M,M)/2'\n[[claim]]\ncasimir = '1'\n"
+        )
+    };
+    for (block, verdict) in [("E", Verdict::Refuted), ("hat([1,2,3])", Verdict::Proved)] {
+        for claim in claims(&text(block)) {
+            assert_eq!(claim.verdict, verdict, "{} with P = {block}", claim.kind);
+        }
+    }
+}

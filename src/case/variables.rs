@@ -107,6 +107,12 @@ fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>
             }
             _ => Type::Vector,
         };
+        if blocks[i][j].is_some() {
+            let message = format!("the block {} is given already", key.get_ref());
+            let remedy = "give each pair once: the opposite block follows from skewness";
+            let problem = Problem::Other { message, remedy: remedy.to_string() };
+            return Err(CaseError::at(key.span(), problem));
+        }
         let what = format!("the block {}", key.get_ref());
         let block = formula(&text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
         place(&mut blocks, (i, j), block);

@@ -1,13 +1,13 @@
 //! What the formulas of a Lagrangian system do with velocities: its equations hold for rates that
 //! are linear in the quasi-velocities, and reactions follow a rule where a constraint is not linear.
 
-use toml::Spanned;
+use num_traits::{One, Zero};
 
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
-use crate::mechanics::{Algebra, Lagrangian, LevelFunction, Model, Phase, System};
+use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
 
 /// Complains about a rate that is not linear in the velocities although the equations of motion need
 /// it; gives a warning for each constraint whose reaction is a matter of definition.
@@ -50,8 +50,8 @@ impl Nonlinear {
             let (parameters, state) = inputs.split_at(parameters);
             let at = Phase::new(model, parameters, state).configuration;
             let slopes = |component: &usize| {
-                let mut unit = vec![Expr::default(); dimension];
-                unit[*component] = num_traits::One::one();
+                let mut unit = vec![Expr::zero(); dimension];
+                unit[*component] = Expr::one();
                 let moved = at.lift_state(&unit);
                 let rates: Vec<Expr> = lagrangian.drift(&moved).iter().map(|x| x.eps).collect();
                 let constraints = lagrangian.constraints.iter();
@@ -95,10 +95,9 @@ fn place_of_rate(
     name: &str,
 ) -> Result<Option<std::ops::Range<usize>>, CaseError> {
     let Some(section) = root.section("field")? else { return Ok(None) };
-    let is_rate = |key: &Spanned<_>| {
-        let key: &std::borrow::Cow<'_, str> = key.get_ref();
+    let is_rate = |key: &str| {
         canonical_name(key).is_some_and(|key| key.strip_suffix('\'').unwrap_or(&key) == name)
     };
-    let entry = section.entries().into_iter().find(|(key, _)| is_rate(key));
+    let entry = section.entries().into_iter().find(|(key, _)| is_rate(key.get_ref()));
     Ok(entry.map(|(_, value)| value.span()))
 }

@@ -6,18 +6,18 @@ use crate::mechanics::calculus::{Jet, trace_of_quotient};
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
-/// N⁻¹y' = P ∂H/∂y
+/// N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct Hamiltonian {
     hamiltonian: Formula,
     multiplier: Option<Formula>,
 }
 
-/// P ∂C/∂y = 0
+/// P ∂C/∂y = 0 and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct Casimir(Formula);
 
-/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0
+/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct JacobiIdentity;
 
@@ -82,9 +82,11 @@ impl Statement for Hamiltonian {
         let there = variables.point(&jet.phase);
         let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
         let gradient = slope(&there, &self.hamiltonian);
-        let claimed = turned(&variables.tensor(&there), &gradient);
-        let claimed = claimed.into_iter().map(|x| x * multiplier).collect();
-        difference(variables.rates(jet), claimed)
+        let tensor = variables.tensor(&there);
+        let claimed = turned(&tensor, &gradient).into_iter().map(|x| x * multiplier).collect();
+        let mut residual = difference(variables.rates(jet), claimed);
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
     }
 }
 
@@ -99,7 +101,10 @@ impl Statement for Casimir {
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let there = variables.point(&jet.phase);
-        turned(&variables.tensor(&there), &slope(&there, &self.0))
+        let tensor = variables.tensor(&there);
+        let mut residual = turned(&tensor, &slope(&there, &self.0));
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
     }
 }
 
@@ -126,7 +131,7 @@ impl Statement for JacobiIdentity {
         let term = |i: usize, j: usize, k: usize| -> T {
             (0..n).map(|l| tensor[i][l] * slopes[l][j][k]).sum()
         };
-        let mut residual = Vec::new();
+        let mut residual = variables.symmetric_part(&tensor);
         for i in 0..n {
             for j in i + 1..n {
                 residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));

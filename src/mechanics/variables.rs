@@ -47,6 +47,21 @@ impl Variables {
         self.images.iter().flat_map(|image| jet.rates(image)).collect()
     }
 
+    /// P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the other
+    /// blocks are skew as they are made.
+    pub fn symmetric_part<T: Scalar>(&self, tensor: &[Vec<T>]) -> Vec<T> {
+        let mut parts = Vec::new();
+        let mut start = 0;
+        for variable in &self.model.state {
+            let end = start + variable.len();
+            for i in start..end {
+                parts.extend((i..end).map(|j| tensor[i][j] + tensor[j][i]));
+            }
+            start = end;
+        }
+        parts
+    }
+
     /// P at a point of the new variables, by rows.
     pub fn tensor<T: Scalar>(&self, there: &Phase<'_, T>) -> Vec<Vec<T>> {
         let state = &self.model.state;
