@@ -236,6 +236,31 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "the block Y,X is given already",
             "follows from skewness",
         ),
+        (
+            "own-potential",
+            format!("{head}{body}potential = 'U'"),
+            "`potential` depends on `U`, which it determines",
+            "by γ, h and the parameters",
+        ),
+        (
+            "own-surface",
+            format!("{head}[let]\nw = '2*h'\n{body}").replace("shape = 'ball'", "support = 'w'"),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-surface-of-a-ball",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsupport = 'h'"
+                .into(),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-reaction",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\nconstraints = ['μ = 0']"),
+            "each side may depend on the state and parameters only, not on `μ`",
+            "",
+        ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),

@@ -3,9 +3,9 @@
 use super::error::{CaseError, Problem};
 use super::parameters::{Setting, coefficients, has};
 use super::section::{Section, Text};
-use crate::formula::{Formula, FormulaError, Type};
+use crate::formula::{Formula, FormulaError, Scope, Type};
 use crate::mechanics::{
-    Features, FlatBase, Parameter, Polynomial, Potential, Range, Reach, Rubber, Shape, System,
+    Features, FlatBase, Meaning, Parameter, Polynomial, Potential, Range, Reach, Rubber, Shape, System,
     Vocabulary,
 };
 
@@ -28,13 +28,26 @@ pub fn formula(
     match vocabulary.reach(&formula) {
         Some(entry) if entry.reach > reach => {
             let allowed = match reach {
-                Reach::Parameters => "parameters",
-                _ => "γ and parameters",
+                Reach::Parameters => "parameters".to_string(),
+                _ => format!("{} and parameters", position(vocabulary)),
             };
             let (what, name) = (what.to_string(), entry.name.clone());
             Err(CaseError::at(whole(), Problem::Reach { what, allowed, name }))
         }
         _ => Ok(formula),
+    }
+}
+
+/// What a system calls the part of its state that shapes and potentials are functions of.
+fn position(vocabulary: &Vocabulary) -> &str {
+    let mut names = vocabulary.iter().filter(|(symbol, entry)| {
+        let is_state = matches!(entry.meaning, Meaning::State(_));
+        let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == *symbol);
+        is_state && is_found && entry.reach == Reach::Configuration
+    });
+    match (names.next(), names.next()) {
+        (Some((_, only)), None) => &only.name,
+        _ => "the state",
     }
 }
 

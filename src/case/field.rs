@@ -103,17 +103,19 @@ pub fn equations(
     section: &Section<'_>,
     vocabulary: &Vocabulary,
 ) -> Result<Vec<LevelEquation>, CaseError> {
-    let read = equations_in(section, "equations", vocabulary)?.into_iter();
+    let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
     let equation =
         |(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) };
     Ok(read.map(equation).collect())
 }
 
-/// Reads a list of equations: the text, and the difference of both sides.
+/// Reads a list of equations: the text, and the difference of both sides, which may depend on no
+/// more than `reach`.
 pub fn equations_in(
     section: &Section<'_>,
     key: &'static str,
     vocabulary: &Vocabulary,
+    reach: Reach,
 ) -> Result<Vec<(String, Formula)>, CaseError> {
     let mut level = Vec::new();
     for text in section.texts(key)? {
@@ -139,7 +141,7 @@ pub fn equations_in(
         };
         let difference = Text::made(difference, text.span.clone());
         let scalar = Some(Type::Scalar);
-        let function = formula(&difference, vocabulary, "each side", scalar, Reach::Phase)?;
+        let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
         level.push((text.value.trim().to_string(), function));
     }
     Ok(level)

@@ -9,8 +9,9 @@ use super::section::{Section, Text};
 use super::{ball, body, lagrangian};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Chart, Draw, LevelEquation, LevelFunction, Meaning, Model, Parameter, Quantity, Range, Reach,
-    System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
+    Chart, Draw, Entry, LevelEquation, LevelFunction, Meaning, Model, Parameter, Potential,
+    Quantity, Range, Reach, Shape, Surface, System, Variable, Vocabulary, of_ball, of_flat_base,
+    of_lagrangian, of_rubber,
 };
 
 const SYSTEMS: &str =
@@ -155,6 +156,7 @@ impl Reading<'_, '_> {
         self.read_abbreviations()?;
         let settings = self.settings;
         let system = ball::read(&section, settings, &mut self.vocabulary, &mut self.parameters)?;
+        self.no_feedback(&section, &system)?;
         section.finish()?;
         self.further_rates(own.len())?;
         if by_support {
@@ -265,24 +267,55 @@ impl Reading<'_, '_> {
         Ok(())
     }
 
-    /// A moment of forces may not depend on the acceleration that it causes.
+    /// What defines a body may not depend on what it determines: the potential on U, the surface on
+    /// h, a moment of forces on the acceleration.
     fn no_feedback(&self, section: &Section<'_>, system: &System) -> Result<(), CaseError> {
-        let System::Rubber(body) = system else { return Ok(()) };
-        let Some(moment) = &body.moment else { return Ok(()) };
-        let mut formulas = vec![moment];
-        while let Some(formula) = formulas.pop() {
-            for symbol in formula.symbols() {
-                match self.vocabulary.entry(symbol).meaning {
-                    Meaning::Abbreviation(index) => formulas.push(&self.abbreviations[index]),
-                    Meaning::Quantity(Quantity::AngularAcceleration | Quantity::Multiplier) => {
-                        let name = &self.vocabulary.entry(symbol).name;
-                        return Err(section.complaint(Problem::Other {
-                            message: format!("`moment` depends on `{name}`, which it determines"),
-                            remedy: "write it by the state, r, r' and γ'".to_string(),
-                        }));
-                    }
-                    _ => {}
-                }
+        use Quantity::{AngularAcceleration, Multiplier, Potential as OwnPotential, Support};
+        let of_shape = |shape: &Shape| match shape {
+            Shape::Support(formula) | Shape::SupportOnSphere(formula) => {
+                Some(("support", formula.clone()))
+            }
+            Shape::Profile(formula) => Some(("profile", formula.clone())),
+            Shape::Contact(formula) => Some(("contact", formula.clone())),
+            Shape::Arbitrary(_) | Shape::ArbitraryProfile(_) => None,
+        };
+        let (shape, moment) = match system {
+            System::Rubber(body) => (of_shape(&body.shape), body.moment.clone()),
+            System::Ball(ball) => match &ball.surface {
+                Surface::Support(shape) => (of_shape(shape), None),
+                Surface::Level(_) => (None, None),
+            },
+            _ => (None, None),
+        };
+        let potential = match system {
+            System::Rubber(body) => body.potential.clone(),
+            _ => None,
+        };
+        let potential = match potential {
+            Some(Potential::Formula(formula)) => Some(("potential", formula)),
+            _ => None,
+        };
+        let given = [
+            (shape, &[Support, OwnPotential][..], "write it by γ and the parameters"),
+            (potential, &[OwnPotential], "write it by γ, h and the parameters"),
+            (
+                moment.map(|moment| ("moment", moment)),
+                &[AngularAcceleration, Multiplier],
+                "write it by the state, r, r' and γ'",
+            ),
+        ];
+        for (formula, determined, remedy) in given {
+            let Some((key, formula)) = formula else { continue };
+            let is_determined = |entry: &&Entry| match entry.meaning {
+                Meaning::Quantity(quantity) => determined.contains(&quantity),
+                _ => false,
+            };
+            let uses = self.vocabulary.uses(&formula, &self.abbreviations);
+            if let Some(entry) = uses.into_iter().find(is_determined) {
+                let message = format!("`{key}` depends on `{}`, which it determines", entry.name);
+                let problem = Problem::Other { message, remedy: remedy.to_string() };
+                let place = section.text(key)?.map_or(section.span.clone(), |text| text.span);
+                return Err(CaseError::at(place, problem));
             }
         }
         Ok(())
