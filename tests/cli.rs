@@ -341,6 +341,19 @@ fn a_reaction_by_definition_is_named() {
 }
 
 #[test]
+fn names_that_a_file_takes_from_the_system_are_told() {
+    for (taken, warned) in [("J", true), ("γ3", true), ("E", true), ("energy", true), ("q", false)] {
+        let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n\
+                    TAKEN = 2\n[body]\nshape = 'ball'\n[[claim]]\nintegral = '(γ,γ)'\n";
+        let text = text.replace("TAKEN", &format!("\"{taken}\""));
+        let path = folder("hidden", &[("case.toml", &text)]);
+        let output = liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
+        assert_eq!(told, warned, "{taken}");
+    }
+}
+
+#[test]
 fn both_tables_come_out_of_the_catalogue() {
     for (number, columns) in [("1", 6), ("2", 8)] {
         let table = json(&["table", number, "--json"], 0);

@@ -7,8 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, solvable, variables, velocities,
-    weights,
+    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, shadows, solvable, variables,
+    velocities, weights,
 };
 use crate::mechanics::{Chart, Surface, System, Vocabulary};
 
@@ -51,7 +51,8 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let (system, mut parts) = systems::read(&root, vocabulary, parameters, settings)?;
     parameters::unknown_setting(settings, &parts.model.parameters)?;
     extend_support(&mut parts);
-    let warnings = velocities::check(&root, &parts.model)?;
+    let mut warnings: Vec<String> = parts.hidden.iter().map(|n| shadows::warning(n)).collect();
+    warnings.extend(velocities::check(&root, &parts.model)?);
     variables::read(&root, &mut parts.model)?;
     if let Some(level) = root.section("level")? {
         parts.chart = level_chart(&level, &parts, names_of_parameters)?;
@@ -68,7 +69,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
-    let Parts { model, chart, free_draws } = parts;
+    let Parts { model, chart, free_draws, .. } = parts;
     Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes, warnings })
 }
 

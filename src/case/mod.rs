@@ -11,6 +11,7 @@ mod homogeneous;
 mod lagrangian;
 mod parameters;
 mod section;
+mod shadows;
 mod solvable;
 mod systems;
 mod variables;

@@ -6,7 +6,7 @@ use super::error::{CaseError, Problem};
 use super::field::{self, State};
 use super::parameters::Setting;
 use super::section::{Section, Text};
-use super::{ball, body, lagrangian};
+use super::{ball, body, lagrangian, shadows};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
     Chart, Draw, Entry, LevelEquation, LevelFunction, Meaning, Model, Parameter, Potential,
@@ -25,6 +25,8 @@ pub struct Parts {
     pub chart: Chart,
     /// The draws of what the chart leaves free.
     pub free_draws: Vec<Draw>,
+    /// Names that the file takes from the system or the language.
+    pub hidden: Vec<String>,
 }
 
 /// What is read on the way to a model.
@@ -39,6 +41,8 @@ pub(super) struct Reading<'r, 's> {
     waiting: Vec<String>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
+    /// Names of the system that the file gives another meaning.
+    hidden: Vec<String>,
 }
 
 /// Reads what the kind of system asks for; gives its name too.
@@ -66,6 +70,7 @@ pub fn read(
         waiting: Vec::new(),
         level: Vec::new(),
         extension: Vec::new(),
+        hidden: Vec::new(),
     };
     let (system, chart) = match text.value.as_str() {
         "rubber-plane" => reading.rubber(&text, false)?,
@@ -82,6 +87,7 @@ pub fn read(
     };
     reading.name_rates();
     reading.read_waiting()?;
+    let hidden = shadows::all(&reading.vocabulary, reading.hidden);
     let model = Model {
         system,
         vocabulary: reading.vocabulary,
@@ -92,7 +98,7 @@ pub fn read(
         abbreviations: reading.abbreviations,
         level: reading.level,
     };
-    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws }))
+    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws, hidden }))
 }
 
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
@@ -177,9 +183,7 @@ impl Reading<'_, '_> {
         })?;
         let constraints = section.texts("constraints")?.len();
         for (name, quantity, kind, reach) in of_lagrangian(constraints) {
-            if self.vocabulary.find(&name).is_none() {
-                self.vocabulary.add(&name, Meaning::Quantity(quantity), kind, reach);
-            }
+            self.name(&name, quantity, kind, reach);
         }
         self.read_abbreviations()?;
         let system = lagrangian::read(self, &section, vakonomic)?;
@@ -237,12 +241,20 @@ impl Reading<'_, '_> {
         }
         self.state.draws.extend(draws.iter().cloned());
         for (name, quantity, kind, reach) in quantities {
-            if self.vocabulary.find(name).is_none() {
-                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
-            }
+            self.name(name, quantity, kind, reach);
         }
         self.name_rates();
         Ok(())
+    }
+
+    /// Names a quantity, unless the file gave the name another meaning.
+    fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Reach) {
+        match self.vocabulary.find(name).map(|entry| entry.meaning) {
+            None => self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach),
+            // x' is the velocity of x where both are declared.
+            Some(Meaning::State(_) | Meaning::Quantity(_)) => {}
+            Some(_) => self.hidden.push(name.to_string()),
+        }
     }
 
     /// The variables that `[state]` adds to a built-in system.
@@ -323,12 +335,9 @@ impl Reading<'_, '_> {
 
     /// Gives the rate of each state variable a name, unless the name is taken.
     fn name_rates(&mut self) {
-        for (index, variable) in self.state.variables.iter().enumerate() {
+        for (index, variable) in self.state.variables.clone().iter().enumerate() {
             let name = format!("{}'", variable.name);
-            if self.vocabulary.find(&name).is_none() {
-                let meaning = Meaning::Quantity(Quantity::Rate(index));
-                self.vocabulary.add(&name, meaning, variable.kind, Reach::Phase);
-            }
+            self.name(&name, Quantity::Rate(index), variable.kind, Reach::Phase);
         }
     }
 
@@ -376,10 +385,10 @@ impl Reading<'_, '_> {
         };
         let name = canonical_name(key)
             .ok_or_else(|| bad("a name is letters, then digits, primes or _"))?;
-        if let Some(entry) = self.vocabulary.find(&name)
-            && !matches!(entry.meaning, Meaning::Quantity(_))
-        {
-            return Err(bad("it is taken already"));
+        match self.vocabulary.find(&name).map(|entry| entry.meaning) {
+            None => {}
+            Some(Meaning::Quantity(_)) => self.hidden.push(name.clone()),
+            Some(_) => return Err(bad("it is taken already")),
         }
         let read = body::formula(text, &self.vocabulary, &name, None, Reach::Phase)?;
         let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
