@@ -236,3 +236,13 @@ fn every_name_of_the_guide_is_known() {
         claims(&format!("{text}[[claim]]\nintegral = \"{name}\"\nexpect = 'open'\n"));
     }
 }
+
+#[test]
+fn a_claim_without_a_name_shows_both_sides() {
+    let found = claims(&oscillator(
+        "[[claim]]\nidentity = 'x*x − x² = 0'\n[[claim]]\nrate = 'x'\nequals = 'y'\n\
+         [[claim]]\nlimit = 'x*e'\nequals = '0'\nparameter = 'e'\n[parameters]\ne = '1..2'\n",
+    ));
+    let names: Vec<&str> = found.iter().map(|claim| claim.name.as_str()).collect();
+    assert_eq!(names, ["x*x − x² = 0", "(x)' = y", "x*e → 0"]);
+}

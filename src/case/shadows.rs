@@ -15,7 +15,6 @@ pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
             hidden.push(entry.name.clone());
         }
     }
-    hidden.dedup();
     hidden
 }
 

@@ -253,6 +253,7 @@ impl Reading<'_, '_> {
             None => self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach),
             // x' is the velocity of x where both are declared.
             Some(Meaning::State(_) | Meaning::Quantity(_)) => {}
+            Some(_) if self.hidden.iter().any(|hidden| hidden == name) => {}
             Some(_) => self.hidden.push(name.to_string()),
         }
     }

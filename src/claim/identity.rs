@@ -42,6 +42,10 @@ impl Statement for Identity {
         vec![&self.right, &self.left]
     }
 
+    fn text(&self) -> Option<String> {
+        Some(format!("{} = {}", self.left.text().trim(), self.right.text().trim()))
+    }
+
     fn about(&self, right: Formula) -> Option<Self> {
         Some(Self { right, ..self.clone() })
     }
@@ -69,6 +73,10 @@ impl Statement for Rate {
 
     fn formulas(&self) -> Vec<&Formula> {
         vec![&self.rate, &self.function]
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(format!("({})' = {}", self.function.text().trim(), self.rate.text().trim()))
     }
 
     fn about(&self, rate: Formula) -> Option<Self> {
@@ -102,6 +110,10 @@ impl Statement for Relation {
 
     fn formulas(&self) -> Vec<&Formula> {
         vec![&self.cofactor, &self.function]
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(format!("{} = 0", self.function.text().trim()))
     }
 
     fn about(&self, cofactor: Formula) -> Option<Self> {

@@ -44,6 +44,10 @@ impl Statement for Limit {
         [&self.value, &self.function].into_iter().chain(&self.slope).collect()
     }
 
+    fn text(&self) -> Option<String> {
+        Some(format!("{} → {}", self.function.text().trim(), self.value.text().trim()))
+    }
+
     fn about(&self, value: Formula) -> Option<Self> {
         Some(Self { value, ..self.clone() })
     }

@@ -130,6 +130,12 @@ impl Kind {
         self.formulas().into_iter().next()
     }
 
+    /// What is stated, as it is typed: the formula, or both sides.
+    pub fn text(&self) -> Option<String> {
+        let whole = of_each!(self, statement => statement.text());
+        whole.or_else(|| self.formula().map(|formula| formula.text().to_string()))
+    }
+
     /// All formulas in the names of the case.
     pub fn formulas(&self) -> Vec<&Formula> {
         of_each!(self, statement => statement.formulas())

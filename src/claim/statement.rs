@@ -42,6 +42,11 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
+    /// What is stated, where one formula alone does not say it.
+    fn text(&self) -> Option<String> {
+        None
+    }
+
     /// The same claim about another formula, if it is about one.
     fn about(&self, _: Formula) -> Option<Self> {
         None
