@@ -2,6 +2,7 @@
 
 use super::{Reader, Statement, difference};
 use crate::formula::{Formula, Type};
+use crate::graph::record;
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Meaning, Model, Phase, Reach, Variable};
 use crate::scalar::Scalar;
@@ -40,7 +41,12 @@ impl Transformation {
     fn read<R: Reader>(from: &R, key: &'static str) -> Result<Self, R::Error> {
         let model = from.model();
         let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
-        for (name, image) in from.table(key)? {
+        let images = from.table(key)?;
+        if images.is_empty() {
+            let message = format!("`{key}` names nothing that is moved");
+            return Err(from.complaint(key, message, "give an image: { \"γ\" = \"−γ\" }"));
+        }
+        for (name, image) in images {
             let expected = match model.vocabulary.find(&name) {
                 Some(entry) => entry,
                 None => return Err(unknown(from, key, &name)),
@@ -94,13 +100,30 @@ fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     from.complaint(key, message, "name state variables, and parameters if they change")
 }
 
+/// Is a scalar formula 0 as it stands?
+fn vanishes(model: &Model, formula: &Formula) -> bool {
+    let parameters = model.free_components();
+    let recorded = record(parameters + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(parameters);
+        Phase::new(model, parameters, state).scalar(formula)
+    });
+    recorded.is_ok_and(|(graph, value)| {
+        graph.constant_value(value).is_some_and(|value| value.is_zero())
+    })
+}
+
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
-        Ok(Self { map, time: from.formula("time", Some(Type::Scalar))? })
+        let time = from.formula("time", Some(Type::Scalar))?;
+        if time.as_ref().is_some_and(|time| vanishes(from.model(), time)) {
+            let message = "`time` is 0, and t → 0 is no change of time".to_string();
+            return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
+        }
+        Ok(Self { map, time })
     }
 
     fn formulas(&self) -> Vec<&Formula> {
@@ -151,6 +174,10 @@ impl Statement for Map {
         let model = from.model();
         let (names, images): (Vec<String>, Vec<Formula>) =
             from.table(Self::NAME)?.into_iter().unzip();
+        if names.is_empty() {
+            let message = "`map` names no new variable".to_string();
+            return Err(from.complaint(Self::NAME, message, "give one: { M = \"Ĩ*ω\" }"));
+        }
         // In the equations of the new variables their names hide those of the old ones.
         let mut vocabulary = model.vocabulary.only_parameters();
         let mut state = Vec::new();
