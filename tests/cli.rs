@@ -269,6 +269,38 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "`time` is 0",
             "t → λt",
         ),
+        (
+            "surface",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsurface = '(r,γ)'"
+                .into(),
+            "may depend on r and parameters only, not on `γ`",
+            "",
+        ),
+        (
+            "own-energy",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\npotential = 'energy'"),
+            "may depend on the state and parameters only",
+            "",
+        ),
+        (
+            "feedback",
+            format!("{head}{body}moment = \"ω'\""),
+            "feedback.toml:9:10",
+            "by the state, r, r' and γ'",
+        ),
+        (
+            "tiny-range",
+            field("[field]\n").replace("x = '-1..1'", "x = '-1e-400..1e-400'"),
+            "beyond the numbers that f64 can hold",
+            "-2..2",
+        ),
+        (
+            "singular-level",
+            turning("[level]\nequations = ['(x² + y²)^3 = 0']"),
+            "no state on the level set",
+            "may not all vanish",
+        ),
+        ("no-level", turning("[level]\nequations = ['1 = 0']"), "on no state variable", "remove"),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
@@ -313,6 +345,12 @@ fn eval_refuses_what_it_does_not_understand() {
         arguments.extend(&options);
         liouville(&arguments).assert().code(2).stderr(contains(message));
     }
+    let bare = "title = 'x'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '-x'\n";
+    let path = folder("bare", &[("bare.toml", bare)]).join("bare.toml");
+    liouville(&["eval", path.to_str().expect("UTF-8"), "--set", "x=1"])
+        .assert()
+        .code(2)
+        .stderr(contains("this case has no parameters"));
 }
 
 #[test]
@@ -359,6 +397,17 @@ fn names_that_a_file_takes_from_the_system_are_told() {
         let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
         assert_eq!(told, warned, "{taken}");
     }
+}
+
+#[test]
+fn what_has_nothing_to_show_shows_nothing() {
+    liouville(&["table", "1", "no-such-folder"])
+        .assert()
+        .code(2)
+        .stdout("")
+        .stderr(contains("cannot read"))
+        .stderr(contains("no case belongs to table 1"));
+    liouville(&["stress", "--bodies", "0"]).assert().code(2).stderr(contains("0 is not in 1.."));
 }
 
 #[test]

@@ -46,11 +46,13 @@ pub fn add_state(
         if vocabulary.find(&name).is_some() {
             return Err(bad(&name, "it is taken already"));
         }
-        let described = origin(&name, value).ok().and_then(|given: Given| state_draws(&given));
-        let (kind, draws) = described.ok_or_else(|| {
-            let text = format!("`{name}` needs the range that its states are drawn from");
-            let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"".to_string();
-            CaseError::at(value.span(), Problem::Other { message: text, remedy })
+        let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"";
+        let wrong = |message: String| {
+            CaseError::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
+        };
+        let given: Given = origin(&name, value).map_err(wrong)?;
+        let (kind, draws) = state_draws(&given).ok_or_else(|| {
+            wrong(format!("`{name}` needs the range that its states are drawn from"))
         })?;
         vocabulary.add(&name, Meaning::State(state.variables.len()), kind, reach);
         state.variables.push(Variable { name, kind });

@@ -84,7 +84,7 @@ pub enum JudgeError {
         dimension: usize,
     },
     /// Level equations that are not independent.
-    #[error("the level equation `{0}` depends on those before it")]
+    #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
     /// An inertia tensor that is not symmetric.
     #[error("the inertia tensor is not symmetric")]
@@ -117,7 +117,8 @@ impl JudgeError {
             JudgeError::Dependent(_) => "remove the equation from [level]",
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {
-                "check the equations of [level], or widen the ranges of [state]"
+                "check the equations of [level], whose slopes may not all vanish on it, or widen the \
+                 ranges of [state]"
             }
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, or a singular inertia \
