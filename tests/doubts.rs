@@ -159,3 +159,41 @@ fn a_bracket_that_is_not_skew_proves_nothing() {
         }
     }
 }
+
+#[test]
+fn a_quadrature_is_looked_at_wherever_it_stands() {
+    let plane = |claims: &str| {
+        format!(
+            "title = 'x'\n[state]\nq = '1..2'\np = '1..2'\n[field]\n\"q'\" = 'q*p'\n\"p'\" = '0*p'\n[variables]\n\
+             Q = 'q'\nP = 'p'\n[poisson]\n'Q,P' = '1'\n{claims}"
+        )
+    };
+    for (integrand, undecided) in [("Q*P", true), ("P", false)] {
+        let found = claims(&plane(&format!(
+            "[[claim]]\nhamiltonian = '∫({integrand}, P)'\nexpect = 'open'\n\
+             [[claim]]\ncasimir = '∫({integrand}, P)'\nexpect = 'open'\n\
+             [[claim]]\ndensity-in-variables = 'exp(∫({integrand}, P))'\nexpect = 'open'\n\
+             [[claim]]\nmap = {{ Q = 'q', P = 'p' }}\nexpect = 'open'\n\
+             field = {{ Q = 'Q*P + ∫({integrand}, P)', P = '0*P' }}\n"
+        )));
+        for claim in found {
+            let reason = claim.evidence.reason.unwrap_or_default();
+            let told = reason.contains("not a function of its variable");
+            assert_eq!(told, undecided, "{}: {integrand}: {reason}", claim.kind);
+        }
+    }
+    let field = |rate: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = '{rate}'\n\"y'\" = 'x'\n"
+        );
+        judged(&text).map(|_| ())
+    };
+    assert!(matches!(field("∫(x*y, x)"), Err(JudgeError::Quadrature)), "of two variables");
+    assert!(field("∫(x*x, x)").is_ok(), "of one");
+    let tiny = "(y + 1)³ − y³ − 3*y² − 3*y + 1e-40*y";
+    let standing = "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = '0'\n\"y'\" = '1'\n";
+    let claim = format!("{standing}[[claim]]\nintegral = '∫(x + {tiny}, x)'\nexpect = 'open'\n");
+    assert_ne!(claims(&claim)[0].verdict, Verdict::Proved, "f64 cannot see 1e-40*y");
+    let claim = format!("{standing}[[claim]]\nintegral = '∫(x, x)'\n");
+    assert_eq!(claims(&claim)[0].verdict, Verdict::Proved, "x' = 0");
+}

@@ -10,7 +10,7 @@ use super::{
     Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, shadows, solvable, variables,
     velocities, weights,
 };
-use crate::mechanics::{Chart, Surface, System, Vocabulary};
+use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 
 /// The keys of a case file.
 const KEYS: [&str; 17] = [
@@ -54,6 +54,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let mut warnings: Vec<String> = parts.hidden.iter().map(|n| shadows::warning(n)).collect();
     warnings.extend(velocities::check(&root, &parts.model)?);
     variables::read(&root, &mut parts.model)?;
+    no_open_level(&root, &parts.model)?;
     if let Some(level) = root.section("level")? {
         parts.chart = level_chart(&level, &parts, names_of_parameters)?;
     } else if matches!(parts.model.system, System::Lagrangian(_)) && !parts.model.level.is_empty() {
@@ -71,6 +72,20 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let column = column(&root)?;
     let Parts { model, chart, free_draws, .. } = parts;
     Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes, warnings })
+}
+
+/// A level set is not fixed by an equation whose constant is open.
+fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), CaseError> {
+    for equation in &model.level {
+        let LevelFunction::Formula(function) = &equation.function else { continue };
+        if model.has_antiderivative(function) {
+            let span = root.find(&equation.text).map(|start| start..start + equation.text.len());
+            let message = format!("`{}` contains an ∫, whose constant is open", equation.text);
+            let remedy = "write the antiderivative out".to_string();
+            return Err(CaseError { span, problem: Problem::Other { message, remedy } });
+        }
+    }
+    Ok(())
 }
 
 /// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.

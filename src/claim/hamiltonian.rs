@@ -1,7 +1,8 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
-use super::{Reader, Statement, difference};
+use super::{Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
+use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, trace_of_quotient};
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
@@ -65,6 +66,14 @@ fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
     tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
 }
 
+/// What vanishes where each ∫ in functions of the new variables, and in the bracket, is one.
+fn defects<'f>(jet: &Jet<'_, Expr>, functions: impl Iterator<Item = &'f Formula>) -> Vec<Expr> {
+    let variables = of(jet.phase.model());
+    let there = Jet::new(variables.point(&jet.phase));
+    let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
+    functions.flat_map(of_one).chain(variables.given_blocks().flat_map(of_one)).collect()
+}
+
 impl Statement for Hamiltonian {
     const NAME: &'static str = "hamiltonian";
     const COMPANIONS: &'static [&'static str] = &["multiplier"];
@@ -88,6 +97,10 @@ impl Statement for Hamiltonian {
         residual.extend(variables.symmetric_part(&tensor));
         residual
     }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.hamiltonian].into_iter().chain(&self.multiplier))
+    }
 }
 
 impl Statement for Casimir {
@@ -105,6 +118,10 @@ impl Statement for Casimir {
         let mut residual = turned(&tensor, &slope(&there, &self.0));
         residual.extend(variables.symmetric_part(&tensor));
         residual
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.0].into_iter())
     }
 }
 
@@ -139,6 +156,10 @@ impl Statement for JacobiIdentity {
         }
         residual
     }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, std::iter::empty())
+    }
 }
 
 impl Statement for DensityInVariables {
@@ -171,5 +192,9 @@ impl Statement for DensityInVariables {
             rates.push(further.iter().map(|y| y.eps.eps).collect::<Vec<T>>());
         }
         vec![growth + trace_of_quotient(&columns, &rates) - jet.level_cofactor(kept)]
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.0].into_iter())
     }
 }

@@ -37,6 +37,10 @@ impl Statement for Limit {
                 return Err(from.complaint("parameter", message, remedy));
             }
         };
+        if slope.is_some() && from.model().has_antiderivative(&function) {
+            let message = "the slope of an ∫ by a parameter is open, as its constant is".to_string();
+            return Err(from.complaint("slope", message, "write the antiderivative out"));
+        }
         Ok(Self { function, value, slope, parameter })
     }
 

@@ -161,8 +161,9 @@ impl Kind {
     /// What vanishes exactly when the integrand of each ∫ is a function of its variable there:
     /// ∇f less its part along ∇x and the level functions.
     pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
-        let defects = |formula| quadrature_defects(jet, formula, kept);
-        self.formulas().into_iter().flat_map(defects).collect()
+        let own = self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, kept));
+        let elsewhere = of_each!(self, statement => statement.quadrature_defects_elsewhere(jet));
+        own.chain(elsewhere).collect()
     }
 
     /// Whether an integral is more than a function of what every case conserves.
@@ -215,7 +216,7 @@ pub struct Novelty {
 }
 
 /// ∇f less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
-fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+pub fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();
     let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);

@@ -52,6 +52,12 @@ pub trait Statement: Clone {
         None
     }
 
+    /// What vanishes exactly when each ∫ in the names of another model is a function of its
+    /// variable there.
+    fn quadrature_defects_elsewhere(&self, _: &Jet<'_, Expr>) -> Vec<Expr> {
+        Vec::new()
+    }
+
     /// What is asked beside the residual, on a few states only.
     fn context(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Context {
         Context::default()

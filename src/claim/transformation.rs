@@ -1,8 +1,8 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::{Reader, Statement, difference};
+use super::{Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
-use crate::graph::record;
+use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Meaning, Model, Phase, Reach, Variable};
 use crate::scalar::Scalar;
@@ -225,5 +225,11 @@ impl Statement for Map {
                 difference(jet.rates(image), claimed)
             })
             .collect()
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        let images = self.images.iter().flat_map(|image| jet.phase.evaluate(image).components());
+        let there = Jet::new(jet.phase.in_model(&self.target, &images.collect::<Vec<Expr>>()));
+        self.rates.iter().flat_map(|rate| quadrature_defects(&there, rate, &[])).collect()
     }
 }

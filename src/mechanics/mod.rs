@@ -52,6 +52,40 @@ pub enum System {
 }
 
 impl System {
+    /// The formulas of the equations of motion that may depend on the state.
+    pub fn functions(&self) -> Vec<&Formula> {
+        fn typed(potential: &Option<Potential>) -> Option<&Formula> {
+            match potential {
+                Some(Potential::Formula(formula)) => Some(formula),
+                _ => None,
+            }
+        }
+        match self {
+            System::Rubber(body) => {
+                let parts = [body.shape.formula(), typed(&body.potential), body.moment.as_ref()];
+                parts.into_iter().flatten().collect()
+            }
+            System::FlatBase(_) => Vec::new(),
+            System::Ball(ball) => {
+                let surface = match &ball.surface {
+                    Surface::Level(formula) => Some(formula),
+                    Surface::Support(shape) => shape.formula(),
+                };
+                surface.into_iter().chain(typed(&ball.potential)).collect()
+            }
+            System::Lagrangian(lagrangian) => {
+                let carried = lagrangian.roles.iter().filter_map(|role| match role {
+                    Role::Carried(rate) => Some(rate),
+                    _ => None,
+                });
+                let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
+                let forces = lagrangian.forces.iter().map(|(_, force)| force);
+                energies.chain(&lagrangian.constraints).chain(forces).chain(carried).collect()
+            }
+            System::Field(rates) => rates.iter().collect(),
+        }
+    }
+
     /// The time derivatives of the state's components, in order.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {

@@ -134,6 +134,24 @@ impl Model {
         named
     }
 
+    /// Does a formula, or an abbreviation that it uses, contain an ∫?
+    pub fn has_antiderivative(&self, formula: &Formula) -> bool {
+        let all = self.vocabulary.with_abbreviations(formula, &self.abbreviations);
+        all.into_iter().any(Formula::has_antiderivative)
+    }
+
+    /// The formulas that are functions of the state before anything is claimed: the equations of
+    /// motion, the level, and the new variables.
+    pub fn functions(&self) -> Vec<&Formula> {
+        let level = self.level.iter().filter_map(|equation| match &equation.function {
+            LevelFunction::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let images = self.variables.iter().flat_map(|variables| &variables.images);
+        let own = self.system.functions().into_iter().chain(&self.extension);
+        own.chain(level).chain(images).collect()
+    }
+
     /// The dimension of phase space.
     pub fn dimension(&self) -> usize {
         self.state.iter().map(Variable::len).sum()

@@ -32,6 +32,14 @@ impl Variables {
         self.blocks.iter().flatten().any(Option::is_some)
     }
 
+    /// The blocks of the bracket that are typed.
+    pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
+        self.blocks.iter().flatten().flatten().filter_map(|block| match block {
+            Block::Given(formula) => Some(formula),
+            Block::Opposite(_) => None,
+        })
+    }
+
     /// φ(x), component by component.
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()

@@ -1,6 +1,7 @@
 //! A case on the bench: its graph, how to run parts of it, and what every case is checked for.
 
-use super::finding::Look;
+use super::field::Field;
+use super::finding::{Look, are_zero};
 use super::judge::{JudgeError, Options};
 use super::physics;
 use super::recorded::Common;
@@ -11,6 +12,7 @@ use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::number::ball::{Ball, Balls};
 use crate::number::twofold::TwofoldBall;
+use crate::proof::Outcome;
 
 /// A case on the bench: its graph and how to run parts of it.
 pub struct Bench<'a> {
@@ -73,7 +75,37 @@ impl Bench<'_> {
             }
         }
         sampler.check_coverage(self.case)?;
-        Ok(physics::warnings(&physical))
+        let mut warnings = physics::warnings(&physical);
+        warnings.extend(self.check_quadratures()?);
+        Ok(warnings)
+    }
+
+    /// Checks that each ∫ of the equations of motion and of the new variables is a function of its
+    /// variable in all of phase space, where derivatives are taken; a warning where that is not
+    /// known.
+    fn check_quadratures(&self) -> Result<Option<String>, JudgeError> {
+        let defects = &self.common.quadrature_defects;
+        if are_zero(self.graph, defects) {
+            return Ok(None);
+        }
+        let sampler = Sampler::new(
+            self.case,
+            &Place::everywhere(&self.case.model),
+            self.options.seed,
+        )?;
+        let values = self.run(defects).at(&Ball::<LANES>, &sampler.balls(0));
+        if Look::at::<Doubles>(&values.range(0..defects.len()), None).excludes_zero() {
+            return Err(JudgeError::Quadrature);
+        }
+        match Field::new(self, &sampler).test(std::slice::from_ref(defects))?.first() {
+            Some(Outcome::Zero(_)) => Ok(None),
+            Some(Outcome::NonZero) => Err(JudgeError::Quadrature),
+            Some(Outcome::Silent(_)) | None => Ok(Some(
+                "it is not proved that the integrand of each ∫ in the equations is a function of its \
+                 variable alone, as all verdicts suppose"
+                    .to_string(),
+            )),
+        }
     }
 
     /// Has the field a value at some state, in double-double?

@@ -86,6 +86,9 @@ pub enum JudgeError {
     /// Level equations that are not independent.
     #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
+    /// An ∫ of the equations of motion or of `[variables]` that is none.
+    #[error("an ∫ in the equations or in [variables] has an integrand of more than its variable")]
+    Quadrature,
     /// An inertia tensor that is not symmetric.
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
@@ -115,6 +118,9 @@ impl JudgeError {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
             JudgeError::Dependent(_) => "remove the equation from [level]",
+            JudgeError::Quadrature => {
+                "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
+            }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {
                 "check the equations of [level], whose slopes may not all vanish on it, or widen the \

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::physics;
 use crate::case::{Claim, Expect};
-use crate::claim::{Context, Novelty, Place};
+use crate::claim::{Context, Novelty, Place, quadrature_defects};
 use crate::graph::Expr;
 use crate::mechanics::System;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -61,6 +61,9 @@ pub struct Common {
     /// Their rates along the motion.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
+    /// Zero exactly when each ∫ of the equations of motion and of the new variables is a function of
+    /// its variable.
+    pub quadrature_defects: Vec<Expr>,
     /// For each level function of the user's: its gradient less its part along those before it.
     pub dependence: Vec<Vec<Expr>>,
 }
@@ -77,6 +80,11 @@ impl Common {
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
             physics: physics::outputs(phase),
+            quadrature_defects: {
+                let everywhere = vec![false; phase.model().level.len()];
+                let functions = phase.model().functions().into_iter();
+                functions.flat_map(|f| quadrature_defects(jet, f, &everywhere)).collect()
+            },
             dependence: (0..gradients.len())
                 .map(|k| rejection(&gradients[k], &gradients[..k]))
                 .collect(),
