@@ -197,3 +197,21 @@ fn a_quadrature_is_looked_at_wherever_it_stands() {
     let claim = format!("{standing}[[claim]]\nintegral = '∫(x, x)'\n");
     assert_eq!(claims(&claim)[0].verdict, Verdict::Proved, "x' = 0");
 }
+
+#[test]
+fn a_level_that_falls_apart_is_told() {
+    let text = |equation: &str| {
+        format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'x − 1'\n\"y'\" = 'y − 1'\n[level]\n\
+             equations = ['{equation}']\n[[claim]]\nidentity = 'x = 1'\nexpect = 'open'\n"
+        )
+    };
+    for (equation, apart) in [("(x − 1)*(y − 1) = 0", true), ("x − 1 = 0", false)] {
+        let warnings = judged(&text(equation)).expect("it can be judged").warnings;
+        assert_eq!(warnings.iter().any(|w| w.contains("falls apart")), apart, "{equation}");
+    }
+    let inputs = "inputs = { u = '-2..2', v = '-2..2' }";
+    let chart = format!("{inputs}\nx = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'");
+    let warnings = judged(&on_sphere(&chart, "")).expect("it can be judged").warnings;
+    assert!(warnings.iter().any(|w| w.contains("image of [level.chart]")), "{warnings:?}");
+}

@@ -246,3 +246,14 @@ fn a_claim_without_a_name_shows_both_sides() {
     let names: Vec<&str> = found.iter().map(|claim| claim.name.as_str()).collect();
     assert_eq!(names, ["x*x − x² = 0", "(x)' = y", "x*e → 0"]);
 }
+
+#[test]
+fn a_cofactor_with_a_pole_is_remarked() {
+    let found = claims(&oscillator(
+        "[[claim]]\ninvariant-relation = 'x'\ncofactor = 'y/x'\n\
+         [[claim]]\ninvariant-relation = 'x² + y²'\ncofactor = '0*x'\n",
+    ));
+    let remark = found[0].evidence.remark.as_deref().unwrap_or_default();
+    assert!(remark.contains("divides by `x`"), "x' = y on x = 0: {remark}");
+    assert_eq!(found[1].evidence.remark, None);
+}

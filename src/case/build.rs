@@ -7,7 +7,7 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, shadows, solvable, variables,
+    Case, Claim, Column, TABLE_ROWS, branches, claims, field, homogeneous, shadows, solvable, variables,
     velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
@@ -60,6 +60,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     } else if matches!(parts.model.system, System::Lagrangian(_)) && !parts.model.level.is_empty() {
         parts.chart = solvable::steps(&parts.model).map_or(Chart::Numerical, Chart::Solved);
     }
+    warnings.extend(of_chart(&parts));
     let mut claims: Vec<Claim> = Vec::new();
     for section in root.sections("claim")? {
         claims.push(claims::read(&section, &parts.model, &claims, &source)?);
@@ -142,6 +143,28 @@ fn level_chart(
     };
     section.finish()?;
     Ok(chart)
+}
+
+/// Which part of the level set a chart makes, where that may not be all of it.
+fn of_chart(parts: &Parts) -> Vec<String> {
+    let model = &parts.model;
+    match &parts.chart {
+        Chart::Given(_) => {
+            vec!["verdicts on the level speak of the image of [level.chart]".to_string()]
+        }
+        Chart::Solved(steps) => branches::left_out(model, &parts.free_draws, steps)
+            .into_iter()
+            .map(|step| {
+                format!(
+                    "the level falls apart: `{}` is solved for `{}`, and verdicts on the level speak of \
+                     the branch where it can be",
+                    model.level[step.equation].text,
+                    model.component_name(step.component)
+                )
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
 }
 
 fn column(root: &Section<'_>) -> Result<Option<Column>, CaseError> {

@@ -3,6 +3,7 @@
 mod ask;
 mod ball;
 mod body;
+mod branches;
 mod build;
 mod claims;
 mod error;

@@ -15,7 +15,7 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, CaseError
     let System::Lagrangian(lagrangian) = &model.system else { return Ok(Vec::new()) };
     let nonlinear = Nonlinear::of(lagrangian, model);
     if let Some(component) = nonlinear.rates.first() {
-        let name = &model.state[variable_of(model, *component)].name;
+        let name = model.variable_of(*component).map_or("", |(variable, _)| &variable.name);
         let message = format!("the rate of `{name}` is not linear in the velocities");
         let remedy = "the equations of motion hold for x' = Σ wᵢ Xᵢ(x): take other quasi-velocities, \
                       or give all rates in [field] of a system of your own";
@@ -77,16 +77,6 @@ impl Nonlinear {
             .collect();
         Self { rates, constraints }
     }
-}
-
-/// The variable that a component of the state belongs to.
-fn variable_of(model: &Model, component: usize) -> usize {
-    let mut end = 0;
-    let ends = model.state.iter().map(|variable| {
-        end += variable.len();
-        end
-    });
-    ends.take_while(|end| *end <= component).count()
 }
 
 /// Where `[field]` gives the rate of a variable.

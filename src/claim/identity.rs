@@ -4,6 +4,7 @@ use super::{Context, Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::{Model, Reach};
 use crate::scalar::Scalar;
 
 /// A = B
@@ -118,6 +119,22 @@ impl Statement for Relation {
 
     fn about(&self, cofactor: Formula) -> Option<Self> {
         Some(Self { cofactor, ..self.clone() })
+    }
+
+    /// κ with a pole on F = 0 keeps nothing: (x + 1) = ((x + 1)/x) x.
+    fn remark(&self, model: &Model) -> Option<String> {
+        let moves = |symbol| model.vocabulary.entry(symbol).reach > Reach::Parameters;
+        let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);
+        let below = all.into_iter().flat_map(Formula::denominators);
+        let mut texts: Vec<&str> = below
+            .filter(|part| part.symbols.iter().any(|symbol| moves(*symbol)))
+            .map(|part| part.text)
+            .collect();
+        texts.dedup();
+        (!texts.is_empty()).then(|| {
+            let texts = texts.join("`, `");
+            format!("the cofactor divides by `{texts}`: F = 0 is kept only where that is not 0")
+        })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {

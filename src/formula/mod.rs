@@ -52,6 +52,7 @@ mod mutation;
 mod names;
 mod operands;
 mod parser;
+mod poles;
 mod powers;
 mod scope;
 mod spelling;

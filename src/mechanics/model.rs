@@ -157,6 +157,28 @@ impl Model {
         self.state.iter().map(Variable::len).sum()
     }
 
+    /// The variable that a component of the state belongs to, and its place there.
+    pub fn variable_of(&self, component: usize) -> Option<(&Variable, usize)> {
+        let mut first = 0;
+        let starts = self.state.iter().map(|variable| {
+            first += variable.len();
+            (variable, first - variable.len())
+        });
+        let found = starts.take_while(|(_, start)| *start <= component).last();
+        found.map(|(variable, start)| (variable, component - start))
+    }
+
+    /// The name of a component of the state, such as `γ3`.
+    pub fn component_name(&self, component: usize) -> String {
+        match self.variable_of(component) {
+            Some((variable, place)) if variable.kind != Type::Scalar => {
+                format!("{}{}", variable.name, place + 1)
+            }
+            Some((variable, _)) => variable.name.clone(),
+            None => String::new(),
+        }
+    }
+
     /// How many inputs the free parameters take.
     pub fn free_components(&self) -> usize {
         self.free_parameters().map(|parameter| components(parameter.kind)).sum()
