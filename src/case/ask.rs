@@ -6,6 +6,7 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use super::{Case, Claim, claims, variables};
+use crate::claim::compares_two_points;
 use crate::formula::canonical_name;
 use crate::mechanics::{Meaning, Model, Reach};
 
@@ -58,10 +59,28 @@ impl Case {
         }
         let mut stated: Vec<Claim> = Vec::new();
         for section in root.sections("claim")? {
-            stated.push(claims::read(&section, &asked.model, &stated, &self.source)?);
+            let claim = claims::read(&section, &asked.model, &stated, &self.source)?;
+            self.check_degrees(&claim, &section)?;
+            stated.push(claim);
         }
         asked.claims = stated;
         Ok(asked)
+    }
+}
+
+impl Case {
+    /// Arbitrary functions have the degree that the claims of the file need.
+    fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), CaseError> {
+        let compares = |claim: &Claim| compares_two_points(claim.kind.name());
+        let is_arbitrary = self.model.system.has_arbitrary_function();
+        if !compares(claim) || !is_arbitrary || self.claims.iter().any(compares) {
+            return Ok(());
+        }
+        let message =
+            "the arbitrary functions of this case have too low a degree for a claim at two points";
+        let remedy = "state a symmetry or a reversor in the case file";
+        Err(section
+            .complaint(Problem::Other { message: message.to_string(), remedy: remedy.to_string() }))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use toml::de::DeTable;
 
+use super::arbitrary::Arbitrary;
 use super::error::{CaseError, Problem};
 use super::field::{self, State};
 use super::parameters::Setting;
@@ -32,7 +33,7 @@ pub struct Parts {
 /// What is read on the way to a model.
 pub(super) struct Reading<'r, 's> {
     pub root: &'r Section<'s>,
-    pub settings: &'r [Setting],
+    arbitrary: Arbitrary<'r>,
     pub vocabulary: Vocabulary,
     pub parameters: Vec<Parameter>,
     pub state: State,
@@ -62,7 +63,7 @@ pub fn read(
     };
     let mut reading = Reading {
         root,
-        settings,
+        arbitrary: Arbitrary::of(root, settings)?,
         vocabulary,
         parameters,
         state: State { variables: Vec::new(), draws: Vec::new() },
@@ -114,8 +115,8 @@ impl Reading<'_, '_> {
         self.declare(&own, &[], of_rubber(features), name)?;
         self.further_state()?;
         self.read_abbreviations()?;
-        let names = &self.vocabulary;
-        let system = body::rubber(&section, curved, self.settings, names, &mut self.parameters)?;
+        let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
+        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters)?;
         self.no_feedback(&section, &system)?;
         section.finish()?;
         self.further_rates(own.len())?;
@@ -160,8 +161,8 @@ impl Reading<'_, '_> {
         }
         self.further_state()?;
         self.read_abbreviations()?;
-        let settings = self.settings;
-        let system = ball::read(&section, settings, &mut self.vocabulary, &mut self.parameters)?;
+        let arbitrary = self.arbitrary;
+        let system = ball::read(&section, &arbitrary, &mut self.vocabulary, &mut self.parameters)?;
         self.no_feedback(&section, &system)?;
         section.finish()?;
         self.further_rates(own.len())?;

@@ -159,10 +159,8 @@ fn is_surface(model: &Model) -> bool {
 
 /// Is the divergence of the variables that [state] adds zero as it stands?
 fn adds_no_divergence(model: &Model) -> bool {
-    let added: usize = model.state[model.state.len() - model.extension.len()..]
-        .iter()
-        .map(Variable::len)
-        .sum();
+    let added: usize =
+        model.state[model.state.len() - model.extension.len()..].iter().map(Variable::len).sum();
     let parameters = model.free_components();
     let recorded = record(parameters + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(parameters);
@@ -170,5 +168,6 @@ fn adds_no_divergence(model: &Model) -> bool {
         let axes = jet.along_axes().iter().enumerate().skip(model.dimension() - added);
         axes.map(|(index, along)| along.field()[index].eps).sum::<Expr>()
     });
-    recorded.is_ok_and(|(graph, sum)| graph.constant_value(sum).is_some_and(|value| value.is_zero()))
+    recorded
+        .is_ok_and(|(graph, sum)| graph.constant_value(sum).is_some_and(|value| value.is_zero()))
 }

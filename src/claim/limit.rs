@@ -38,7 +38,8 @@ impl Statement for Limit {
             }
         };
         if slope.is_some() && from.model().has_antiderivative(&function) {
-            let message = "the slope of an ∫ by a parameter is open, as its constant is".to_string();
+            let message =
+                "the slope of an ∫ by a parameter is open, as its constant is".to_string();
             return Err(from.complaint("slope", message, "write the antiderivative out"));
         }
         Ok(Self { function, value, slope, parameter })

@@ -19,8 +19,8 @@ mod transformation;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::Model;
+use crate::mechanics::calculus::{Jet, rejection};
 use crate::scalar::Scalar;
 
 pub use criterion::{AnalyticDensity, PositionDensity};
@@ -55,6 +55,14 @@ macro_rules! kinds {
 
         /// What a claim can state: the keys under which the statements stand.
         pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
+
+        /// Does the statement under this key compare a point with its image?
+        pub fn compares_two_points(key: &str) -> bool {
+            match key {
+                $(_ if key == $kind::NAME => $kind::TWO_POINTS,)*
+                _ => false,
+            }
+        }
 
         impl Kind {
             /// Reads the statement that stands under `key`, one of [`STATEMENTS`].

@@ -27,6 +27,9 @@ pub trait Statement: Clone {
     /// May the claim hold in wider places than its own, and is that worth knowing?
     const WIDENS: bool = true;
 
+    /// Does the residual compare a point with its image in the same phase space?
+    const TWO_POINTS: bool = false;
+
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";
 

@@ -115,6 +115,7 @@ fn vanishes(model: &Model, formula: &Formula) -> bool {
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
+    const TWO_POINTS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
@@ -142,6 +143,7 @@ impl Statement for Symmetry {
 
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
+    const TWO_POINTS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         Transformation::read(from, Self::NAME).map(Self)

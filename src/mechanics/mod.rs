@@ -86,6 +86,21 @@ impl System {
         }
     }
 
+    /// Is a surface, a profile or a potential arbitrary?
+    pub fn has_arbitrary_function(&self) -> bool {
+        let is_open = |shape: &Shape| shape.formula().is_none();
+        let is_any =
+            |potential: &Option<Potential>| matches!(potential, Some(Potential::Arbitrary(_)));
+        match self {
+            System::Rubber(body) => is_open(&body.shape) || is_any(&body.potential),
+            System::Ball(ball) => {
+                let surface = matches!(&ball.surface, Surface::Support(shape) if is_open(shape));
+                surface || is_any(&ball.potential)
+            }
+            System::FlatBase(_) | System::Lagrangian(_) | System::Field(_) => false,
+        }
+    }
+
     /// The time derivatives of the state's components, in order.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
