@@ -15,6 +15,9 @@ const MIN_SHARE: usize = 4;
 /// blurred more than this could hide a term.
 const RESOLVED_BITS: i32 = 16;
 
+/// Why an ∫ means nothing.
+pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of its variable alone";
+
 /// What is known of a claim while the ladder is climbed.
 #[derive(Default)]
 pub struct Finding {
@@ -89,7 +92,7 @@ pub fn weigh<D: Enclosing>(
     }
     if !span.defects.is_empty() {
         let defects = look(&span.defects, &none);
-        let reason = "the integrand of an ∫ is not a function of its variable alone".to_string();
+        let reason = NO_QUADRATURE.to_string();
         match (defects.excludes_zero, defects.is_zero()) {
             (true, _) => return undecide(finding, reason),
             (_, false) => finding.undefined = Some(reason),
