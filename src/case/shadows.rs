@@ -3,15 +3,14 @@
 use crate::formula::{Formula, Scope};
 use crate::mechanics::{Meaning, Vocabulary};
 
-/// The quantities of the system that are hidden, and the declared names that would else be components
-/// (γ3 beside γ) or the unit matrix; each once.
+/// The quantities of the system that are hidden, and the parameters that would else be the unit matrix
+/// or components of what the system itself names (γ3); each once.
 pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
     let mut hidden = quantities;
-    let is_declared = |meaning| matches!(meaning, Meaning::Parameter(_) | Meaning::Abbreviation(_));
-    for (symbol, entry) in vocabulary.iter().filter(|(_, entry)| is_declared(entry.meaning)) {
+    for (symbol, entry) in vocabulary.iter() {
         let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == symbol);
-        if is_found && !hidden.contains(&entry.name) && has_meaning_of_its_own(vocabulary, &entry.name)
-        {
+        let is_parameter = matches!(entry.meaning, Meaning::Parameter(_));
+        if is_parameter && is_found && is_known_without_it(vocabulary, &entry.name) {
             hidden.push(entry.name.clone());
         }
     }
@@ -19,10 +18,12 @@ pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
 }
 
 /// Would the name mean something, were it not declared?
-fn has_meaning_of_its_own(vocabulary: &Vocabulary, name: &str) -> bool {
-    let may_be_component = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
-    may_be_component
-        && Formula::parse(name, &vocabulary.only(|entry| entry.name != name)).is_ok()
+fn is_known_without_it(vocabulary: &Vocabulary, name: &str) -> bool {
+    let may_be = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
+    let of_system = || {
+        vocabulary.only(|entry| matches!(entry.meaning, Meaning::State(_) | Meaning::Quantity(_)))
+    };
+    may_be && Formula::parse(name, &of_system()).is_ok()
 }
 
 /// What to say of a name that is hidden.
