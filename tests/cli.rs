@@ -159,10 +159,8 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         format!("{head}{body}{more}[[claim]]\n{kind}-density = 'exists'\n")
     };
     let moved = "[state]\ns = '-1..1'\n[field]\n\"s'\" = '2*s'\n";
-    let twisted = exists("", "position").replace(
-        "shape = 'ball'",
-        "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'",
-    );
+    let twisted = exists("", "position")
+        .replace("shape = 'ball'", "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'");
     let bent = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\nu = '1..2'\n[field]\n\"x'\" = 'u²'\n\
                 [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
@@ -406,12 +404,14 @@ fn a_reaction_by_definition_is_named() {
 
 #[test]
 fn names_that_a_file_takes_from_the_system_are_told() {
-    for (taken, warned) in [("J", true), ("γ3", true), ("E", true), ("energy", true), ("q", false)] {
+    for (taken, warned) in [("J", true), ("γ3", true), ("E", true), ("energy", true), ("q", false)]
+    {
         let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n\
                     TAKEN = 2\n[body]\nshape = 'ball'\n[[claim]]\nintegral = '(γ,γ)'\n";
         let text = text.replace("TAKEN", &format!("\"{taken}\""));
         let path = folder("hidden", &[("case.toml", &text)]);
-        let output = liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
+        let output =
+            liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
         let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
         assert_eq!(told, warned, "{taken}");
     }

@@ -52,7 +52,8 @@ impl Parts {
             let mut state: Vec<Dual<Expr>> = state.iter().map(lift).collect();
             state[step.component] = Dual::new(Expr::zero(), Expr::one());
             let kept = vec![true; model.level.len()];
-            let completed = Chart::Solved(earlier.to_vec()).point(model, &kept, &parameters, &state);
+            let completed =
+                Chart::Solved(earlier.to_vec()).point(model, &kept, &parameters, &state);
             let phase = Phase::new(model, &parameters, &completed);
             let value = phase.level_function(&model.level[step.equation].function);
             [value.eps, value.re]
@@ -106,7 +107,11 @@ impl Parts {
                 low = inside[best.saturating_sub(1)];
                 high = inside[(best + 1).min(LANES - 1)];
             }
-            nearest.iter().zip(scales).zip(ZERO).all(|((value, scale), zero)| *value <= zero * scale)
+            nearest
+                .iter()
+                .zip(scales)
+                .zip(ZERO)
+                .all(|((value, scale), zero)| *value <= zero * scale)
         })
     }
 }

@@ -57,9 +57,7 @@ fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
     let kind = kind?;
     match kind.objection(model) {
         None => Ok(kind),
-        Some(objection) => {
-            Err(entries.complaint(kind.name(), objection.message, objection.remedy))
-        }
+        Some(objection) => Err(entries.complaint(kind.name(), objection.message, objection.remedy)),
     }
 }
 

@@ -4,9 +4,7 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{
-    Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary,
-};
+use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
 
 /// Reads both tables into the model, if they are there.
 pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {

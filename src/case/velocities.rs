@@ -62,8 +62,9 @@ impl Nonlinear {
             (slopes, lagrangian.lagrangian(&at, lagrangian.vakonomic))
         });
         let Ok((graph, (slopes, function))) = recorded else { return Self::default() };
-        let bends =
-            |slope: Expr| velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity));
+        let bends = |slope: Expr| {
+            velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity))
+        };
         // A variable that is only carried along, and which L does not contain, may have any rate.
         let counts = |component: usize| {
             lagrangian.algebra == Algebra::Frame

@@ -26,9 +26,8 @@ impl Formula {
         });
         let described = |node: usize| {
             let place = &nodes[node].span;
-            let inside = nodes.iter().filter(|n| {
-                place.start <= n.span.start && n.span.end <= place.end
-            });
+            let inside =
+                nodes.iter().filter(|n| place.start <= n.span.start && n.span.end <= place.end);
             let symbols = inside.filter_map(|n| match n.operation {
                 Operation::Symbol(slot) => Some(self.arena.symbols[slot].0),
                 _ => None,
@@ -66,7 +65,7 @@ mod tests {
             formula.denominators().iter().map(|part| part.text.to_string()).collect()
         };
         assert_eq!(of("a*x + b/2"), ["2"]);
-        assert_eq!(of("(a + 1)/(1 − x²)"), ["1 − x²"]);
+        assert_eq!(of("(a + 1)/(1 − x²)"), ["(1 − x²)"]);
         assert_eq!(of("log(x) + a*x^(-1)"), ["x", "x"]);
         let formula = Formula::parse("a/(b + x*b)", &Letters).expect("a formula");
         let symbols = &formula.denominators()[0].symbols;

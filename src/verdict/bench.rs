@@ -88,11 +88,8 @@ impl Bench<'_> {
         if are_zero(self.graph, defects) {
             return Ok(None);
         }
-        let sampler = Sampler::new(
-            self.case,
-            &Place::everywhere(&self.case.model),
-            self.options.seed,
-        )?;
+        let sampler =
+            Sampler::new(self.case, &Place::everywhere(&self.case.model), self.options.seed)?;
         let values = self.run(defects).at(&Ball::<LANES>, &sampler.balls(0));
         if Look::at::<Doubles>(&values.range(0..defects.len()), None).excludes_zero() {
             return Err(JudgeError::Quadrature);
