@@ -62,9 +62,8 @@ impl Variables {
         let mut start = 0;
         for variable in &self.model.state {
             let end = start + variable.len();
-            for i in start..end {
-                parts.extend((i..end).map(|j| tensor[i][j] + tensor[j][i]));
-            }
+            let pairs = (start..end).flat_map(|i| (i..end).map(move |j| (i, j)));
+            parts.extend(pairs.map(|(i, j)| tensor[i][j] + tensor[j][i]));
             start = end;
         }
         parts

@@ -87,8 +87,8 @@ pub enum JudgeError {
     #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` that is none.
-    #[error("an ∫ in the equations or in [variables] has an integrand of more than its variable")]
-    Quadrature,
+    #[error("an ∫ in `{0}` has an integrand of more than its variable")]
+    Quadrature(String),
     /// An inertia tensor that is not symmetric.
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
@@ -118,7 +118,7 @@ impl JudgeError {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
             JudgeError::Dependent(_) => "remove the equation from [level]",
-            JudgeError::Quadrature => {
+            JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
             }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
