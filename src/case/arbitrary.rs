@@ -97,7 +97,7 @@ mod tests {
             model.parameters.iter().filter(|p| p.name.starts_with(prefix)).count()
         };
         // (n + 1)² polynomials of degree n on the sphere, (n + 1)(n + 2)(n + 3)/6 in space.
-        let (one, two) = ("integral = 'energy'", "reversor = { ω = '−ω' }");
+        let (one, two) = ("integral = 'energy'", "reversor = { 'ω' = '−ω' }");
         assert_eq!([count(one, "h["), count(one, "U[")], [25, 20], "degrees 4 and 3");
         assert_eq!([count(two, "h["), count(two, "U[")], [49, 35], "degrees 6 and 4");
         let asked = case(one).ask(&format!("[[claim]]\n{two}"));
