@@ -87,7 +87,7 @@ proptest! {
     /// (3.7): ρ = (μ + m r²)√(μ + m(r,γ)²) for I = μE, whatever the surface.
     #[test]
     fn spherical_inertia_keeps_its_measure_for_every_support_function(
-        coefficients in numbers(-20, 20, 25), mu in number(50, 300), m in number(50, 200),
+        coefficients in numbers(-20, 20, 16), mu in number(50, 300), m in number(50, 200),
         seed in 0u64..1000,
     ) {
         let parameters = [("m", m.as_str()), ("mu", &mu), ("I", "mu*E")];
@@ -95,16 +95,16 @@ proptest! {
         let claims = claim_text("ρ", "density", rho)
             + &claim_text("wrong ρ", "density", &format!("{rho}*exp(γ3)"));
         let text = text(None, &parameters, &format!("support = \"arbitrary\"\n{claims}"));
-        let quartic = |i: usize| (0..5 - i).map(move |j| [i, j, 4 - i - j]);
         let cubic = |i: usize| (0..4 - i).map(move |j| [i, j, 3 - i - j]);
-        let exponents = (0..5).flat_map(quartic).chain((0..4).flat_map(cubic));
+        let square = |i: usize| (0..3 - i).map(move |j| [i, j, 2 - i - j]);
+        let exponents = (0..4).flat_map(cubic).chain((0..3).flat_map(square));
         let settings: Vec<Setting> = exponents
             .zip(&coefficients)
             .map(|([i, j, k], value)| {
                 Setting { name: format!("h[{i},{j},{k}]"), value: value.clone() }
             })
             .collect();
-        let case = Case::parse(&text, &settings).expect("twenty-five coefficients of h");
+        let case = Case::parse(&text, &settings).expect("sixteen coefficients of h");
         let report = at(&case, seed);
         prop_assert!(report.parameters.is_empty(), "all coefficients are set: {:?}", report.parameters);
         assert_vanishes(claim(&report, "ρ").1, &report, "v(ln ρ) + div v");

@@ -5,7 +5,8 @@
 //! claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
 //!
 //! ```text
-//! at one point            h, p: order 4               U: order 3
+//! once                    h, p: order 3               U: order 2
+//! twice                   h, p: order 4               U: order 3
 //! at x and σ(x)           h, p: orders 3 and 2        U: orders 2 and 1
 //! ```
 //!
@@ -15,29 +16,29 @@
 use super::error::CaseError;
 use super::parameters::{Setting, coefficients};
 use super::section::Section;
-use crate::claim::{STATEMENTS, compares_two_points};
+use crate::claim::{Jets, STATEMENTS, jets};
 use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape};
 
 /// What arbitrary functions of a case are made of.
 #[derive(Clone, Copy)]
 pub struct Arbitrary<'a> {
     settings: &'a [Setting],
-    /// Does a claim compare two points?
-    two_points: bool,
+    /// What the claims need.
+    jets: Jets,
 }
 
 impl<'a> Arbitrary<'a> {
     /// Looks at what the file is going to claim.
     pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Result<Self, CaseError> {
         let claims = root.sections("claim")?;
-        let mut compared = STATEMENTS.iter().filter(|key| compares_two_points(key));
-        let two_points = compared.any(|key| claims.iter().any(|claim| claim.value(key).is_some()));
-        Ok(Self { settings, two_points })
+        let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(**key).is_some());
+        let needed = STATEMENTS.iter().filter(is_made).map(|key| jets(key)).max();
+        Ok(Self { settings, jets: needed.unwrap_or_default() })
     }
 
     /// Any smooth surface.
     pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
-        let degree = if self.two_points { 6 } else { 4 };
+        let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_sphere(degree, parameters.len());
         self.declare("h", &polynomial, parameters)?;
         Ok(Shape::Arbitrary(polynomial))
@@ -45,7 +46,7 @@ impl<'a> Arbitrary<'a> {
 
     /// Any surface of revolution.
     pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
-        let degree = if self.two_points { 6 } else { 4 };
+        let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_interval(degree, parameters.len());
         self.declare("p", &polynomial, parameters)?;
         Ok(Shape::ArbitraryProfile(polynomial))
@@ -57,13 +58,22 @@ impl<'a> Arbitrary<'a> {
         axial: bool,
         parameters: &mut Vec<Parameter>,
     ) -> Result<Potential, CaseError> {
-        let degree = if self.two_points { 4 } else { 3 };
+        let degree = self.degree([2, 3, 4]);
         let polynomial = match axial {
             true => Polynomial::on_interval(degree, parameters.len()),
             false => Polynomial::in_space(degree, parameters.len()),
         };
         self.declare("U", &polynomial, parameters)?;
         Ok(Potential::Arbitrary(polynomial))
+    }
+
+    /// The degree for what is differentiated once, twice, or at two points.
+    fn degree(&self, degrees: [u32; 3]) -> u32 {
+        match self.jets {
+            Jets::Once => degrees[0],
+            Jets::Twice => degrees[1],
+            Jets::TwoPoints => degrees[2],
+        }
     }
 
     /// Small coefficients: the surface is convex by what `Shape` adds to the constant one.
@@ -73,7 +83,7 @@ impl<'a> Arbitrary<'a> {
         polynomial: &Polynomial,
         parameters: &mut Vec<Parameter>,
     ) -> Result<(), CaseError> {
-        let size = if self.two_points { 10 } else { 5 };
+        let size = if self.jets == Jets::TwoPoints { 10 } else { 5 };
         let small = Range::between((-1, size), (1, size));
         coefficients(prefix, &polynomial.exponents, &small, self.settings, parameters)
     }
@@ -98,7 +108,9 @@ mod tests {
         };
         // (n + 1)² polynomials of degree n on the sphere, (n + 1)(n + 2)(n + 3)/6 in space.
         let (one, two) = ("integral = 'energy'", "reversor = { 'ω' = '−ω' }");
-        assert_eq!([count(one, "h["), count(one, "U[")], [25, 20], "degrees 4 and 3");
+        let twice = "density-in-variables = '1'\n[variables]\nM = 'ω'\n'γ' = 'γ'\n";
+        assert_eq!([count(one, "h["), count(one, "U[")], [16, 10], "degrees 3 and 2");
+        assert_eq!([count(twice, "h["), count(twice, "U[")], [25, 20], "degrees 4 and 3");
         assert_eq!([count(two, "h["), count(two, "U[")], [49, 35], "degrees 6 and 4");
         let asked = case(one).ask(&format!("[[claim]]\n{two}"));
         assert!(asked.is_err_and(|e| e.to_string().contains("too low a degree")), "of one point");

@@ -6,7 +6,7 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use super::{Case, Claim, claims, variables};
-use crate::claim::compares_two_points;
+use crate::claim::jets;
 use crate::formula::canonical_name;
 use crate::mechanics::{Meaning, Model, Reach};
 
@@ -71,14 +71,13 @@ impl Case {
 impl Case {
     /// Arbitrary functions have the degree that the claims of the file need.
     fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), CaseError> {
-        let compares = |claim: &Claim| compares_two_points(claim.kind.name());
-        let is_arbitrary = self.model.system.has_arbitrary_function();
-        if !compares(claim) || !is_arbitrary || self.claims.iter().any(compares) {
+        let needed = |claim: &Claim| jets(claim.kind.name());
+        let has = self.claims.iter().map(needed).max().unwrap_or_default();
+        if needed(claim) <= has || !self.model.system.has_arbitrary_function() {
             return Ok(());
         }
-        let message =
-            "the arbitrary functions of this case have too low a degree for a claim at two points";
-        let remedy = "state a symmetry or a reversor in the case file";
+        let message = "the arbitrary functions of this case have too low a degree for this claim";
+        let remedy = "state a claim of this kind in the case file";
         Err(section
             .complaint(Problem::Other { message: message.to_string(), remedy: remedy.to_string() }))
     }

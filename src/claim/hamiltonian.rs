@@ -1,6 +1,6 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
-use super::{Reader, Statement, difference, quadrature_defects};
+use super::{Jets, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, trace_of_quotient};
@@ -164,6 +164,7 @@ impl Statement for JacobiIdentity {
 
 impl Statement for DensityInVariables {
     const NAME: &'static str = "density-in-variables";
+    const JETS: Jets = Jets::Twice;
     const UNDEFINED: &'static str = ": the new variables may be dependent there, as N*(Ĩ*ω − (Ĩ*ω,γ)*γ) \
                                      is, to which + (ω,γ)*γ may be added";
 

@@ -33,7 +33,7 @@ pub use integral::Integral;
 pub use limit::Limit;
 pub use place::Place;
 pub use reader::Reader;
-pub use statement::{Objection, Statement};
+pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
 
@@ -56,11 +56,11 @@ macro_rules! kinds {
         /// What a claim can state: the keys under which the statements stand.
         pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
 
-        /// Does the statement under this key compare a point with its image?
-        pub fn compares_two_points(key: &str) -> bool {
+        /// Which derivatives the statement under this key contains.
+        pub fn jets(key: &str) -> Jets {
             match key {
-                $(_ if key == $kind::NAME => $kind::TWO_POINTS,)*
-                _ => false,
+                $(_ if key == $kind::NAME => $kind::JETS,)*
+                _ => Jets::Once,
             }
         }
 

@@ -7,6 +7,18 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
+/// Which derivatives of the formulas that it is about a claim contains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Jets {
+    /// The first, at a point.
+    #[default]
+    Once,
+    /// The second, at a point.
+    Twice,
+    /// The first at a point, and values at its image in the same phase space.
+    TwoPoints,
+}
+
 /// Why a claim cannot be made about a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objection {
@@ -27,8 +39,8 @@ pub trait Statement: Clone {
     /// May the claim hold in wider places than its own, and is that worth knowing?
     const WIDENS: bool = true;
 
-    /// Does the residual compare a point with its image in the same phase space?
-    const TWO_POINTS: bool = false;
+    /// Which derivatives of the formulas that it is about the residual contains.
+    const JETS: Jets = Jets::Once;
 
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";

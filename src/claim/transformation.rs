@@ -1,6 +1,6 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::{Reader, Statement, difference, quadrature_defects};
+use super::{Jets, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
@@ -115,7 +115,7 @@ fn vanishes(model: &Model, formula: &Formula) -> bool {
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
-    const TWO_POINTS: bool = true;
+    const JETS: Jets = Jets::TwoPoints;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
@@ -143,7 +143,7 @@ impl Statement for Symmetry {
 
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
-    const TWO_POINTS: bool = true;
+    const JETS: Jets = Jets::TwoPoints;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         Transformation::read(from, Self::NAME).map(Self)

@@ -12,7 +12,7 @@
 use super::bench::Bench;
 use super::evidence::{Proof, Verdict};
 use super::field::Field;
-use super::finding::{Finding, NO_QUADRATURE, fold, undecide, weigh};
+use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
 use super::run::{Run, Values};
@@ -105,28 +105,24 @@ impl Bench<'_> {
             return Ok(());
         }
         let mut groups = vec![self.ground(place)];
-        groups.extend(unsettled.iter().map(|(item, _)| item.residual.clone()));
-        let with_defects = |item: &Recorded<'_>| !item.context.quadrature_defects.is_empty();
-        let defects = unsettled.iter().filter(|(item, _)| with_defects(item));
-        groups.extend(defects.map(|(item, _)| item.context.quadrature_defects.clone()));
-        let mut outcomes = Field::new(self, sampler).test(&groups)?;
-        let mut defects = outcomes.split_off(1 + unsettled.len()).into_iter();
-        let mut outcomes = outcomes.into_iter();
+        groups.extend(
+            unsettled
+                .iter()
+                .map(|(item, _)| [&item.residual[..], &item.context.quadrature_defects].concat()),
+        );
+        let field = Field::new(self, sampler);
+        let mut outcomes = field.test(&groups)?.into_iter();
         let ground = outcomes.next();
         for ((item, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
-            let defect = if with_defects(item) { defects.next() } else { None };
-            let outcome = match (defect, outcome) {
-                (Some(Outcome::NonZero), _) => {
-                    finding.rung("prime field", NO_QUADRATURE.to_string());
-                    undecide(finding, NO_QUADRATURE.to_string());
-                    continue;
-                }
-                (Some(Outcome::Zero(quadrature)), Outcome::Zero(own)) => {
-                    Outcome::Zero(quadrature.and(own))
-                }
-                (Some(silent @ Outcome::Silent(_)), Outcome::Zero(_)) => silent,
-                (_, outcome) => outcome,
-            };
+            let defects = &item.context.quadrature_defects;
+            if outcome == Outcome::NonZero
+                && !are_zero(self.graph, defects)
+                && field.test(std::slice::from_ref(defects))?.contains(&Outcome::NonZero)
+            {
+                finding.rung("prime field", NO_QUADRATURE.to_string());
+                undecide(finding, NO_QUADRATURE.to_string());
+                continue;
+            }
             let outcome = match (&ground, outcome) {
                 (Some(Outcome::Zero(ground)), Outcome::Zero(own)) => Outcome::Zero(ground.and(own)),
                 (_, Outcome::Zero(_)) => Outcome::Silent(
