@@ -155,6 +155,14 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
     let skate = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\"]";
     let twice = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\", \"2*x*y' = 2*x'\"]";
     let quasi = "kinetic = 'y²'\nquasi-velocities = ['y']\nalgebra = 'so(4)'";
+    let exists = |more: &str, kind: &str| {
+        format!("{head}{body}{more}[[claim]]\n{kind}-density = 'exists'\n")
+    };
+    let moved = "[state]\ns = '-1..1'\n[field]\n\"s'\" = '2*s'\n";
+    let twisted = exists("", "position")
+        .replace("shape = 'ball'", "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'");
+    let bent = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\nu = '1..2'\n[field]\n\"x'\" = 'u²'\n\
+                [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
         ("empty", String::new(), "the file is empty", "writing-a-case"),
@@ -205,6 +213,110 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "decided by a criterion",
             "",
         ),
+        (
+            "damped",
+            exists("moment = '−ω'\n", "analytic"),
+            "`moment` depends on `ω`",
+            "state a density instead",
+        ),
+        ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
+        ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
+        ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
+        (
+            "bent",
+            bent.into(),
+            "the rate of `x` is not linear in the velocities",
+            "other quasi-velocities",
+        ),
+        (
+            "block",
+            turning("[variables]\nX = 'x'\nY = 'y'\n[poisson]\n'X,Y' = '1'\n'Y,X' = '1'"),
+            "the block Y,X is given already",
+            "follows from skewness",
+        ),
+        (
+            "own-potential",
+            format!("{head}{body}potential = 'U'"),
+            "`potential` depends on `U`, which it determines",
+            "by γ, h and the parameters",
+        ),
+        (
+            "own-surface",
+            format!("{head}[let]\nw = '2*h'\n{body}").replace("shape = 'ball'", "support = 'w'"),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-surface-of-a-ball",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsupport = 'h'"
+                .into(),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-reaction",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\nconstraints = ['μ = 0']"),
+            "each side may depend on the state and parameters only, not on `μ`",
+            "",
+        ),
+        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names nothing that is moved", "image"),
+        ("no-map", turning("[[claim]]\nmap = {}\nfield = {}"), "names no new variable", "give one"),
+        (
+            "no-time",
+            turning("[[claim]]\nsymmetry = { x = '0*x', y = '0*y' }\ntime = '0*x'"),
+            "`time` is 0",
+            "t → λt",
+        ),
+        (
+            "surface",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsurface = '(r,γ)'"
+                .into(),
+            "may depend on r and parameters only, not on `γ`",
+            "",
+        ),
+        (
+            "own-energy",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\npotential = 'energy'"),
+            "may depend on the state and parameters only",
+            "",
+        ),
+        (
+            "feedback",
+            format!("{head}{body}moment = \"ω'\""),
+            "feedback.toml:9:10",
+            "by the state, r, r' and γ'",
+        ),
+        (
+            "tiny-range",
+            field("[field]\n").replace("x = '-1..1'", "x = '-1e-400..1e-400'"),
+            "beyond the numbers that f64 can hold",
+            "-2..2",
+        ),
+        (
+            "singular-level",
+            turning("[level]\nequations = ['(x² + y²)^3 = 0']"),
+            "no state on the level set",
+            "may not all vanish",
+        ),
+        ("no-level", turning("[level]\nequations = ['1 = 0']"), "on no state variable", "remove"),
+        (
+            "open-level",
+            turning("[level]\nequations = ['y = ∫(x, x)']"),
+            "contains an ∫, whose constant is open",
+            "write the antiderivative out",
+        ),
+        (
+            "open-point",
+            turning("[[claim]]\nfixed-point = { x = '∫(1, 2)' }"),
+            "a point has no ∫ in it",
+            "write the antiderivative out",
+        ),
+        (
+            "open-slope",
+            turning("[parameters]\ne = '1..2'\n[[claim]]\nlimit = '∫(e*x, x)'\nequals = '∫(0*x, x)'\nslope = '0'\nparameter = 'e'"),
+            "the slope of an ∫ by a parameter is open",
+            "write the antiderivative out",
+        ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
@@ -249,6 +361,12 @@ fn eval_refuses_what_it_does_not_understand() {
         arguments.extend(&options);
         liouville(&arguments).assert().code(2).stderr(contains(message));
     }
+    let bare = "title = 'x'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '-x'\n";
+    let path = folder("bare", &[("bare.toml", bare)]).join("bare.toml");
+    liouville(&["eval", path.to_str().expect("UTF-8"), "--set", "x=1"])
+        .assert()
+        .code(2)
+        .stderr(contains("this case has no parameters"));
 }
 
 #[test]
@@ -265,6 +383,49 @@ fn what_is_impossible_but_meaningful_runs_with_a_warning() {
         .stdout(contains("triangle inequality"))
         .stdout(contains("not convex"))
         .stdout(contains("outside the ball"));
+}
+
+#[test]
+fn a_reaction_by_definition_is_named() {
+    let text = |constraint: &str| {
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\ny = '1..2'\ns = '0..1'\n\"x'\" = '1..2'\n\
+             \"y'\" = '1..2'\n[field]\n\"s'\" = \"√(x'² + y'²)\"\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\n\
+             constraints = [\"{constraint}\"]\n[[claim]]\nintegral = 'energy'\n"
+        )
+    };
+    for (constraint, warned) in [("x'² = y*y'²", true), ("x' = y*y'", false)] {
+        let path = folder("chetaev", &[("case.toml", &text(constraint))]);
+        let report = json(&["check", "--json", path.to_str().expect("UTF-8")], 0);
+        let warnings = report["cases"][0]["warnings"].to_string();
+        assert_eq!(warnings.contains("Chetaev's rule"), warned, "{constraint}: {warnings}");
+    }
+}
+
+#[test]
+fn names_that_a_file_takes_from_the_system_are_told() {
+    for (taken, warned) in [("J", true), ("γ3", true), ("E", true), ("energy", true), ("q", false)]
+    {
+        let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n\
+                    TAKEN = 2\n[body]\nshape = 'ball'\n[[claim]]\nintegral = '(γ,γ)'\n";
+        let text = text.replace("TAKEN", &format!("\"{taken}\""));
+        let path = folder("hidden", &[("case.toml", &text)]);
+        let output =
+            liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
+        assert_eq!(told, warned, "{taken}");
+    }
+}
+
+#[test]
+fn what_has_nothing_to_show_shows_nothing() {
+    liouville(&["table", "1", "no-such-folder"])
+        .assert()
+        .code(2)
+        .stdout("")
+        .stderr(contains("cannot read"))
+        .stderr(contains("no case belongs to table 1"));
+    liouville(&["stress", "--bodies", "0"]).assert().code(2).stderr(contains("0 is not in 1.."));
 }
 
 #[test]

@@ -143,3 +143,76 @@ fn an_inertia_tensor_is_symmetric() {
                 I = [[1, 0.5, 0], [0, 2, 0], [0, 0, 2.5]]\n[body]\nshape = 'ball'\n";
     assert!(matches!(judged(text), Err(JudgeError::AsymmetricInertia)));
 }
+
+#[test]
+fn a_bracket_that_is_not_skew_proves_nothing() {
+    let text = |block: &str| {
+        format!(
+            "title = 'x'\n[state]\nM = 'vector(1..2)'\n[field]\n\"M'\" = '({block})*M'\n[variables]\nM = 'M'\n\
+             [poisson]\n'M,M' = '{block}'\n[[claim]]\njacobi-identity = 'holds'\n[[claim]]\n\
+             hamiltonian = '(M,M)/2'\n[[claim]]\ncasimir = '1'\n"
+        )
+    };
+    for (block, verdict) in [("E", Verdict::Refuted), ("hat([1,2,3])", Verdict::Proved)] {
+        for claim in claims(&text(block)) {
+            assert_eq!(claim.verdict, verdict, "{} with P = {block}", claim.kind);
+        }
+    }
+}
+
+#[test]
+fn a_quadrature_is_looked_at_wherever_it_stands() {
+    let plane = |claims: &str| {
+        format!(
+            "title = 'x'\n[state]\nq = '1..2'\np = '1..2'\n[field]\n\"q'\" = 'q*p'\n\"p'\" = '0*p'\n[variables]\n\
+             Q = 'q'\nP = 'p'\n[poisson]\n'Q,P' = '1'\n{claims}"
+        )
+    };
+    for (integrand, undecided) in [("Q*P", true), ("P", false)] {
+        let found = claims(&plane(&format!(
+            "[[claim]]\nhamiltonian = '∫({integrand}, P)'\nexpect = 'open'\n\
+             [[claim]]\ncasimir = '∫({integrand}, P)'\nexpect = 'open'\n\
+             [[claim]]\ndensity-in-variables = 'exp(∫({integrand}, P))'\nexpect = 'open'\n\
+             [[claim]]\nmap = {{ Q = 'q', P = 'p' }}\nexpect = 'open'\n\
+             field = {{ Q = 'Q*P + ∫({integrand}, P)', P = '0*P' }}\n"
+        )));
+        for claim in found {
+            let reason = claim.evidence.reason.unwrap_or_default();
+            let told = reason.contains("not a function of its variable");
+            assert_eq!(told, undecided, "{}: {integrand}: {reason}", claim.kind);
+        }
+    }
+    let field = |rate: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = '{rate}'\n\"y'\" = 'x'\n"
+        );
+        judged(&text).map(|_| ())
+    };
+    assert!(matches!(field("∫(x*y, x)"), Err(JudgeError::Quadrature(_))), "of two variables");
+    assert!(field("∫(x*x, x)").is_ok(), "of one");
+    let tiny = "(y + 1)³ − y³ − 3*y² − 3*y + 1e-40*y";
+    let standing =
+        "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = '0'\n\"y'\" = '1'\n";
+    let claim = format!("{standing}[[claim]]\nintegral = '∫(x + {tiny}, x)'\nexpect = 'open'\n");
+    assert_eq!(claims(&claim)[0].verdict, Verdict::Undecided, "f64 cannot see 1e-40*y");
+    let claim = format!("{standing}[[claim]]\nintegral = '∫(x, x)'\n");
+    assert_eq!(claims(&claim)[0].verdict, Verdict::Proved, "x' = 0");
+}
+
+#[test]
+fn a_level_that_falls_apart_is_told() {
+    let text = |equation: &str| {
+        format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'x − 1'\n\"y'\" = 'y − 1'\n[level]\n\
+             equations = ['{equation}']\n[[claim]]\nidentity = 'x = 1'\nexpect = 'open'\n"
+        )
+    };
+    for (equation, apart) in [("(x − 1)*(y − 1) = 0", true), ("x − 1 = 0", false)] {
+        let warnings = judged(&text(equation)).expect("it can be judged").warnings;
+        assert_eq!(warnings.iter().any(|w| w.contains("falls apart")), apart, "{equation}");
+    }
+    let inputs = "inputs = { u = '-2..2', v = '-2..2' }";
+    let chart = format!("{inputs}\nx = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'");
+    let warnings = judged(&on_sphere(&chart, "")).expect("it can be judged").warnings;
+    assert!(warnings.iter().any(|w| w.contains("image of [level.chart]")), "{warnings:?}");
+}

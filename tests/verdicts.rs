@@ -174,7 +174,7 @@ fn what_the_criterion_does_not_exclude_stays_open() {
         )
     };
     assert_eq!(claims(&text(""))[0].verdict, Verdict::Refuted, "free: no analytic density at all");
-    for forced in ["gyrostat = 'S'\n", "potential = 'm*γ3'\n"] {
+    for forced in ["gyrostat = 'S'\n", "potential = 'm*γ3'\n", "moment = '[0,0,m] × γ'\n"] {
         let found = claims(&text(forced));
         assert_eq!(found[0].verdict, Verdict::Undecided, "only ρ(γ) is excluded");
         assert_eq!(found[1].verdict, Verdict::Refuted, "and that it is");
@@ -235,4 +235,25 @@ fn every_name_of_the_guide_is_known() {
     for name in ["z", "p", "p'", "f1", "f2", "f1'", "f2'", "g1", "g1'", "g2"] {
         claims(&format!("{text}[[claim]]\nintegral = \"{name}\"\nexpect = 'open'\n"));
     }
+}
+
+#[test]
+fn a_claim_without_a_name_shows_both_sides() {
+    let found = claims(&oscillator(
+        "[[claim]]\nidentity = 'x*x − x² = 0'\n[[claim]]\nrate = 'x'\nequals = 'y'\n\
+         [[claim]]\nlimit = 'x*e'\nequals = '0'\nparameter = 'e'\n[parameters]\ne = '1..2'\n",
+    ));
+    let names: Vec<&str> = found.iter().map(|claim| claim.name.as_str()).collect();
+    assert_eq!(names, ["x*x − x² = 0", "(x)' = y", "x*e → 0"]);
+}
+
+#[test]
+fn a_cofactor_with_a_pole_is_remarked() {
+    let found = claims(&oscillator(
+        "[[claim]]\ninvariant-relation = 'x'\ncofactor = 'y/x'\n\
+         [[claim]]\ninvariant-relation = 'x² + y²'\ncofactor = '0*x'\n",
+    ));
+    let remark = found[0].evidence.remark.as_deref().unwrap_or_default();
+    assert!(remark.contains("divides by `x`"), "x' = y on x = 0: {remark}");
+    assert_eq!(found[1].evidence.remark, None);
 }

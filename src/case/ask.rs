@@ -6,6 +6,7 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use super::{Case, Claim, claims, variables};
+use crate::claim::jets;
 use crate::formula::canonical_name;
 use crate::mechanics::{Meaning, Model, Reach};
 
@@ -58,10 +59,27 @@ impl Case {
         }
         let mut stated: Vec<Claim> = Vec::new();
         for section in root.sections("claim")? {
-            stated.push(claims::read(&section, &asked.model, &stated, "")?);
+            let claim = claims::read(&section, &asked.model, &stated, "")?;
+            self.check_degrees(&claim, &section)?;
+            stated.push(claim);
         }
         asked.claims = stated;
         Ok(asked)
+    }
+}
+
+impl Case {
+    /// Arbitrary functions have the degree that the claims of the file need.
+    fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), CaseError> {
+        let needed = |claim: &Claim| jets(claim.kind.name());
+        let has = self.claims.iter().map(needed).max().unwrap_or_default();
+        if needed(claim) <= has || !self.model.system.has_arbitrary_function() {
+            return Ok(());
+        }
+        let message = "the arbitrary functions of this case have too low a degree for this claim";
+        let remedy = "state a claim of this kind in the case file";
+        Err(section
+            .complaint(Problem::Other { message: message.to_string(), remedy: remedy.to_string() }))
     }
 }
 

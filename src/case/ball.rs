@@ -1,8 +1,8 @@
 //! `[body]` of a homogeneous ball on a surface.
 
-use super::body::{arbitrary_support, formula, formula_or, potential};
+use super::arbitrary::Arbitrary;
+use super::body::{formula, formula_or, potential};
 use super::error::{CaseError, Problem};
-use super::parameters::Setting;
 use super::section::Section;
 use crate::formula::Type;
 use crate::mechanics::{
@@ -12,7 +12,7 @@ use crate::mechanics::{
 /// Reads it; the names of the system are declared.
 pub fn read(
     section: &Section<'_>,
-    settings: &[Setting],
+    arbitrary: &Arbitrary<'_>,
     vocabulary: &mut Vocabulary,
     parameters: &mut Vec<Parameter>,
 ) -> Result<System, CaseError> {
@@ -23,7 +23,7 @@ pub fn read(
     let surface = match (by_level, by_support) {
         (Some(text), None) => Surface::Level(read(&text, "the surface")?),
         (None, Some(text)) if text.value == "arbitrary" => {
-            Surface::Support(arbitrary_support(settings, parameters)?)
+            Surface::Support(arbitrary.support(parameters)?)
         }
         (None, Some(text)) => {
             Surface::Support(Shape::Support(read(&text, "the support function")?))
@@ -43,7 +43,7 @@ pub fn read(
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();
     of_centre.bind("r", centre);
-    let potential = potential(section, settings, &of_centre, parameters)?;
+    let potential = potential(section, arbitrary, &of_centre, parameters)?;
     let rotation = match section.text("rotation")? {
         Some(text) => Some(formula(&text, vocabulary, "Ω", Some(scalar), Reach::Parameters)?),
         None => None,

@@ -1,12 +1,12 @@
 //! `[body]`: shape, mass, inertia, support, potential, rotor.
 
+use super::arbitrary::Arbitrary;
 use super::error::{CaseError, Problem};
-use super::parameters::{Setting, coefficients, has};
+use super::parameters::has;
 use super::section::{Section, Text};
-use crate::formula::{Formula, FormulaError, Type};
+use crate::formula::{Formula, FormulaError, Scope, Type};
 use crate::mechanics::{
-    Features, FlatBase, Parameter, Polynomial, Potential, Range, Reach, Rubber, Shape, System,
-    Vocabulary,
+    Features, FlatBase, Meaning, Parameter, Potential, Reach, Rubber, Shape, System, Vocabulary,
 };
 
 /// Reads a formula and checks its kind and what it depends on.
@@ -28,13 +28,26 @@ pub fn formula(
     match vocabulary.reach(&formula) {
         Some(entry) if entry.reach > reach => {
             let allowed = match reach {
-                Reach::Parameters => "parameters",
-                _ => "γ and parameters",
+                Reach::Parameters => "parameters".to_string(),
+                _ => format!("{} and parameters", position(vocabulary)),
             };
             let (what, name) = (what.to_string(), entry.name.clone());
             Err(CaseError::at(whole(), Problem::Reach { what, allowed, name }))
         }
         _ => Ok(formula),
+    }
+}
+
+/// What a system calls the part of its state that shapes and potentials are functions of.
+fn position(vocabulary: &Vocabulary) -> &str {
+    let mut names = vocabulary.iter().filter(|(symbol, entry)| {
+        let is_state = matches!(entry.meaning, Meaning::State(_));
+        let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == *symbol);
+        is_state && is_found && entry.reach == Reach::Configuration
+    });
+    match (names.next(), names.next()) {
+        (Some((_, only)), None) => &only.name,
+        _ => "the state",
     }
 }
 
@@ -85,7 +98,7 @@ pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) ->
 pub fn rubber(
     section: &Section<'_>,
     curved: bool,
-    settings: &[Setting],
+    arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
 ) -> Result<System, CaseError> {
@@ -97,8 +110,8 @@ pub fn rubber(
     let mass = formula_or(section, "mass", "m", vocabulary, scalar)?;
     let inertia = formula_or(section, "inertia", "I", vocabulary, Type::Matrix)?;
     let gyrostat = optional(section, "gyrostat", vocabulary, Type::Vector)?;
-    let shape = shape(section, curved, settings, vocabulary, parameters)?;
-    let potential = potential(section, settings, vocabulary, parameters)?;
+    let shape = shape(section, arbitrary, vocabulary, parameters)?;
+    let potential = potential(section, arbitrary, vocabulary, parameters)?;
     let moment = match section.text("moment")? {
         Some(text) => {
             let (what, kind) = ("`moment`", Some(Type::Vector));
@@ -121,31 +134,9 @@ pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Result<Syste
     })))
 }
 
-/// Coefficients of arbitrary functions: the constant term large, so that the surface is convex.
-fn arbitrary(
-    prefix: &str,
-    polynomial: &Polynomial,
-    settings: &[Setting],
-    parameters: &mut Vec<Parameter>,
-) -> Result<(), CaseError> {
-    let small = Range::between((-1, 5), (1, 5));
-    coefficients(prefix, &polynomial.exponents, &small, settings, parameters)
-}
-
-/// Any smooth surface: a residual contains derivatives of h up to the fourth at most.
-pub(super) fn arbitrary_support(
-    settings: &[Setting],
-    parameters: &mut Vec<Parameter>,
-) -> Result<Shape, CaseError> {
-    let polynomial = Polynomial::on_sphere(4, parameters.len());
-    arbitrary("h", &polynomial, settings, parameters)?;
-    Ok(Shape::Arbitrary(polynomial))
-}
-
 fn shape(
     section: &Section<'_>,
-    curved: bool,
-    settings: &[Setting],
+    arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
 ) -> Result<Shape, CaseError> {
@@ -162,7 +153,6 @@ fn shape(
                 .to_string(),
         }));
     }
-    let first = parameters.len();
     let read = |text: &Text, what: &str, kind| {
         formula(text, vocabulary, what, Some(kind), Reach::Configuration)
     };
@@ -175,18 +165,13 @@ fn shape(
     }
     if let Some(text) = profile {
         if text.value == "arbitrary" {
-            let polynomial = Polynomial::on_interval(4, first);
-            arbitrary("p", &polynomial, settings, parameters)?;
-            return Ok(Shape::ArbitraryProfile(polynomial));
+            return arbitrary.profile(parameters);
         }
         return Ok(Shape::Profile(read(&text, "the profile", Type::Scalar)?));
     }
     let text = support.unwrap_or_else(|| Text::made(String::new(), section.span.clone()));
     if text.value == "arbitrary" {
-        // A residual contains derivatives of h up to the third on the plane, the fourth on a sphere.
-        let polynomial = Polynomial::on_sphere(if curved { 4 } else { 3 }, first);
-        arbitrary("h", &polynomial, settings, parameters)?;
-        return Ok(Shape::Arbitrary(polynomial));
+        return arbitrary.support(parameters);
     }
     // Whether it is homogeneous is found out when the model stands.
     Ok(Shape::Support(read(&text, "the support function", Type::Scalar)?))
@@ -231,22 +216,20 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> 
 /// U, typed or arbitrary.
 pub(super) fn potential(
     section: &Section<'_>,
-    settings: &[Setting],
+    arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
 ) -> Result<Option<Potential>, CaseError> {
     let Some(text) = section.text("potential")? else { return Ok(None) };
     let plain: String = text.value.chars().filter(|c| !c.is_whitespace()).collect();
-    let first = parameters.len();
-    let polynomial = match plain.as_str() {
-        "arbitrary" => Polynomial::in_space(2, first),
-        "arbitrary(γ3)" | "arbitrary(γ[3])" => Polynomial::on_interval(3, first),
+    let axial = match plain.as_str() {
+        "arbitrary" => false,
+        "arbitrary(γ3)" | "arbitrary(γ[3])" => true,
         _ => {
             let what = "the potential";
             let read = formula(&text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)?;
             return Ok(Some(Potential::Formula(read)));
         }
     };
-    arbitrary("U", &polynomial, settings, parameters)?;
-    Ok(Some(Potential::Arbitrary(polynomial)))
+    arbitrary.potential(axial, parameters).map(Some)
 }

@@ -7,9 +7,10 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, solvable, variables, weights,
+    Case, Claim, Column, TABLE_ROWS, branches, claims, field, homogeneous, shadows, solvable,
+    variables, velocities, weights,
 };
-use crate::mechanics::{Chart, Surface, System, Vocabulary};
+use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 
 /// The keys of a case file.
 const KEYS: [&str; 17] = [
@@ -50,12 +51,16 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let (system, mut parts) = systems::read(&root, vocabulary, parameters, settings)?;
     parameters::unknown_setting(settings, &parts.model.parameters)?;
     extend_support(&mut parts);
+    let mut warnings: Vec<String> = parts.hidden.iter().map(|n| shadows::warning(n)).collect();
+    warnings.extend(velocities::check(&root, &parts.model)?);
     variables::read(&root, &mut parts.model)?;
+    no_open_level(&root, &parts.model)?;
     if let Some(level) = root.section("level")? {
         parts.chart = level_chart(&level, &parts, names_of_parameters)?;
     } else if matches!(parts.model.system, System::Lagrangian(_)) && !parts.model.level.is_empty() {
         parts.chart = solvable::steps(&parts.model).map_or(Chart::Numerical, Chart::Solved);
     }
+    warnings.extend(of_chart(&parts));
     let mut claims: Vec<Claim> = Vec::new();
     for section in root.sections("claim")? {
         claims.push(claims::read(&section, &parts.model, &claims, &source)?);
@@ -66,8 +71,22 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
-    let Parts { model, chart, free_draws } = parts;
-    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes })
+    let Parts { model, chart, free_draws, .. } = parts;
+    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes, warnings })
+}
+
+/// A level set is not fixed by an equation whose constant is open.
+fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), CaseError> {
+    for equation in &model.level {
+        let LevelFunction::Formula(function) = &equation.function else { continue };
+        if model.has_antiderivative(function) {
+            let span = root.find(&equation.text).map(|start| start..start + equation.text.len());
+            let message = format!("`{}` contains an ∫, whose constant is open", equation.text);
+            let remedy = "write the antiderivative out".to_string();
+            return Err(CaseError { span, problem: Problem::Other { message, remedy } });
+        }
+    }
+    Ok(())
 }
 
 /// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.
@@ -124,6 +143,28 @@ fn level_chart(
     };
     section.finish()?;
     Ok(chart)
+}
+
+/// Which part of the level set a chart makes, where that may not be all of it.
+fn of_chart(parts: &Parts) -> Vec<String> {
+    let model = &parts.model;
+    match &parts.chart {
+        Chart::Given(_) => {
+            vec!["verdicts on the level speak of the image of [level.chart]".to_string()]
+        }
+        Chart::Solved(steps) => branches::left_out(model, &parts.free_draws, steps)
+            .into_iter()
+            .map(|step| {
+                format!(
+                    "the level falls apart: `{}` is solved for `{}`, and verdicts on the level speak of \
+                     the branch where it can be",
+                    model.level[step.equation].text,
+                    model.component_name(step.component)
+                )
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
 }
 
 fn column(root: &Section<'_>) -> Result<Option<Column>, CaseError> {

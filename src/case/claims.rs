@@ -57,9 +57,7 @@ fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
     let kind = kind?;
     match kind.objection(model) {
         None => Ok(kind),
-        Some(objection) => {
-            Err(entries.complaint(kind.name(), objection, "see docs/writing-a-case.md"))
-        }
+        Some(objection) => Err(entries.complaint(kind.name(), objection.message, objection.remedy)),
     }
 }
 
@@ -146,7 +144,7 @@ fn name(section: &Section<'_>, kind: &Kind, taken: &[Claim]) -> Result<String, C
         }
         return Ok(text.value);
     }
-    let base = kind.formula().map_or(kind.name().to_string(), |f| f.text().to_string());
+    let base = kind.text().unwrap_or_else(|| kind.name().to_string());
     let free = |name: &String| taken.iter().all(|claim| claim.name != *name);
     let numbered = (2..).map(|number| format!("{base} ({number})"));
     Ok(std::iter::once(base.clone()).chain(numbered).find(free).unwrap_or(base))

@@ -93,7 +93,7 @@ pub enum Problem {
         /// What the formula defines.
         what: String,
         /// What it may depend on.
-        allowed: &'static str,
+        allowed: String,
         /// What it depends on.
         name: String,
     },

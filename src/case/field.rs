@@ -46,11 +46,13 @@ pub fn add_state(
         if vocabulary.find(&name).is_some() {
             return Err(bad(&name, "it is taken already"));
         }
-        let described = origin(&name, value).ok().and_then(|given: Given| state_draws(&given));
-        let (kind, draws) = described.ok_or_else(|| {
-            let text = format!("`{name}` needs the range that its states are drawn from");
-            let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"".to_string();
-            CaseError::at(value.span(), Problem::Other { message: text, remedy })
+        let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"";
+        let wrong = |message: String| {
+            CaseError::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
+        };
+        let given: Given = origin(&name, value).map_err(wrong)?;
+        let (kind, draws) = state_draws(&given).ok_or_else(|| {
+            wrong(format!("`{name}` needs the range that its states are drawn from"))
         })?;
         vocabulary.add(&name, Meaning::State(state.variables.len()), kind, reach);
         state.variables.push(Variable { name, kind });
@@ -103,17 +105,19 @@ pub fn equations(
     section: &Section<'_>,
     vocabulary: &Vocabulary,
 ) -> Result<Vec<LevelEquation>, CaseError> {
-    let read = equations_in(section, "equations", vocabulary)?.into_iter();
+    let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
     let equation =
         |(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) };
     Ok(read.map(equation).collect())
 }
 
-/// Reads a list of equations: the text, and the difference of both sides.
+/// Reads a list of equations: the text, and the difference of both sides, which may depend on no
+/// more than `reach`.
 pub fn equations_in(
     section: &Section<'_>,
     key: &'static str,
     vocabulary: &Vocabulary,
+    reach: Reach,
 ) -> Result<Vec<(String, Formula)>, CaseError> {
     let mut level = Vec::new();
     for text in section.texts(key)? {
@@ -139,7 +143,7 @@ pub fn equations_in(
         };
         let difference = Text::made(difference, text.span.clone());
         let scalar = Some(Type::Scalar);
-        let function = formula(&difference, vocabulary, "each side", scalar, Reach::Phase)?;
+        let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
         level.push((text.value.trim().to_string(), function));
     }
     Ok(level)

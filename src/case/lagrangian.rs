@@ -30,7 +30,7 @@ pub fn read(
         Some(text) => Some(scalar(&text, "the potential")?),
         None => None,
     };
-    let level = field::equations_in(section, "constraints", vocabulary)?;
+    let level = field::equations_in(section, "constraints", vocabulary, Reach::Configuration)?;
     let constraints: Vec<Formula> = level.iter().map(|(_, function)| function.clone()).collect();
     let variables = reading.state.variables.clone();
     let names = |key| named(section, key, &variables);

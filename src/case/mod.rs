@@ -1,8 +1,10 @@
 //! A case file becomes a [`Case`]: a model with its names, a chart, and claims.
 
+mod arbitrary;
 mod ask;
 mod ball;
 mod body;
+mod branches;
 mod build;
 mod claims;
 mod error;
@@ -11,9 +13,11 @@ mod homogeneous;
 mod lagrangian;
 mod parameters;
 mod section;
+mod shadows;
 mod solvable;
 mod systems;
 mod variables;
+mod velocities;
 mod weights;
 
 use std::path::Path;
@@ -49,6 +53,8 @@ pub struct Case {
     pub column: Option<Column>,
     /// What to know beside the verdicts.
     pub notes: Vec<String>,
+    /// What the file may not mean to say.
+    pub warnings: Vec<String>,
 }
 
 /// A column of one of the paper's tables.

@@ -114,9 +114,11 @@ pub fn unknown_setting(settings: &[Setting], parameters: &[Parameter]) -> Result
         None => Ok(()),
         Some(setting) => {
             let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
+            let known =
+                if names.is_empty() { "no parameters".to_string() } else { names.join(", ") };
             Err(CaseError::whole(Problem::Other {
                 message: format!("there is no parameter `{}` to set", setting.name),
-                remedy: format!("this case has {}", names.join(", ")),
+                remedy: format!("this case has {known}"),
             }))
         }
     }

@@ -2,15 +2,17 @@
 
 use toml::de::DeTable;
 
+use super::arbitrary::Arbitrary;
 use super::error::{CaseError, Problem};
 use super::field::{self, State};
 use super::parameters::Setting;
 use super::section::{Section, Text};
-use super::{ball, body, lagrangian};
+use super::{ball, body, lagrangian, shadows};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Chart, Draw, LevelEquation, LevelFunction, Meaning, Model, Parameter, Quantity, Range, Reach,
-    System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
+    Chart, Draw, Entry, LevelEquation, LevelFunction, Meaning, Model, Parameter, Potential,
+    Quantity, Range, Reach, Shape, Surface, System, Variable, Vocabulary, of_ball, of_flat_base,
+    of_lagrangian, of_rubber,
 };
 
 const SYSTEMS: &str =
@@ -24,12 +26,14 @@ pub struct Parts {
     pub chart: Chart,
     /// The draws of what the chart leaves free.
     pub free_draws: Vec<Draw>,
+    /// Names that the file takes from the system or the language.
+    pub hidden: Vec<String>,
 }
 
 /// What is read on the way to a model.
 pub(super) struct Reading<'r, 's> {
     pub root: &'r Section<'s>,
-    pub settings: &'r [Setting],
+    arbitrary: Arbitrary<'r>,
     pub vocabulary: Vocabulary,
     pub parameters: Vec<Parameter>,
     pub state: State,
@@ -38,6 +42,8 @@ pub(super) struct Reading<'r, 's> {
     waiting: Vec<String>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
+    /// Names of the system that the file gives another meaning.
+    hidden: Vec<String>,
 }
 
 /// Reads what the kind of system asks for; gives its name too.
@@ -57,7 +63,7 @@ pub fn read(
     };
     let mut reading = Reading {
         root,
-        settings,
+        arbitrary: Arbitrary::of(root, settings)?,
         vocabulary,
         parameters,
         state: State { variables: Vec::new(), draws: Vec::new() },
@@ -65,6 +71,7 @@ pub fn read(
         waiting: Vec::new(),
         level: Vec::new(),
         extension: Vec::new(),
+        hidden: Vec::new(),
     };
     let (system, chart) = match text.value.as_str() {
         "rubber-plane" => reading.rubber(&text, false)?,
@@ -81,6 +88,7 @@ pub fn read(
     };
     reading.name_rates();
     reading.read_waiting()?;
+    let hidden = shadows::all(&reading.vocabulary, reading.hidden);
     let model = Model {
         system,
         vocabulary: reading.vocabulary,
@@ -91,7 +99,7 @@ pub fn read(
         abbreviations: reading.abbreviations,
         level: reading.level,
     };
-    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws }))
+    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws, hidden }))
 }
 
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
@@ -107,8 +115,8 @@ impl Reading<'_, '_> {
         self.declare(&own, &[], of_rubber(features), name)?;
         self.further_state()?;
         self.read_abbreviations()?;
-        let names = &self.vocabulary;
-        let system = body::rubber(&section, curved, self.settings, names, &mut self.parameters)?;
+        let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
+        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters)?;
         self.no_feedback(&section, &system)?;
         section.finish()?;
         self.further_rates(own.len())?;
@@ -153,8 +161,9 @@ impl Reading<'_, '_> {
         }
         self.further_state()?;
         self.read_abbreviations()?;
-        let settings = self.settings;
-        let system = ball::read(&section, settings, &mut self.vocabulary, &mut self.parameters)?;
+        let arbitrary = self.arbitrary;
+        let system = ball::read(&section, &arbitrary, &mut self.vocabulary, &mut self.parameters)?;
+        self.no_feedback(&section, &system)?;
         section.finish()?;
         self.further_rates(own.len())?;
         if by_support {
@@ -175,9 +184,7 @@ impl Reading<'_, '_> {
         })?;
         let constraints = section.texts("constraints")?.len();
         for (name, quantity, kind, reach) in of_lagrangian(constraints) {
-            if self.vocabulary.find(&name).is_none() {
-                self.vocabulary.add(&name, Meaning::Quantity(quantity), kind, reach);
-            }
+            self.name(&name, quantity, kind, reach);
         }
         self.read_abbreviations()?;
         let system = lagrangian::read(self, &section, vakonomic)?;
@@ -235,12 +242,21 @@ impl Reading<'_, '_> {
         }
         self.state.draws.extend(draws.iter().cloned());
         for (name, quantity, kind, reach) in quantities {
-            if self.vocabulary.find(name).is_none() {
-                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
-            }
+            self.name(name, quantity, kind, reach);
         }
         self.name_rates();
         Ok(())
+    }
+
+    /// Names a quantity, unless the file gave the name another meaning.
+    fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Reach) {
+        match self.vocabulary.find(name).map(|entry| entry.meaning) {
+            None => self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach),
+            // x' is the velocity of x where both are declared.
+            Some(Meaning::State(_) | Meaning::Quantity(_)) => {}
+            Some(_) if self.hidden.iter().any(|hidden| hidden == name) => {}
+            Some(_) => self.hidden.push(name.to_string()),
+        }
     }
 
     /// The variables that `[state]` adds to a built-in system.
@@ -265,24 +281,55 @@ impl Reading<'_, '_> {
         Ok(())
     }
 
-    /// A moment of forces may not depend on the acceleration that it causes.
+    /// What defines a body may not depend on what it determines: the potential on U, the surface on
+    /// h, a moment of forces on the acceleration.
     fn no_feedback(&self, section: &Section<'_>, system: &System) -> Result<(), CaseError> {
-        let System::Rubber(body) = system else { return Ok(()) };
-        let Some(moment) = &body.moment else { return Ok(()) };
-        let mut formulas = vec![moment];
-        while let Some(formula) = formulas.pop() {
-            for symbol in formula.symbols() {
-                match self.vocabulary.entry(symbol).meaning {
-                    Meaning::Abbreviation(index) => formulas.push(&self.abbreviations[index]),
-                    Meaning::Quantity(Quantity::AngularAcceleration | Quantity::Multiplier) => {
-                        let name = &self.vocabulary.entry(symbol).name;
-                        return Err(section.complaint(Problem::Other {
-                            message: format!("`moment` depends on `{name}`, which it determines"),
-                            remedy: "write it by the state, r, r' and γ'".to_string(),
-                        }));
-                    }
-                    _ => {}
-                }
+        use Quantity::{AngularAcceleration, Multiplier, Potential as OwnPotential, Support};
+        let of_shape = |shape: &Shape| match shape {
+            Shape::Support(formula) | Shape::SupportOnSphere(formula) => {
+                Some(("support", formula.clone()))
+            }
+            Shape::Profile(formula) => Some(("profile", formula.clone())),
+            Shape::Contact(formula) => Some(("contact", formula.clone())),
+            Shape::Arbitrary(_) | Shape::ArbitraryProfile(_) => None,
+        };
+        let (shape, moment) = match system {
+            System::Rubber(body) => (of_shape(&body.shape), body.moment.clone()),
+            System::Ball(ball) => match &ball.surface {
+                Surface::Support(shape) => (of_shape(shape), None),
+                Surface::Level(_) => (None, None),
+            },
+            _ => (None, None),
+        };
+        let potential = match system {
+            System::Rubber(body) => body.potential.clone(),
+            _ => None,
+        };
+        let potential = match potential {
+            Some(Potential::Formula(formula)) => Some(("potential", formula)),
+            _ => None,
+        };
+        let given = [
+            (shape, &[Support, OwnPotential][..], "write it by γ and the parameters"),
+            (potential, &[OwnPotential], "write it by γ, h and the parameters"),
+            (
+                moment.map(|moment| ("moment", moment)),
+                &[AngularAcceleration, Multiplier],
+                "write it by the state, r, r' and γ'",
+            ),
+        ];
+        for (formula, determined, remedy) in given {
+            let Some((key, formula)) = formula else { continue };
+            let is_determined = |entry: &&Entry| match entry.meaning {
+                Meaning::Quantity(quantity) => determined.contains(&quantity),
+                _ => false,
+            };
+            let uses = self.vocabulary.uses(&formula, &self.abbreviations);
+            if let Some(entry) = uses.into_iter().find(is_determined) {
+                let message = format!("`{key}` depends on `{}`, which it determines", entry.name);
+                let problem = Problem::Other { message, remedy: remedy.to_string() };
+                let place = section.text(key)?.map_or(section.span.clone(), |text| text.span);
+                return Err(CaseError::at(place, problem));
             }
         }
         Ok(())
@@ -290,12 +337,9 @@ impl Reading<'_, '_> {
 
     /// Gives the rate of each state variable a name, unless the name is taken.
     fn name_rates(&mut self) {
-        for (index, variable) in self.state.variables.iter().enumerate() {
+        for (index, variable) in self.state.variables.clone().iter().enumerate() {
             let name = format!("{}'", variable.name);
-            if self.vocabulary.find(&name).is_none() {
-                let meaning = Meaning::Quantity(Quantity::Rate(index));
-                self.vocabulary.add(&name, meaning, variable.kind, Reach::Phase);
-            }
+            self.name(&name, Quantity::Rate(index), variable.kind, Reach::Phase);
         }
     }
 
@@ -343,10 +387,10 @@ impl Reading<'_, '_> {
         };
         let name = canonical_name(key)
             .ok_or_else(|| bad("a name is letters, then digits, primes or _"))?;
-        if let Some(entry) = self.vocabulary.find(&name)
-            && !matches!(entry.meaning, Meaning::Quantity(_))
-        {
-            return Err(bad("it is taken already"));
+        match self.vocabulary.find(&name).map(|entry| entry.meaning) {
+            None => {}
+            Some(Meaning::Quantity(_)) => self.hidden.push(name.clone()),
+            Some(_) => return Err(bad("it is taken already")),
         }
         let read = body::formula(text, &self.vocabulary, &name, None, Reach::Phase)?;
         let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);

@@ -4,9 +4,7 @@ use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::Section;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{
-    Block, Meaning, Model, Quantity, Reach, System, Variable, Variables, Vocabulary,
-};
+use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
 
 /// Reads both tables into the model, if they are there.
 pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
@@ -53,7 +51,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
     let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
-        Meaning::Quantity(quantity) if keeps_body && is_of_position(quantity) => true,
+        Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
         _ => entry.reach == Reach::Parameters,
     });
     for (index, variable) in state.iter().enumerate() {
@@ -62,21 +60,6 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
         names.add(&variable.name, Meaning::State(index), variable.kind, reach);
     }
     model.with_names(names, state)
-}
-
-fn is_of_position(quantity: Quantity) -> bool {
-    use Quantity::*;
-    !matches!(
-        quantity,
-        ContactRate
-            | Energy
-            | AngularAcceleration
-            | AngularVelocity
-            | NormalRate
-            | Multiplier
-            | Reaction(_)
-            | Rate(_)
-    )
 }
 
 /// The blocks of a Poisson tensor.
@@ -122,6 +105,12 @@ fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>
             }
             _ => Type::Vector,
         };
+        if blocks[i][j].is_some() {
+            let message = format!("the block {} is given already", key.get_ref());
+            let remedy = "give each pair once: the opposite block follows from skewness";
+            let problem = Problem::Other { message, remedy: remedy.to_string() };
+            return Err(CaseError::at(key.span(), problem));
+        }
         let what = format!("the block {}", key.get_ref());
         let block = formula(&text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
         place(&mut blocks, (i, j), block);

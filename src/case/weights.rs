@@ -5,7 +5,7 @@ use super::Claim;
 use super::error::{CaseError, Problem};
 use super::section::{Section, Text};
 use crate::formula::{Formula, FormulaError, Scope, Symbol, Type, WeightSystem, canonical_name};
-use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, Shape, System};
+use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, System};
 use crate::number::rational::Rational;
 
 /// Checks all formulas of a case in every base dimension that is known.
@@ -64,18 +64,11 @@ fn checked(
 fn of_system(system: &System) -> Vec<&Formula> {
     match system {
         System::Rubber(body) => {
-            let shape = match &body.shape {
-                Shape::Support(formula)
-                | Shape::SupportOnSphere(formula)
-                | Shape::Profile(formula)
-                | Shape::Contact(formula) => Some(formula),
-                _ => None,
-            };
             let potential = match &body.potential {
                 Some(Potential::Formula(formula)) => Some(formula),
                 _ => None,
             };
-            shape.into_iter().chain(potential).collect()
+            body.shape.formula().into_iter().chain(potential).collect()
         }
         System::FlatBase(_) => Vec::new(),
         System::Ball(ball) => match &ball.potential {

@@ -6,10 +6,13 @@
 //! is free (ω' quadratic in ω), none that is positive and C¹ near ω = 0, since dividing Liouville's
 //! equation by |ω| at ω → 0 leaves the same condition on ρ(γ,0).
 
-use super::{Context, Reader, Statement};
-use crate::graph::Expr;
+use num_traits::One;
+
+use super::{Context, Objection, Reader, Statement};
+use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Model, Phase};
+use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
+use crate::proof::{Outcome, Prover};
 use crate::scalar::Scalar;
 
 /// A density that is positive and analytic near ω = 0 exists.
@@ -36,14 +39,22 @@ impl Statement for AnalyticDensity {
         context(&jet.phase)
     }
 
-    fn objection(&self, model: &Model) -> Option<String> {
-        objection(model, Self::NAME)
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        objection(model, Self::NAME).or_else(|| {
+            (!model.extension.is_empty()).then(|| Objection {
+                message: format!(
+                    "`{}` is decided by a criterion that knows no variables that [state] adds",
+                    Self::NAME
+                ),
+                remedy: "ask in a case without them, or state a density instead: density = \"ρ\"",
+            })
+        })
     }
 
     fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
         (!model.system.is_free()).then_some(
             "the criterion is not zero, which excludes every density of the configuration alone; with \
-             a potential or a gyrostat one that depends on ω as well stays open",
+             a potential, a moment or a gyrostat one that depends on ω as well stays open",
         )
     }
 }
@@ -64,8 +75,17 @@ impl Statement for PositionDensity {
         context(&jet.phase)
     }
 
-    fn objection(&self, model: &Model) -> Option<String> {
-        objection(model, Self::NAME)
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        objection(model, Self::NAME).or_else(|| {
+            (!adds_no_divergence(model)).then(|| Objection {
+                message: format!(
+                    "`{}` is decided by a criterion that leaves out the divergence of the variables \
+                     that [state] adds",
+                    Self::NAME
+                ),
+                remedy: "ask in a case without them, or state a density instead: density = \"ρ\"",
+            })
+        })
     }
 }
 
@@ -77,11 +97,77 @@ fn context(phase: &Phase<'_, Expr>) -> Context {
     Context { scale: Some(phase.model().system.criterion_scale(phase)), ..Context::default() }
 }
 
-fn objection(model: &Model, name: &str) -> Option<String> {
-    (!model.system.has_criterion()).then(|| {
-        format!(
-            "`{name}` is decided by a criterion that is known for the rubber systems and the flat \
-             base only; state a density instead"
-        )
-    })
+/// Why the criterion says nothing about a model: it is derived for the divergence of a body's own
+/// motion, and takes for granted that forces do not change it and that r is a point of a surface.
+fn objection(model: &Model, name: &str) -> Option<Objection> {
+    let remedy = "state a density instead: density = \"ρ\"";
+    let because = |reason: &str| Some(Objection { message: format!("`{name}` {reason}"), remedy });
+    if !model.system.has_criterion() {
+        return because(
+            "is decided by a criterion that is known for the rubber systems and the flat base only",
+        );
+    }
+    if let Some(moment) = model.system.moment() {
+        let uses = model.vocabulary.uses(moment, &model.abbreviations);
+        if let Some(entry) = uses.into_iter().find(|entry| !is_of_position(entry)) {
+            let on = format!(
+                "is decided by a criterion for moments of γ alone, and `moment` depends on `{}`",
+                entry.name
+            );
+            return because(&on);
+        }
+    }
+    if !is_surface(model) {
+        return because(
+            "is decided by a criterion for bodies, and r is the contact of none: ∂r is not symmetric \
+             across γ",
+        );
+    }
+    None
+}
+
+/// Is this a function of γ and the parameters?
+fn is_of_position(entry: &Entry) -> bool {
+    match entry.meaning {
+        Meaning::Parameter(_) | Meaning::Abbreviation(_) => true,
+        Meaning::State(index) => index == NORMAL,
+        Meaning::Quantity(quantity) => quantity.is_of_position(),
+    }
+}
+
+/// Is it proved that ∂r/∂γ is symmetric across γ on |γ| = 1?
+fn is_surface(model: &Model) -> bool {
+    let mut draws = model.parameter_draws();
+    draws.extend(Chart::Rolling.draws(&[], &[true, true]));
+    let recorded = record(draws.len(), |inputs| {
+        let (free, state) = model.make_parameters(inputs);
+        let mut point = Chart::Rolling.point(model, &[true, true], &free, state);
+        point.resize(model.dimension(), Expr::one());
+        model.system.contact_twist(&Phase::new(model, &free, &point).configuration)
+    });
+    let unsigned = |_: &Graph, values: &[Expr]| vec![None; values.len()];
+    match recorded {
+        Ok((_, None)) => true,
+        Ok((graph, Some(twist))) => {
+            let prover = Prover { sources: &[], signs: &unsigned, seed: 1 };
+            let outcomes = prover.prove(&graph, &[vec![twist]]).unwrap_or_default();
+            matches!(outcomes.as_slice(), [Outcome::Zero(_)])
+        }
+        Err(_) => false,
+    }
+}
+
+/// Is the divergence of the variables that [state] adds zero as it stands?
+fn adds_no_divergence(model: &Model) -> bool {
+    let added: usize =
+        model.state[model.state.len() - model.extension.len()..].iter().map(Variable::len).sum();
+    let parameters = model.free_components();
+    let recorded = record(parameters + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(parameters);
+        let jet = Jet::new(Phase::new(model, parameters, state));
+        let axes = jet.along_axes().iter().enumerate().skip(model.dimension() - added);
+        axes.map(|(index, along)| along.field()[index].eps).sum::<Expr>()
+    });
+    recorded
+        .is_ok_and(|(graph, sum)| graph.constant_value(sum).is_some_and(|value| value.is_zero()))
 }

@@ -45,6 +45,11 @@ impl Statement for FixedPoint {
             let remedy = "list those that are not 0, each as often as it occurs";
             return Err(from.complaint("spectrum", message, remedy));
         }
+        let given = point.iter().flatten().chain(spectrum.iter().flatten());
+        if given.into_iter().any(|formula| model.has_antiderivative(formula)) {
+            let message = "a point has no ∫ in it: its constant is open".to_string();
+            return Err(from.complaint(Self::NAME, message, "write the antiderivative out"));
+        }
         Ok(Self { point, spectrum })
     }
 

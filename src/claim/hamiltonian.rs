@@ -1,23 +1,24 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
-use super::{Reader, Statement, difference};
+use super::{Jets, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
+use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, trace_of_quotient};
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
-/// N⁻¹y' = P ∂H/∂y
+/// N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct Hamiltonian {
     hamiltonian: Formula,
     multiplier: Option<Formula>,
 }
 
-/// P ∂C/∂y = 0
+/// P ∂C/∂y = 0 and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct Casimir(Formula);
 
-/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0
+/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0
 #[derive(Clone, Debug)]
 pub struct JacobiIdentity;
 
@@ -65,6 +66,14 @@ fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
     tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
 }
 
+/// What vanishes where each ∫ in functions of the new variables, and in the bracket, is one.
+fn defects<'f>(jet: &Jet<'_, Expr>, functions: impl Iterator<Item = &'f Formula>) -> Vec<Expr> {
+    let variables = of(jet.phase.model());
+    let there = Jet::new(variables.point(&jet.phase));
+    let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
+    functions.flat_map(of_one).chain(variables.given_blocks().flat_map(of_one)).collect()
+}
+
 impl Statement for Hamiltonian {
     const NAME: &'static str = "hamiltonian";
     const COMPANIONS: &'static [&'static str] = &["multiplier"];
@@ -82,9 +91,15 @@ impl Statement for Hamiltonian {
         let there = variables.point(&jet.phase);
         let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
         let gradient = slope(&there, &self.hamiltonian);
-        let claimed = turned(&variables.tensor(&there), &gradient);
-        let claimed = claimed.into_iter().map(|x| x * multiplier).collect();
-        difference(variables.rates(jet), claimed)
+        let tensor = variables.tensor(&there);
+        let claimed = turned(&tensor, &gradient).into_iter().map(|x| x * multiplier).collect();
+        let mut residual = difference(variables.rates(jet), claimed);
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.hamiltonian].into_iter().chain(&self.multiplier))
     }
 }
 
@@ -99,7 +114,14 @@ impl Statement for Casimir {
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let there = variables.point(&jet.phase);
-        turned(&variables.tensor(&there), &slope(&there, &self.0))
+        let tensor = variables.tensor(&there);
+        let mut residual = turned(&tensor, &slope(&there, &self.0));
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.0].into_iter())
     }
 }
 
@@ -126,7 +148,7 @@ impl Statement for JacobiIdentity {
         let term = |i: usize, j: usize, k: usize| -> T {
             (0..n).map(|l| tensor[i][l] * slopes[l][j][k]).sum()
         };
-        let mut residual = Vec::new();
+        let mut residual = variables.symmetric_part(&tensor);
         for i in 0..n {
             for j in i + 1..n {
                 residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));
@@ -134,10 +156,15 @@ impl Statement for JacobiIdentity {
         }
         residual
     }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, std::iter::empty())
+    }
 }
 
 impl Statement for DensityInVariables {
     const NAME: &'static str = "density-in-variables";
+    const JETS: Jets = Jets::Twice;
     const UNDEFINED: &'static str = ": the new variables may be dependent there, as N*(Ĩ*ω − (Ĩ*ω,γ)*γ) \
                                      is, to which + (ω,γ)*γ may be added";
 
@@ -166,5 +193,9 @@ impl Statement for DensityInVariables {
             rates.push(further.iter().map(|y| y.eps.eps).collect::<Vec<T>>());
         }
         vec![growth + trace_of_quotient(&columns, &rates) - jet.level_cofactor(kept)]
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.0].into_iter())
     }
 }

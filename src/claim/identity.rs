@@ -4,6 +4,7 @@ use super::{Context, Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::{Model, Reach};
 use crate::scalar::Scalar;
 
 /// A = B
@@ -42,6 +43,10 @@ impl Statement for Identity {
         vec![&self.right, &self.left]
     }
 
+    fn text(&self) -> Option<String> {
+        Some(format!("{} = {}", self.left.text().trim(), self.right.text().trim()))
+    }
+
     fn about(&self, right: Formula) -> Option<Self> {
         Some(Self { right, ..self.clone() })
     }
@@ -69,6 +74,10 @@ impl Statement for Rate {
 
     fn formulas(&self) -> Vec<&Formula> {
         vec![&self.rate, &self.function]
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(format!("({})' = {}", self.function.text().trim(), self.rate.text().trim()))
     }
 
     fn about(&self, rate: Formula) -> Option<Self> {
@@ -104,8 +113,28 @@ impl Statement for Relation {
         vec![&self.cofactor, &self.function]
     }
 
+    fn text(&self) -> Option<String> {
+        Some(format!("{} = 0", self.function.text().trim()))
+    }
+
     fn about(&self, cofactor: Formula) -> Option<Self> {
         Some(Self { cofactor, ..self.clone() })
+    }
+
+    /// κ with a pole on F = 0 keeps nothing: (x + 1) = ((x + 1)/x) x.
+    fn remark(&self, model: &Model) -> Option<String> {
+        let moves = |symbol| model.vocabulary.entry(symbol).reach > Reach::Parameters;
+        let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);
+        let below = all.into_iter().flat_map(Formula::denominators);
+        let mut texts: Vec<&str> = below
+            .filter(|part| part.symbols.iter().any(|symbol| moves(*symbol)))
+            .map(|part| part.text)
+            .collect();
+        texts.dedup();
+        (!texts.is_empty()).then(|| {
+            let texts = texts.join("`, `");
+            format!("the cofactor divides by `{texts}`: F = 0 is kept only where that is not 0")
+        })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {

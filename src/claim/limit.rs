@@ -37,11 +37,20 @@ impl Statement for Limit {
                 return Err(from.complaint("parameter", message, remedy));
             }
         };
+        if slope.is_some() && from.model().has_antiderivative(&function) {
+            let message =
+                "the slope of an ∫ by a parameter is open, as its constant is".to_string();
+            return Err(from.complaint("slope", message, "write the antiderivative out"));
+        }
         Ok(Self { function, value, slope, parameter })
     }
 
     fn formulas(&self) -> Vec<&Formula> {
         [&self.value, &self.function].into_iter().chain(&self.slope).collect()
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(format!("{} → {}", self.function.text().trim(), self.value.text().trim()))
     }
 
     fn about(&self, value: Formula) -> Option<Self> {

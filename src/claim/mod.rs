@@ -19,8 +19,8 @@ mod transformation;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
+use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
-use crate::mechanics::{Meaning, Model};
 use crate::scalar::Scalar;
 
 pub use criterion::{AnalyticDensity, PositionDensity};
@@ -33,7 +33,7 @@ pub use integral::Integral;
 pub use limit::Limit;
 pub use place::Place;
 pub use reader::Reader;
-pub use statement::Statement;
+pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
 
@@ -55,6 +55,14 @@ macro_rules! kinds {
 
         /// What a claim can state: the keys under which the statements stand.
         pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
+
+        /// Which derivatives the statement under this key contains.
+        pub fn jets(key: &str) -> Jets {
+            match key {
+                $(_ if key == $kind::NAME => $kind::JETS,)*
+                _ => Jets::Once,
+            }
+        }
 
         impl Kind {
             /// Reads the statement that stands under `key`, one of [`STATEMENTS`].
@@ -130,6 +138,12 @@ impl Kind {
         self.formulas().into_iter().next()
     }
 
+    /// What is stated, as it is typed: the formula, or both sides.
+    pub fn text(&self) -> Option<String> {
+        let whole = of_each!(self, statement => statement.text());
+        whole.or_else(|| self.formula().map(|formula| formula.text().to_string()))
+    }
+
     /// All formulas in the names of the case.
     pub fn formulas(&self) -> Vec<&Formula> {
         of_each!(self, statement => statement.formulas())
@@ -155,8 +169,9 @@ impl Kind {
     /// What vanishes exactly when the integrand of each ∫ is a function of its variable there:
     /// ∇f less its part along ∇x and the level functions.
     pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
-        let defects = |formula| quadrature_defects(jet, formula, kept);
-        self.formulas().into_iter().flat_map(defects).collect()
+        let own = self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, kept));
+        let elsewhere = of_each!(self, statement => statement.quadrature_defects_elsewhere(jet));
+        own.chain(elsewhere).collect()
     }
 
     /// Whether an integral is more than a function of what every case conserves.
@@ -165,7 +180,7 @@ impl Kind {
     }
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.
-    pub fn objection(&self, model: &Model) -> Option<String> {
+    pub fn objection(&self, model: &Model) -> Option<Objection> {
         of_each!(self, statement => statement.objection(model))
     }
 
@@ -209,10 +224,11 @@ pub struct Novelty {
 }
 
 /// ∇f less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
-fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+pub fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();
-    for used in with_abbreviations(model, formula).into_iter().filter(|f| f.has_antiderivative()) {
+    let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
+    for used in all.into_iter().filter(|f| f.has_antiderivative()) {
         let level = jet.level_gradients(kept);
         let columns: Vec<_> = jet
             .along_axes()
@@ -229,22 +245,4 @@ fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> 
         }));
     }
     defects
-}
-
-/// A formula with the abbreviations it uses, and those that they use.
-fn with_abbreviations<'m>(model: &'m Model, formula: &'m Formula) -> Vec<&'m Formula> {
-    let mut met = vec![false; model.abbreviations.len()];
-    let mut all = vec![formula];
-    let mut next = 0;
-    while let Some(formula) = all.get(next).copied() {
-        next += 1;
-        for symbol in formula.symbols() {
-            if let Meaning::Abbreviation(index) = model.vocabulary.entry(symbol).meaning
-                && !std::mem::replace(&mut met[index], true)
-            {
-                all.push(&model.abbreviations[index]);
-            }
-        }
-    }
-    all
 }

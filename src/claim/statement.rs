@@ -7,6 +7,27 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
+/// Which derivatives of the formulas that it is about a claim contains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Jets {
+    /// The first, at a point.
+    #[default]
+    Once,
+    /// The second, at a point.
+    Twice,
+    /// The first at a point, and values at its image in the same phase space.
+    TwoPoints,
+}
+
+/// Why a claim cannot be made about a model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// What stands against it.
+    pub message: String,
+    /// What to do instead.
+    pub remedy: &'static str,
+}
+
 /// A kind of claim: how it is read, and which scalars vanish where it holds.
 pub trait Statement: Clone {
     /// Its key in case files, and its name in reports.
@@ -17,6 +38,9 @@ pub trait Statement: Clone {
     const NEGATED: bool = false;
     /// May the claim hold in wider places than its own, and is that worth knowing?
     const WIDENS: bool = true;
+
+    /// Which derivatives of the formulas that it is about the residual contains.
+    const JETS: Jets = Jets::Once;
 
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";
@@ -33,9 +57,20 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
+    /// What is stated, where one formula alone does not say it.
+    fn text(&self) -> Option<String> {
+        None
+    }
+
     /// The same claim about another formula, if it is about one.
     fn about(&self, _: Formula) -> Option<Self> {
         None
+    }
+
+    /// What vanishes exactly when each ∫ in the names of another model is a function of its
+    /// variable there.
+    fn quadrature_defects_elsewhere(&self, _: &Jet<'_, Expr>) -> Vec<Expr> {
+        Vec::new()
     }
 
     /// What is asked beside the residual, on a few states only.
@@ -55,7 +90,7 @@ pub trait Statement: Clone {
     }
 
     /// Why it cannot be claimed of this model, if it cannot.
-    fn objection(&self, _: &Model) -> Option<String> {
+    fn objection(&self, _: &Model) -> Option<Objection> {
         None
     }
 

@@ -1,7 +1,8 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::{Reader, Statement, difference};
+use super::{Jets, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
+use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Meaning, Model, Phase, Reach, Variable};
 use crate::scalar::Scalar;
@@ -40,7 +41,12 @@ impl Transformation {
     fn read<R: Reader>(from: &R, key: &'static str) -> Result<Self, R::Error> {
         let model = from.model();
         let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
-        for (name, image) in from.table(key)? {
+        let images = from.table(key)?;
+        if images.is_empty() {
+            let message = format!("`{key}` names nothing that is moved");
+            return Err(from.complaint(key, message, "give an image: { \"γ\" = \"−γ\" }"));
+        }
+        for (name, image) in images {
             let expected = match model.vocabulary.find(&name) {
                 Some(entry) => entry,
                 None => return Err(unknown(from, key, &name)),
@@ -94,13 +100,31 @@ fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     from.complaint(key, message, "name state variables, and parameters if they change")
 }
 
+/// Is a scalar formula 0 as it stands?
+fn vanishes(model: &Model, formula: &Formula) -> bool {
+    let parameters = model.free_components();
+    let recorded = record(parameters + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(parameters);
+        Phase::new(model, parameters, state).scalar(formula)
+    });
+    recorded.is_ok_and(|(graph, value)| {
+        graph.constant_value(value).is_some_and(|value| value.is_zero())
+    })
+}
+
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
+    const JETS: Jets = Jets::TwoPoints;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
-        Ok(Self { map, time: from.formula("time", Some(Type::Scalar))? })
+        let time = from.formula("time", Some(Type::Scalar))?;
+        if time.as_ref().is_some_and(|time| vanishes(from.model(), time)) {
+            let message = "`time` is 0, and t → 0 is no change of time".to_string();
+            return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
+        }
+        Ok(Self { map, time })
     }
 
     fn formulas(&self) -> Vec<&Formula> {
@@ -119,6 +143,7 @@ impl Statement for Symmetry {
 
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
+    const JETS: Jets = Jets::TwoPoints;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         Transformation::read(from, Self::NAME).map(Self)
@@ -151,6 +176,10 @@ impl Statement for Map {
         let model = from.model();
         let (names, images): (Vec<String>, Vec<Formula>) =
             from.table(Self::NAME)?.into_iter().unzip();
+        if names.is_empty() {
+            let message = "`map` names no new variable".to_string();
+            return Err(from.complaint(Self::NAME, message, "give one: { M = \"Ĩ*ω\" }"));
+        }
         // In the equations of the new variables their names hide those of the old ones.
         let mut vocabulary = model.vocabulary.only_parameters();
         let mut state = Vec::new();
@@ -198,5 +227,11 @@ impl Statement for Map {
                 difference(jet.rates(image), claimed)
             })
             .collect()
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        let images = self.images.iter().flat_map(|image| jet.phase.evaluate(image).components());
+        let there = Jet::new(jet.phase.in_model(&self.target, &images.collect::<Vec<Expr>>()));
+        self.rates.iter().flat_map(|rate| quadrature_defects(&there, rate, &[])).collect()
     }
 }

@@ -246,7 +246,7 @@ pub struct Bench {
 #[derive(Debug, Args)]
 pub struct Stress {
     /// How many random bodies are judged at each power of ten
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub bodies: u64,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]

@@ -12,7 +12,7 @@ pub fn run(options: &Table) -> Result<Answer, String> {
         }
     }
     let table = table::regenerate(&run, options.number);
-    if table.is_empty() && run.exit_code() != 2 {
+    if table.is_empty() {
         return Err(format!("error: no case belongs to table {}", options.number));
     }
     let text = if options.json {

@@ -53,6 +53,7 @@ mod mutation;
 mod names;
 mod operands;
 mod parser;
+mod poles;
 mod powers;
 mod scope;
 mod spelling;

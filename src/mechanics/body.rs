@@ -91,6 +91,17 @@ impl Polynomial {
 }
 
 impl Shape {
+    /// The formula that is typed for it, if it is no arbitrary function.
+    pub fn formula(&self) -> Option<&Formula> {
+        match self {
+            Shape::Support(formula)
+            | Shape::SupportOnSphere(formula)
+            | Shape::Profile(formula)
+            | Shape::Contact(formula) => Some(formula),
+            Shape::Arbitrary(_) | Shape::ArbitraryProfile(_) => None,
+        }
+    }
+
     /// h at a point of configuration space.
     pub fn support<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);

@@ -103,7 +103,8 @@ impl Lagrangian {
         scaled.eps - scaled.re
     }
 
-    fn velocities(&self, state: &[Variable]) -> Vec<usize> {
+    /// The components of the state that are velocities.
+    pub fn velocities(&self, state: &[Variable]) -> Vec<usize> {
         self.components(state, |role| matches!(role, Role::Velocity)).collect()
     }
 
@@ -126,7 +127,7 @@ impl Lagrangian {
     }
 
     /// L, or L - Σ λ_k f_k.
-    fn lagrangian<T: Scalar>(&self, at: &Configuration<'_, T>, with_multipliers: bool) -> T {
+    pub fn lagrangian<T: Scalar>(&self, at: &Configuration<'_, T>, with_multipliers: bool) -> T {
         let scalar = |formula| at.evaluate(formula).scalar().unwrap_or_else(T::zero);
         let mut value = scalar(&self.kinetic);
         if let Some(potential) = &self.potential {
@@ -142,7 +143,7 @@ impl Lagrangian {
     }
 
     /// The rates of the coordinates as functions of the state; 0 in the other components.
-    fn drift<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+    pub fn drift<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
         let mut rates = Vec::new();
         for (role, variable) in self.roles.iter().zip(&at.model.state) {
             match role {

@@ -52,6 +52,55 @@ pub enum System {
 }
 
 impl System {
+    /// The formulas of the equations of motion that may depend on the state.
+    pub fn functions(&self) -> Vec<&Formula> {
+        fn typed(potential: &Option<Potential>) -> Option<&Formula> {
+            match potential {
+                Some(Potential::Formula(formula)) => Some(formula),
+                _ => None,
+            }
+        }
+        match self {
+            System::Rubber(body) => {
+                let parts = [body.shape.formula(), typed(&body.potential), body.moment.as_ref()];
+                parts.into_iter().flatten().collect()
+            }
+            System::FlatBase(_) => Vec::new(),
+            System::Ball(ball) => {
+                let surface = match &ball.surface {
+                    Surface::Level(formula) => Some(formula),
+                    Surface::Support(shape) => shape.formula(),
+                };
+                surface.into_iter().chain(typed(&ball.potential)).collect()
+            }
+            System::Lagrangian(lagrangian) => {
+                let carried = lagrangian.roles.iter().filter_map(|role| match role {
+                    Role::Carried(rate) => Some(rate),
+                    _ => None,
+                });
+                let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
+                let forces = lagrangian.forces.iter().map(|(_, force)| force);
+                energies.chain(&lagrangian.constraints).chain(forces).chain(carried).collect()
+            }
+            System::Field(rates) => rates.iter().collect(),
+        }
+    }
+
+    /// Is a surface, a profile or a potential arbitrary?
+    pub fn has_arbitrary_function(&self) -> bool {
+        let is_open = |shape: &Shape| shape.formula().is_none();
+        let is_any =
+            |potential: &Option<Potential>| matches!(potential, Some(Potential::Arbitrary(_)));
+        match self {
+            System::Rubber(body) => is_open(&body.shape) || is_any(&body.potential),
+            System::Ball(ball) => {
+                let surface = matches!(&ball.surface, Surface::Support(shape) if is_open(shape));
+                surface || is_any(&ball.potential)
+            }
+            System::FlatBase(_) | System::Lagrangian(_) | System::Field(_) => false,
+        }
+    }
+
     /// The time derivatives of the state's components, in order.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
@@ -158,6 +207,25 @@ impl System {
         }
     }
 
+    /// (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ there, as it is
+    /// for the surface of a body; nothing where r is the gradient of a support function anyhow.
+    pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) if matches!(body.shape, Shape::Contact(_)) => {
+                Some(body.contact_twist(at))
+            }
+            _ => None,
+        }
+    }
+
+    /// The moment of forces that a case gives beside or in place of a potential.
+    pub fn moment(&self) -> Option<&Formula> {
+        match self {
+            System::Rubber(body) => body.moment.as_ref(),
+            _ => None,
+        }
+    }
+
     /// Are the level functions integrals in all of phase space by construction?
     ///
     /// True for a body whose r is homogeneous of degree 0: then Γγ = γ and γ' is across γ.
@@ -178,10 +246,11 @@ impl System {
     }
 
     /// Is ω' homogeneous and quadratic in ω? Then the criterion excludes every density that is
-    /// analytic near ω = 0; with a potential or a gyrostat only those of the configuration alone.
+    /// analytic near ω = 0; with a potential, a moment or a gyrostat only those of the
+    /// configuration alone.
     pub fn is_free(&self) -> bool {
         match self {
-            System::Rubber(body) => body.potential.is_none() && body.gyrostat.is_none(),
+            System::Rubber(_) => !self.energy_is_inhomogeneous(),
             System::FlatBase(body) => body.gyrostat.is_none(),
             _ => false,
         }

@@ -134,9 +134,49 @@ impl Model {
         named
     }
 
+    /// Does a formula, or an abbreviation that it uses, contain an ∫?
+    pub fn has_antiderivative(&self, formula: &Formula) -> bool {
+        let all = self.vocabulary.with_abbreviations(formula, &self.abbreviations);
+        all.into_iter().any(Formula::has_antiderivative)
+    }
+
+    /// The formulas that are functions of the state before anything is claimed: the equations of
+    /// motion, the level, and the new variables.
+    pub fn functions(&self) -> Vec<&Formula> {
+        let level = self.level.iter().filter_map(|equation| match &equation.function {
+            LevelFunction::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let images = self.variables.iter().flat_map(|variables| &variables.images);
+        let own = self.system.functions().into_iter().chain(&self.extension);
+        own.chain(level).chain(images).collect()
+    }
+
     /// The dimension of phase space.
     pub fn dimension(&self) -> usize {
         self.state.iter().map(Variable::len).sum()
+    }
+
+    /// The variable that a component of the state belongs to, and its place there.
+    pub fn variable_of(&self, component: usize) -> Option<(&Variable, usize)> {
+        let mut first = 0;
+        let starts = self.state.iter().map(|variable| {
+            first += variable.len();
+            (variable, first - variable.len())
+        });
+        let found = starts.take_while(|(_, start)| *start <= component).last();
+        found.map(|(variable, start)| (variable, component - start))
+    }
+
+    /// The name of a component of the state, such as `γ3`.
+    pub fn component_name(&self, component: usize) -> String {
+        match self.variable_of(component) {
+            Some((variable, place)) if variable.kind != Type::Scalar => {
+                format!("{}{}", variable.name, place + 1)
+            }
+            Some((variable, _)) => variable.name.clone(),
+            None => String::new(),
+        }
     }
 
     /// How many inputs the free parameters take.

@@ -70,6 +70,24 @@ pub enum Quantity {
     ProfileG2,
 }
 
+impl Quantity {
+    /// Is it a function of the position alone, with no velocity in it?
+    pub fn is_of_position(self) -> bool {
+        use Quantity::*;
+        !matches!(
+            self,
+            ContactRate
+                | Energy
+                | AngularAcceleration
+                | AngularVelocity
+                | NormalRate
+                | Multiplier
+                | Reaction(_)
+                | Rate(_)
+        )
+    }
+}
+
 /// What decides whether a quantity is there.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Features {

@@ -43,6 +43,13 @@ impl Rubber {
             .sum()
     }
 
+    /// (γ, rot r)
+    pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let (gamma, (_, slope)) = (normal(at), self.shape.contact(at));
+        let cyclic = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].into_iter();
+        cyclic.map(|(i, j, k)| gamma[i] * (slope[(k, j)] - slope[(j, k)])).sum()
+    }
+
     /// a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ)
     pub fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);

@@ -32,6 +32,14 @@ impl Variables {
         self.blocks.iter().flatten().any(Option::is_some)
     }
 
+    /// The blocks of the bracket that are typed.
+    pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
+        self.blocks.iter().flatten().flatten().filter_map(|block| match block {
+            Block::Given(formula) => Some(formula),
+            Block::Opposite(_) => None,
+        })
+    }
+
     /// φ(x), component by component.
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
@@ -45,6 +53,20 @@ impl Variables {
     /// L_vφ
     pub fn rates<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| jet.rates(image)).collect()
+    }
+
+    /// P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the other
+    /// blocks are skew as they are made.
+    pub fn symmetric_part<T: Scalar>(&self, tensor: &[Vec<T>]) -> Vec<T> {
+        let mut parts = Vec::new();
+        let mut start = 0;
+        for variable in &self.model.state {
+            let end = start + variable.len();
+            let pairs = (start..end).flat_map(|i| (i..end).map(move |j| (i, j)));
+            parts.extend(pairs.map(|(i, j)| tensor[i][j] + tensor[j][i]));
+            start = end;
+        }
+        parts
     }
 
     /// P at a point of the new variables, by rows.

@@ -96,6 +96,34 @@ impl Vocabulary {
         self.entries.iter().enumerate().map(|(index, entry)| (Symbol(index as u32), entry))
     }
 
+    /// A formula with the abbreviations it uses, and those that they use.
+    pub fn with_abbreviations<'f>(
+        &self,
+        formula: &'f Formula,
+        abbreviations: &'f [Formula],
+    ) -> Vec<&'f Formula> {
+        let mut met = vec![false; abbreviations.len()];
+        let mut all = vec![formula];
+        let mut next = 0;
+        while let Some(formula) = all.get(next).copied() {
+            next += 1;
+            for symbol in formula.symbols() {
+                if let Meaning::Abbreviation(index) = self.entry(symbol).meaning
+                    && !std::mem::replace(&mut met[index], true)
+                {
+                    all.push(&abbreviations[index]);
+                }
+            }
+        }
+        all
+    }
+
+    /// What a formula depends on, by itself or through abbreviations.
+    pub fn uses(&self, formula: &Formula, abbreviations: &[Formula]) -> Vec<&Entry> {
+        let formulas = self.with_abbreviations(formula, abbreviations).into_iter();
+        formulas.flat_map(|f| f.symbols().map(|symbol| self.entry(symbol))).collect()
+    }
+
     /// The farthest that any name in `formula` reaches, with that name.
     pub fn reach(&self, formula: &Formula) -> Option<&Entry> {
         formula.symbols().map(|symbol| self.entry(symbol)).max_by_key(|entry| entry.reach)

@@ -111,6 +111,7 @@ fn remark(claim: &ClaimReport) -> String {
                 Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }
+            words.extend(evidence.remark.clone());
             words.push(match &evidence.proof {
                 Some(proof) => format!("{}, error < 2^{:.0}", evidence.method, proof.error_log2),
                 None if evidence.samples > 0 => {

@@ -1,6 +1,7 @@
 //! A case on the bench: its graph, how to run parts of it, and what every case is checked for.
 
-use super::finding::Look;
+use super::field::Field;
+use super::finding::{Look, are_zero};
 use super::judge::{JudgeError, Options};
 use super::physics;
 use super::recorded::Common;
@@ -11,6 +12,7 @@ use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::number::ball::{Ball, Balls};
 use crate::number::twofold::TwofoldBall;
+use crate::proof::Outcome;
 
 /// A case on the bench: its graph and how to run parts of it.
 pub struct Bench<'a> {
@@ -73,7 +75,40 @@ impl Bench<'_> {
             }
         }
         sampler.check_coverage(self.case)?;
-        Ok(physics::warnings(&physical))
+        let mut warnings = physics::warnings(&physical);
+        warnings.extend(self.check_quadratures()?);
+        Ok(warnings)
+    }
+
+    /// Checks that each ∫ of the equations of motion and of the new variables is a function of its
+    /// variable in all of phase space, where derivatives are taken; a warning where that is not
+    /// known.
+    fn check_quadratures(&self) -> Result<Option<String>, JudgeError> {
+        let quadratures = self.common.quadratures.iter();
+        let open: Vec<_> = quadratures.filter(|(_, all)| !are_zero(self.graph, all)).collect();
+        if open.is_empty() {
+            return Ok(None);
+        }
+        let everywhere = Place::everywhere(&self.case.model);
+        let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
+        let groups: Vec<Vec<Expr>> = open.iter().map(|(_, defects)| defects.clone()).collect();
+        let outcomes = Field::new(self, &sampler).test(&groups)?;
+        let mut warning = None;
+        for ((text, defects), outcome) in open.into_iter().zip(outcomes) {
+            let values = self.run(defects).at(&Ball::<LANES>, &sampler.balls(0));
+            let seen = Look::at::<Doubles>(&values.range(0..defects.len()), None);
+            match outcome {
+                Outcome::Zero(_) => {}
+                Outcome::Silent(_) if !seen.excludes_zero() => {
+                    warning = Some(format!(
+                        "it is not proved that each integrand in `{text}` is a function of its variable \
+                         alone, as all verdicts suppose"
+                    ));
+                }
+                _ => return Err(JudgeError::Quadrature(text.clone())),
+            }
+        }
+        Ok(warning)
     }
 
     /// Has the field a value at some state, in double-double?

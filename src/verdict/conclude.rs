@@ -71,7 +71,7 @@ pub fn report(
     }
     ClaimReport {
         name: claim.name.clone(),
-        formula: claim.kind.formula().map(|formula| formula.text().to_string()),
+        formula: claim.kind.text(),
         kind: claim.kind.name(),
         source: claim.source.clone(),
         place,

@@ -6,7 +6,7 @@ use super::evidence::{Evidence, Independence, Rung, Verdict};
 use super::recorded::{Recorded, Span};
 use super::run::Values;
 use super::sampler::LANES;
-use crate::graph::Graph;
+use crate::graph::{Expr, Graph};
 use crate::number::Enclosing;
 
 /// A claim is confirmed by no fewer states of the first block than one in this many.
@@ -14,6 +14,9 @@ const MIN_SHARE: usize = 4;
 /// Bits of the residual's scale that its error bound must leave for a state to count: what is
 /// blurred more than this could hide a term.
 const RESOLVED_BITS: i32 = 16;
+
+/// Why an ∫ means nothing.
+pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of its variable alone";
 
 /// What is known of a claim while the ladder is climbed.
 #[derive(Default)]
@@ -53,12 +56,21 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
         finding.evidence.method = "folding";
         finding.rung("folding", "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
+        if zero && !are_zero(graph, &item.context.quadrature_defects) {
+            // Whether there are such integrals is still to be seen.
+            return;
+        }
         finding.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
         if !zero {
             let values: Vec<String> = constants.iter().map(|value| value.to_string()).collect();
             finding.evidence.reason = Some(format!("the residual is {}", values.join(", ")));
         }
     }
+}
+
+/// Were all these values folded to 0?
+pub fn are_zero(graph: &Graph, values: &[Expr]) -> bool {
+    values.iter().all(|value| graph.constant_value(*value).is_some_and(|value| value.is_zero()))
 }
 
 /// What the first block tells beside the residual: does the formula have a value, are the
@@ -80,7 +92,7 @@ pub fn weigh<D: Enclosing>(
     }
     if !span.defects.is_empty() {
         let defects = look(&span.defects, &none);
-        let reason = "the integrand of an ∫ is not a function of its variable alone".to_string();
+        let reason = NO_QUADRATURE.to_string();
         match (defects.excludes_zero, defects.is_zero()) {
             (true, _) => return undecide(finding, reason),
             (_, false) => finding.undefined = Some(reason),

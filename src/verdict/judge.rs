@@ -84,8 +84,11 @@ pub enum JudgeError {
         dimension: usize,
     },
     /// Level equations that are not independent.
-    #[error("the level equation `{0}` depends on those before it")]
+    #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
+    /// An ∫ of the equations of motion or of `[variables]` that is none.
+    #[error("an ∫ in `{0}` has an integrand of more than its variable")]
+    Quadrature(String),
     /// An inertia tensor that is not symmetric.
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
@@ -115,9 +118,13 @@ impl JudgeError {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
             JudgeError::Dependent(_) => "remove the equation from [level]",
+            JudgeError::Quadrature(_) => {
+                "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
+            }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {
-                "check the equations of [level], or widen the ranges of [state]"
+                "check the equations of [level], whose slopes may not all vanish on it, or widen the \
+                 ranges of [state]"
             }
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, or a singular inertia \
@@ -144,7 +151,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     })?;
     let bench = Bench { case, common: &common, options, graph: &graph, inputs };
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
-    let mut warnings = bench.check()?;
+    let mut warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&Place> = Vec::new();
     for claim in &case.claims {
         if !places.contains(&&claim.place) {

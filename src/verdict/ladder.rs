@@ -12,7 +12,7 @@
 use super::bench::Bench;
 use super::evidence::{Proof, Verdict};
 use super::field::Field;
-use super::finding::{Finding, fold, undecide, weigh};
+use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
 use super::run::{Run, Values};
@@ -110,9 +110,19 @@ impl Bench<'_> {
                 .iter()
                 .map(|(item, _)| [&item.residual[..], &item.context.quadrature_defects].concat()),
         );
-        let mut outcomes = Field::new(self, sampler).test(&groups)?.into_iter();
+        let field = Field::new(self, sampler);
+        let mut outcomes = field.test(&groups)?.into_iter();
         let ground = outcomes.next();
-        for ((_, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
+        for ((item, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
+            let defects = &item.context.quadrature_defects;
+            if outcome == Outcome::NonZero
+                && !are_zero(self.graph, defects)
+                && field.test(std::slice::from_ref(defects))?.contains(&Outcome::NonZero)
+            {
+                finding.rung("prime field", NO_QUADRATURE.to_string());
+                undecide(finding, NO_QUADRATURE.to_string());
+                continue;
+            }
             let outcome = match (&ground, outcome) {
                 (Some(Outcome::Zero(ground)), Outcome::Zero(own)) => Outcome::Zero(ground.and(own)),
                 (_, Outcome::Zero(_)) => Outcome::Silent(

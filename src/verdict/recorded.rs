@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::physics;
 use crate::case::{Claim, Expect};
-use crate::claim::{Context, Novelty, Place};
+use crate::claim::{Context, Novelty, Place, quadrature_defects};
+use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::System;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -61,6 +62,9 @@ pub struct Common {
     /// Their rates along the motion.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
+    /// The formulas with an ∫ among the equations of motion and the new variables, each with what is
+    /// zero exactly when its ∫ are functions of their variables.
+    pub quadratures: Vec<(String, Vec<Expr>)>,
     /// For each level function of the user's: its gradient less its part along those before it.
     pub dependence: Vec<Vec<Expr>>,
 }
@@ -77,6 +81,15 @@ impl Common {
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
             physics: physics::outputs(phase),
+            quadratures: {
+                let model = phase.model();
+                let everywhere = vec![false; model.level.len()];
+                let open = model.functions().into_iter().filter(|f| model.has_antiderivative(f));
+                let with_defects = |formula: &Formula| {
+                    (formula.text().to_string(), quadrature_defects(jet, formula, &everywhere))
+                };
+                open.map(with_defects).collect()
+            },
             dependence: (0..gradients.len())
                 .map(|k| rejection(&gradients[k], &gradients[..k]))
                 .collect(),

@@ -1,0 +1,119 @@
+//! Arbitrary functions: polynomials with free coefficients, of the degree at which every jet occurs
+//! that a residual can contain.
+//!
+//! Formulas contain derivatives of h and p up to the second (∂r, r', ω'), of U up to the first (ω'). A
+//! claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
+//!
+//! ```text
+//! once                    h, p: order 3               U: order 2
+//! twice                   h, p: order 4               U: order 3
+//! at x and σ(x)           h, p: orders 3 and 2        U: orders 2 and 1
+//! ```
+//!
+//! since dσ·v − v∘σ differentiates σ at x, and nothing at σ(x). Polynomials of degree k + l + 1 take
+//! any jets of orders k and l at two points, those of degree k any jet of order k at one.
+
+use super::error::CaseError;
+use super::parameters::{Setting, coefficients};
+use super::section::Section;
+use crate::claim::{Jets, STATEMENTS, jets};
+use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape};
+
+/// What arbitrary functions of a case are made of.
+#[derive(Clone, Copy)]
+pub struct Arbitrary<'a> {
+    settings: &'a [Setting],
+    /// What the claims need.
+    jets: Jets,
+}
+
+impl<'a> Arbitrary<'a> {
+    /// Looks at what the file is going to claim.
+    pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Result<Self, CaseError> {
+        let claims = root.sections("claim")?;
+        let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(**key).is_some());
+        let needed = STATEMENTS.iter().filter(is_made).map(|key| jets(key)).max();
+        Ok(Self { settings, jets: needed.unwrap_or_default() })
+    }
+
+    /// Any smooth surface.
+    pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
+        let degree = self.degree([3, 4, 6]);
+        let polynomial = Polynomial::on_sphere(degree, parameters.len());
+        self.declare("h", &polynomial, parameters)?;
+        Ok(Shape::Arbitrary(polynomial))
+    }
+
+    /// Any surface of revolution.
+    pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
+        let degree = self.degree([3, 4, 6]);
+        let polynomial = Polynomial::on_interval(degree, parameters.len());
+        self.declare("p", &polynomial, parameters)?;
+        Ok(Shape::ArbitraryProfile(polynomial))
+    }
+
+    /// Any U(γ), or any U(γ₃).
+    pub fn potential(
+        &self,
+        axial: bool,
+        parameters: &mut Vec<Parameter>,
+    ) -> Result<Potential, CaseError> {
+        let degree = self.degree([2, 3, 4]);
+        let polynomial = match axial {
+            true => Polynomial::on_interval(degree, parameters.len()),
+            false => Polynomial::in_space(degree, parameters.len()),
+        };
+        self.declare("U", &polynomial, parameters)?;
+        Ok(Potential::Arbitrary(polynomial))
+    }
+
+    /// The degree for what is differentiated once, twice, or at two points.
+    fn degree(&self, degrees: [u32; 3]) -> u32 {
+        match self.jets {
+            Jets::Once => degrees[0],
+            Jets::Twice => degrees[1],
+            Jets::TwoPoints => degrees[2],
+        }
+    }
+
+    /// Small coefficients: the surface is convex by what `Shape` adds to the constant one.
+    fn declare(
+        &self,
+        prefix: &str,
+        polynomial: &Polynomial,
+        parameters: &mut Vec<Parameter>,
+    ) -> Result<(), CaseError> {
+        let size = if self.jets == Jets::TwoPoints { 10 } else { 5 };
+        let small = Range::between((-1, size), (1, size));
+        coefficients(prefix, &polynomial.exponents, &small, self.settings, parameters)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    #[test]
+    fn degrees_are_those_of_the_jets_that_claims_contain() {
+        let case = |claim: &str| {
+            let text = format!(
+                "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nI = [1, 2, 2.5]\n[body]\n\
+                 support = 'arbitrary'\npotential = 'arbitrary'\n[[claim]]\n{claim}"
+            );
+            Case::parse(&text, &[]).expect("a case")
+        };
+        let count = |claim: &str, prefix: &str| {
+            let model = case(claim).model;
+            model.parameters.iter().filter(|p| p.name.starts_with(prefix)).count()
+        };
+        // (n + 1)² polynomials of degree n on the sphere, (n + 1)(n + 2)(n + 3)/6 in space.
+        let (one, two) = ("integral = 'energy'", "reversor = { 'ω' = '−ω' }");
+        let twice = "density-in-variables = '1'\n[variables]\nM = 'ω'\n'γ' = 'γ'\n";
+        assert_eq!([count(one, "h["), count(one, "U[")], [16, 10], "degrees 3 and 2");
+        assert_eq!([count(twice, "h["), count(twice, "U[")], [25, 20], "degrees 4 and 3");
+        assert_eq!([count(two, "h["), count(two, "U[")], [49, 35], "degrees 6 and 4");
+        let asked = case(one).ask(&format!("[[claim]]\n{two}"));
+        assert!(asked.is_err_and(|e| e.to_string().contains("too low a degree")), "of one point");
+        assert!(case(two).ask(&format!("[[claim]]\n{two}")).is_ok(), "of two");
+    }
+}

@@ -1,0 +1,94 @@
+//! What the formulas of a Lagrangian system do with velocities: its equations hold for rates that
+//! are linear in the quasi-velocities, and reactions follow a rule where a constraint is not linear.
+
+use num_traits::{One, Zero};
+
+use super::error::{CaseError, Problem};
+use super::section::Section;
+use crate::formula::canonical_name;
+use crate::graph::{Expr, record};
+use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
+
+/// Complains about a rate that is not linear in the velocities although the equations of motion need
+/// it; gives a warning for each constraint whose reaction is a matter of definition.
+pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, CaseError> {
+    let System::Lagrangian(lagrangian) = &model.system else { return Ok(Vec::new()) };
+    let nonlinear = Nonlinear::of(lagrangian, model);
+    if let Some(component) = nonlinear.rates.first() {
+        let name = model.variable_of(*component).map_or("", |(variable, _)| &variable.name);
+        let message = format!("the rate of `{name}` is not linear in the velocities");
+        let remedy = "the equations of motion hold for x' = Σ wᵢ Xᵢ(x): take other quasi-velocities, \
+                      or give all rates in [field] of a system of your own";
+        let problem = Problem::Other { message, remedy: remedy.to_string() };
+        return Err(CaseError { span: place_of_rate(root, name)?, problem });
+    }
+    let warning = |index: &usize| {
+        format!(
+            "the constraint `{}` is not linear in the velocities: its reaction is taken by Chetaev's \
+             rule, along its slope by the velocities",
+            model.level[*index].text
+        )
+    };
+    Ok(nonlinear.constraints.iter().map(warning).collect())
+}
+
+/// What is not linear in the velocities.
+#[derive(Default)]
+struct Nonlinear {
+    /// Components of the state whose rates the equations of motion need to be linear.
+    rates: Vec<usize>,
+    /// Nonholonomic constraints, by their numbers.
+    constraints: Vec<usize>,
+}
+
+impl Nonlinear {
+    /// A function counts as linear in w when no ∂f/∂w_i contains a velocity as it is recorded.
+    fn of(lagrangian: &Lagrangian, model: &Model) -> Self {
+        let (parameters, dimension) = (model.free_components(), model.dimension());
+        let velocities = lagrangian.velocities(&model.state);
+        let recorded = record(parameters + dimension, |inputs| {
+            let (parameters, state) = inputs.split_at(parameters);
+            let at = Phase::new(model, parameters, state).configuration;
+            let slopes = |component: &usize| {
+                let mut unit = vec![Expr::zero(); dimension];
+                unit[*component] = Expr::one();
+                let moved = at.lift_state(&unit);
+                let rates: Vec<Expr> = lagrangian.drift(&moved).iter().map(|x| x.eps).collect();
+                let constraints = lagrangian.constraints.iter();
+                let slope = |f| moved.evaluate(f).components().iter().map(|x| x.eps).sum::<Expr>();
+                (rates, constraints.map(slope).collect::<Vec<Expr>>())
+            };
+            let slopes: Vec<(Vec<Expr>, Vec<Expr>)> = velocities.iter().map(slopes).collect();
+            (slopes, lagrangian.lagrangian(&at, lagrangian.vakonomic))
+        });
+        let Ok((graph, (slopes, function))) = recorded else { return Self::default() };
+        let bends = |slope: Expr| {
+            velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity))
+        };
+        // A variable that is only carried along, and which L does not contain, may have any rate.
+        let counts = |component: usize| {
+            lagrangian.algebra == Algebra::Frame
+                || graph.depends_on(function, parameters + component)
+        };
+        let rates = (0..dimension)
+            .filter(|k| slopes.iter().any(|(rates, _)| bends(rates[*k])) && counts(*k))
+            .collect();
+        let constraints = (0..lagrangian.constraints.len())
+            .filter(|k| !lagrangian.vakonomic && slopes.iter().any(|(_, all)| bends(all[*k])))
+            .collect();
+        Self { rates, constraints }
+    }
+}
+
+/// Where `[field]` gives the rate of a variable.
+fn place_of_rate(
+    root: &Section<'_>,
+    name: &str,
+) -> Result<Option<std::ops::Range<usize>>, CaseError> {
+    let Some(section) = root.section("field")? else { return Ok(None) };
+    let is_rate = |key: &str| {
+        canonical_name(key).is_some_and(|key| key.strip_suffix('\'').unwrap_or(&key) == name)
+    };
+    let entry = section.entries().into_iter().find(|(key, _)| is_rate(key.get_ref()));
+    Ok(entry.map(|(_, value)| value.span()))
+}

@@ -1,0 +1,74 @@
+//! Where a formula may have no value: what it divides by, and what it takes logarithms of.
+
+use super::arena::{Function, Operation};
+use super::{Formula, Symbol};
+
+/// A part of a formula that must not be zero.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Denominator<'f> {
+    /// As it is written.
+    pub text: &'f str,
+    /// What it depends on.
+    pub symbols: Vec<Symbol>,
+}
+
+impl Formula {
+    /// The parts that are divided by, inverted, taken to a power that may be negative, or to the
+    /// logarithm.
+    pub fn denominators(&self) -> Vec<Denominator<'_>> {
+        let nodes = &self.arena.nodes;
+        let below = nodes.iter().filter_map(|node| match &node.operation {
+            Operation::Divide(_, b) => Some(*b),
+            Operation::Power(a, exponent) if exponent.is_negative() => Some(*a),
+            Operation::PowerOf(a, _) | Operation::Inverse(a) | Operation::Solve(a, _) => Some(*a),
+            Operation::Function(Function::Ln | Function::Tan, a) => Some(*a),
+            _ => None,
+        });
+        let described = |node: usize| {
+            let place = &nodes[node].span;
+            let inside =
+                nodes.iter().filter(|n| place.start <= n.span.start && n.span.end <= place.end);
+            let symbols = inside.filter_map(|n| match n.operation {
+                Operation::Symbol(slot) => Some(self.arena.symbols[slot].0),
+                _ => None,
+            });
+            Denominator {
+                text: self.text.get(place.clone()).unwrap_or_default().trim(),
+                symbols: symbols.collect(),
+            }
+        };
+        below.map(described).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Scope, Type};
+    use super::*;
+
+    struct Letters;
+
+    impl Scope for Letters {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            let index = ["a", "b", "x"].iter().position(|known| *known == name)?;
+            Some((Symbol(index as u32), Type::Scalar))
+        }
+        fn names(&self) -> Vec<String> {
+            Vec::new()
+        }
+    }
+
+    #[test]
+    fn what_must_not_vanish_is_found() {
+        let of = |text: &str| -> Vec<String> {
+            let formula = Formula::parse(text, &Letters).expect("a formula");
+            formula.denominators().iter().map(|part| part.text.to_string()).collect()
+        };
+        assert_eq!(of("a*x + b/2"), ["2"]);
+        assert_eq!(of("(a + 1)/(1 − x²)"), ["(1 − x²)"]);
+        assert_eq!(of("log(x) + a*x^(-1)"), ["x", "x"]);
+        let formula = Formula::parse("a/(b + x*b)", &Letters).expect("a formula");
+        let symbols = &formula.denominators()[0].symbols;
+        assert!(symbols.contains(&Symbol(2)) && !symbols.contains(&Symbol(0)), "{symbols:?}");
+    }
+}
