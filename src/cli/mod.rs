@@ -4,6 +4,7 @@ pub mod bench;
 pub mod check;
 pub mod eval;
 mod files;
+pub mod orbit;
 pub mod search;
 pub mod stress;
 pub mod table;
@@ -30,6 +31,8 @@ pub enum Command {
     Eval(Eval),
     /// Look for integrals and densities that nobody typed: count them, find them, prove them
     Search(Search),
+    /// Follow one motion: the state at the end, and how far integrals drift
+    Orbit(orbit::Orbit),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right

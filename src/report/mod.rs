@@ -4,6 +4,7 @@ pub mod bench;
 pub mod diagnostic;
 pub mod diagram;
 pub mod json;
+pub mod orbit;
 pub mod point;
 pub mod search;
 pub mod stress;

@@ -1,0 +1,28 @@
+//! Motion: trajectories by Taylor series, to rounding, on the recorded field of any case.
+//!
+//! ```text
+//! case, start ─ record ─▶ graph of the field ─ compile ─▶ Program ─ expand at a state ─▶ Series ─ step ─▶ trajectory
+//! ```
+//!
+//! A [`Program`] says how the coefficients of order n of every intermediate result follow from those
+//! of lower orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or
+//! over double-double.
+
+mod compile;
+mod error;
+mod form;
+mod motion;
+mod number;
+mod orbit;
+mod program;
+mod series;
+mod start;
+mod stepper;
+
+pub use error::FlowError;
+pub use motion::program;
+pub use number::{Lanes, Number};
+pub use orbit::{Followed, Orbit, Precision, Role, orbit};
+pub use program::Program;
+pub use start::Start;
+pub use stepper::{Accuracy, Piece, Stepper};

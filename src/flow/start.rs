@@ -1,0 +1,113 @@
+//! Where a motion starts: a state that is typed or drawn, put on the level set to working precision.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::FlowError;
+use super::motion::point;
+use crate::case::Case;
+use crate::claim::Place;
+use crate::graph::{Evaluator, Tape, record};
+use crate::mechanics::Model;
+use crate::mechanics::calculus::Jet;
+use crate::number::pair::{Pair, Pairs};
+use crate::number::rational::Rational;
+use crate::verdict::Sampler;
+
+/// Newton's method converges in far fewer; a state that takes more is not near the level.
+const MAX_STEPS: usize = 60;
+
+/// A state on the level set, and the parameters it belongs to.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// The components of the free parameters.
+    pub parameters: Vec<Rational>,
+    /// The components of the state.
+    pub state: Vec<Pair>,
+    /// How far the state that was asked for lies from it.
+    pub moved: f64,
+}
+
+impl Start {
+    /// The state `index` of the seed, or the one that is given, with the parameters of that index.
+    pub fn new(
+        case: &Case,
+        state: Option<&[Rational]>,
+        seed: u64,
+        index: u64,
+    ) -> Result<Self, FlowError> {
+        let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+        let drawn = sampler.printed(index);
+        let mut values: Vec<Rational> = drawn
+            .iter()
+            .map(|text| text.parse().map_err(|_| FlowError::NoStart))
+            .collect::<Result<_, _>>()?;
+        let drawn_state = values.split_off(case.model.free_components());
+        let state = state.unwrap_or(&drawn_state).iter().map(Pair::from_rational).collect();
+        Self::near(&case.model, values, state)
+    }
+
+    /// The state of the level set nearest to this one, by Newton's method across the level.
+    pub fn near(
+        model: &Model,
+        parameters: Vec<Rational>,
+        mut state: Vec<Pair>,
+    ) -> Result<Self, FlowError> {
+        let moved = Level::new(model, &parameters)?.correct(&mut state)?;
+        Ok(Self { parameters, state, moved })
+    }
+}
+
+/// The level functions of a model and their gradients.
+struct Level {
+    tape: Tape,
+    equations: usize,
+}
+
+impl Level {
+    fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
+        let kept = Place::level(model).kept;
+        let (graph, outputs) = record(model.dimension(), |state| {
+            let jet = Jet::new(point(model, parameters, state));
+            let level = model.level.iter();
+            let mut outputs: Vec<_> =
+                level.map(|equation| jet.phase.level_function(&equation.function)).collect();
+            outputs.extend(jet.level_gradients(&kept).concat());
+            outputs
+        })?;
+        Ok(Self { tape: Tape::new(&graph, &outputs), equations: model.level.len() })
+    }
+
+    /// Moves a state to the level; gives the distance.
+    fn correct(&self, state: &mut [Pair]) -> Result<f64, FlowError> {
+        if self.equations == 0 {
+            return Ok(0.0);
+        }
+        let begin = state.to_vec();
+        let norm = |state: &[Pair]| state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            evaluator.run(state);
+            let outputs: Vec<f64> = evaluator.outputs().map(|value| value.hi).collect();
+            let (values, slopes) = outputs.split_at(self.equations);
+            let jacobian = DMatrix::from_row_slice(self.equations, state.len(), slopes);
+            let square = &jacobian * jacobian.transpose();
+            let weights = square.lu().solve(&DVector::from_column_slice(values));
+            let step = jacobian.transpose() * weights.ok_or(FlowError::NoStart)?;
+            let size = step.norm();
+            if !size.is_finite() {
+                break;
+            }
+            // Steps shrink until rounding stops them.
+            if size == 0.0 || (size >= last && size < f64::EPSILON * norm(state)) {
+                let moved: Vec<Pair> = state.iter().zip(&begin).map(|(x, y)| *x - *y).collect();
+                return Ok(norm(&moved));
+            }
+            last = size;
+            for (x, dx) in state.iter_mut().zip(step.iter()) {
+                *x = *x - Pair::from_f64(*dx);
+            }
+        }
+        Err(FlowError::NoStart)
+    }
+}

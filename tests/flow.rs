@@ -1,0 +1,172 @@
+//! Motions: drift of integrals, reversal in time, known solutions, an independent integrator.
+
+use differential_equations::prelude::*;
+use liouville::case::Case;
+use liouville::flow::{FlowError, Orbit, Precision, Role, Start, orbit};
+use liouville::number::pair::Pair;
+use liouville::number::rational::Rational;
+use liouville::verdict::read_state;
+
+/// The unbalanced ball of the speed comparison, with the start of all peers.
+const BALL: &str = r#"
+title = "unbalanced ball"
+system = "rubber-plane"
+[parameters]
+m = 1.3
+R = 3
+c = [0.7, -0.4, 1.1]
+I = [2.6, 1.2, 1.8]
+[body]
+shape = "ball"
+[[claim]]
+name = "F2"
+integral = "|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)"
+[[claim]]
+name = "wrong sign"
+integral = "|Ĩ*ω × γ|² + 2*m*R*(γ,c)*(Ĩ*ω,ω)"
+expect = "fails"
+"#;
+
+fn start(case: &Case, text: &str) -> Start {
+    let state = read_state(case, text).expect("a state");
+    Start::new(case, Some(&state), 1, 0).expect("a start on the level")
+}
+
+fn follow(case: &Case, text: &str, time: f64, precision: Precision) -> Orbit {
+    orbit(case, start(case, text), Pair::from_f64(time), precision).expect("no singularity")
+}
+
+fn parse(text: &str) -> Case {
+    Case::parse(text, &[]).expect("a case")
+}
+
+fn distance(a: &[Pair], b: &[Pair]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (*x - *y).hi.powi(2)).sum::<f64>().sqrt()
+}
+
+const BALL_START: &str = "ω=[0.5,0.7,-0.5] γ=[1/3,2/3,2/3]";
+
+#[test]
+fn integrals_of_a_long_motion_drift_by_rounding_alone() {
+    let case = parse(BALL);
+    for (precision, bound) in [(Precision::Float, 1e-14), (Precision::Pair, 1e-28)] {
+        let found = follow(&case, BALL_START, 1000.0, precision);
+        for followed in &found.followed {
+            let drift = followed.drift;
+            match followed.role {
+                Role::Decoy => assert!(drift > 0.1, "{}: {drift:e}", followed.name),
+                _ => assert!(drift <= bound, "{}: {drift:e} in {precision:?}", followed.name),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_motion_runs_back_to_its_start() {
+    let case = parse(BALL);
+    let there = follow(&case, BALL_START, 20.0, Precision::Float);
+    let mut begin = there.start.clone();
+    begin.state = there.end;
+    let back = orbit(&case, begin, Pair::from_f64(-20.0), Precision::Float).expect("runs back");
+    assert!(distance(&back.end, &there.start.state) < 1e-12, "there and back again");
+}
+
+/// γ' = γ × ω and the equations of the ball once more, by hand: r = -Rγ - c.
+struct Ball;
+
+impl ODE<f64, [f64; 6]> for Ball {
+    fn diff(&self, _: f64, y: &[f64; 6], dydt: &mut [f64; 6]) {
+        use nalgebra::{Matrix3, Vector3};
+        let (m, radius) = (1.3, 3.0);
+        let centre = Vector3::new(0.7, -0.4, 1.1);
+        let (omega, gamma) = (Vector3::new(y[0], y[1], y[2]), Vector3::new(y[3], y[4], y[5]));
+        let rate = gamma.cross(&omega);
+        let (r, r_rate) = (-gamma * radius - centre, -rate * radius);
+        let central = Matrix3::from_diagonal(&Vector3::new(2.6, 1.2, 1.8));
+        let inertia = central + (Matrix3::identity() * r.dot(&r) - r * r.transpose()) * m;
+        let inverse = inertia.try_inverse().unwrap_or_default();
+        let forces = (inertia * omega).cross(&omega) - r.cross(&omega.cross(&r_rate)) * m;
+        let multiplier = -(inverse * gamma).dot(&forces) / (inverse * gamma).dot(&gamma);
+        let acceleration = inverse * (forces + gamma * multiplier);
+        dydt[..3].copy_from_slice(acceleration.as_slice());
+        dydt[3..].copy_from_slice(rate.as_slice());
+    }
+}
+
+#[test]
+fn an_independent_integrator_agrees() {
+    let case = parse(BALL);
+    let found = follow(&case, BALL_START, 20.0, Precision::Float);
+    let begin: Vec<f64> = found.start.state.iter().map(|x| x.hi).collect();
+    let begin: [f64; 6] = begin.try_into().expect("six components");
+    let mut method = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13);
+    let solved = ODEProblem::new(&Ball, 0.0, 20.0, begin).solve(&mut method).expect("solved");
+    let last: Vec<Pair> =
+        solved.y.last().expect("an end").iter().map(|x| Pair::from_f64(*x)).collect();
+    assert!(distance(&found.end, &last) < 1e-10, "two integrators, two derivations");
+}
+
+/// A field of its own with a solution that is known.
+fn solved(field: &str, begin: &str, time: f64) -> (f64, Pair) {
+    let text = format!(
+        "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
+         [field]\n\"x'\" = '{field}'\n"
+    );
+    let case = parse(&text);
+    let float = follow(&case, begin, time, Precision::Float).end[0].hi;
+    (float, follow(&case, begin, time, Precision::Pair).end[0])
+}
+
+#[test]
+fn every_function_has_its_rule() {
+    // Each field with a function V of x that grows at rate 1, or with its solution.
+    let check = |field: &str, begin: &str, time: f64, exact: f64| {
+        let (float, pair) = solved(field, begin, time);
+        assert!((float - exact).abs() < 4e-15 * exact.abs(), "{field}: {float} and {exact}");
+        assert!((pair.hi - exact).abs() < 4e-15 * exact.abs(), "{field}: {pair:?} and {exact}");
+        assert!((float - pair.hi).abs() < 2e-15 * exact.abs(), "{field}: {float} and {pair:?}");
+    };
+    check("exp(-x)", "x=1", 2.0, (1f64.exp() + 2.0).ln());
+    check("√x", "x=1", 3.0, 2.5 * 2.5);
+    check("1/x", "x=1", 4.0, 3.0);
+    check("x^(1/3)", "x=1", 4.5, 8.0);
+    check("x^(-2/3)", "x=1", 4.2, 8f64.powf(0.6));
+    check("x*ln(x)", "x=2", 1.0, (2f64.ln() * 1f64.exp()).exp());
+    check("sin(x)", "x=1", 1.5, 2.0 * (0.5f64.tan() * 1.5f64.exp()).atan());
+    check("cos(x)", "x=1/2", 1.0, (0.5f64.sin().atanh() + 1.0).tanh().asin());
+    check("(1 + x²)*atan(x)", "x=1/2", 0.5, (0.5f64.atan() * 0.5f64.exp()).tan());
+    check("x^x/((1 + ln(x))*x^x)", "x=2", 1.0, {
+        // x ln x grows at rate 1
+        let target = 2.0 * 2f64.ln() + 1.0;
+        (0..60).fold(3.0, |x: f64, _| x - (x * x.ln() - target) / (1.0 + x.ln()))
+    });
+}
+
+#[test]
+fn thirty_digits_of_a_known_solution() {
+    let (_, pair) = solved("x*(1 - x)", "x=1/3", 1.0);
+    // 1/(1 + 2/e), to 36 digits
+    let exact: Rational = "0.576116884765829230009953951270604474".parse().expect("a number");
+    let error = (&pair.to_rational().expect("finite") - &exact).abs().to_f64().0;
+    assert!(error < 1e-30, "off by {error:e}");
+}
+
+#[test]
+fn a_singularity_is_told_with_its_time() {
+    let text = "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
+                [field]\n\"x'\" = 'x²'\n";
+    let case = parse(text);
+    let found = orbit(&case, start(&case, "x=1"), Pair::from_f64(2.0), Precision::Float);
+    let Err(FlowError::Singular { time, .. }) = found else { panic!("1/(1 - t) ends at t = 1") };
+    assert!((time - 1.0).abs() < 1e-9, "found at t = {time}");
+}
+
+#[test]
+fn a_modulus_is_refused_by_name() {
+    let text = "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
+                [field]\n\"x'\" = 'abs(x)'\n";
+    let case = parse(text);
+    let found = orbit(&case, start(&case, "x=1"), Pair::from_f64(2.0), Precision::Float);
+    let error = found.expect_err("|x| has no series at 0").to_string();
+    assert!(error.contains("|x|"), "{error}");
+}
