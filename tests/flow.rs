@@ -99,8 +99,9 @@ fn an_independent_integrator_agrees() {
     let found = follow(&case, BALL_START, 20.0, Precision::Float);
     let begin: Vec<f64> = found.start.state.iter().map(|x| x.hi).collect();
     let begin: [f64; 6] = begin.try_into().expect("six components");
-    let mut method = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13);
-    let solved = ODEProblem::new(&Ball, 0.0, 20.0, begin).solve(&mut method).expect("solved");
+    let method = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13);
+    let problem = IVP::ode(&Ball, 0.0, 20.0, begin);
+    let solved = problem.method(method).solve().expect("solved");
     let last: Vec<Pair> =
         solved.y.last().expect("an end").iter().map(|x| Pair::from_f64(*x)).collect();
     assert!(distance(&found.end, &last) < 1e-10, "two integrators, two derivations");
@@ -146,7 +147,7 @@ fn every_function_has_its_rule() {
 fn thirty_digits_of_a_known_solution() {
     let (_, pair) = solved("x*(1 - x)", "x=1/3", 1.0);
     // 1/(1 + 2/e), to 36 digits
-    let exact: Rational = "0.576116884765829230009953951270604474".parse().expect("a number");
+    let exact: Rational = "0.576116884765829109858318923638500352".parse().expect("a number");
     let error = (&pair.to_rational().expect("finite") - &exact).abs().to_f64().0;
     assert!(error < 1e-30, "off by {error:e}");
 }

@@ -7,12 +7,12 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, solvable, variables, weights,
+    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, poincare, solvable, variables, weights,
 };
 use crate::mechanics::{Chart, Surface, System, Vocabulary};
 
 /// The keys of a case file.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "title",
     "source",
     "note",
@@ -29,6 +29,7 @@ const KEYS: [&str; 17] = [
     "let",
     "variables",
     "poisson",
+    "section",
     "claim",
 ];
 
@@ -67,7 +68,8 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     }
     let column = column(&root)?;
     let Parts { model, chart, free_draws } = parts;
-    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes })
+    let section = poincare::read(&root)?;
+    Ok(Case { title, source, system, model, chart, free_draws, claims, column, section, notes })
 }
 
 /// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.

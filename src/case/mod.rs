@@ -9,6 +9,7 @@ mod field;
 mod homogeneous;
 mod lagrangian;
 mod parameters;
+mod poincare;
 mod section;
 mod solvable;
 mod systems;
@@ -22,6 +23,7 @@ use crate::mechanics::{Chart, Draw, Model};
 
 pub use error::{CaseError, Problem};
 pub use parameters::Setting;
+pub use poincare::{Angle, Direction, SectionPlan};
 
 /// No case needs a larger file.
 const MAX_BYTES: u64 = 4 << 20;
@@ -46,6 +48,8 @@ pub struct Case {
     pub claims: Vec<Claim>,
     /// The table and column of the paper that this case belongs to.
     pub column: Option<Column>,
+    /// The Poincaré section that shows its motion.
+    pub section: Option<SectionPlan>,
     /// What to know beside the verdicts.
     pub notes: Vec<String>,
 }

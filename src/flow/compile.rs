@@ -4,8 +4,9 @@ use super::error::FlowError;
 use super::form::{Form, Row};
 use super::program::{Instruction, Program, Rule};
 use crate::graph::{Expr, Graph, Step};
+use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{Domain, Function, Operation};
 
 /// Coefficients are folded as long as they stay below this size.
 const MAX_COEFFICIENT_BITS: u64 = 1 << 13;
@@ -34,8 +35,13 @@ impl Program {
             circular: Vec::new(),
             thetas: Vec::new(),
         };
+        let constants = constants(graph);
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-            let form = compiler.form_of(step, dimension)?;
+            let form = match (step, &constants[place]) {
+                (Step::Constant(value), _) => Form::of_constant(value),
+                (_, Some(value)) => Form::of_constant(&value.to_rational().unwrap_or(Rational::from(0))),
+                _ => compiler.form_of(step, dimension)?,
+            };
             compiler.forms[place] = Some(form);
         }
         let mut rows = Vec::new();
@@ -51,6 +57,30 @@ impl Program {
             outputs,
         })
     }
+}
+
+/// The values of the steps that depend on constants alone, such as √2.
+fn constants(graph: &Graph) -> Vec<Option<Pair>> {
+    let mut values: Vec<Option<Pair>> = Vec::with_capacity(graph.len());
+    for step in graph.steps() {
+        let at = |place: usize| values[place];
+        let mut out = Pair::NAN;
+        let made = match step {
+            Step::Constant(value) => Some(Pair::from_rational(value)),
+            Step::Input(_) => None,
+            Step::Unary(function, a) => at(a).map(|x| {
+                Pairs.unary(function, &x, &mut out);
+                out
+            }),
+            Step::Binary(operation, a, b) => at(a).zip(at(b)).map(|(x, y)| {
+                Pairs.binary(operation, &x, &y, &mut out);
+                out
+            }),
+            Step::Power(a, exponent) => at(a).map(|x| x.power(exponent)),
+        };
+        values.push(made.filter(|value| value.is_finite()));
+    }
+    values
 }
 
 struct Compiler {

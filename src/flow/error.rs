@@ -20,6 +20,35 @@ pub enum FlowError {
         /// Where.
         state: Vec<f64>,
     },
+    /// The section has other variables than this system.
+    #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
+    NoAndoyer,
+    /// A point that is not on the sphere.
+    #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
+    OffSphere {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+    },
+    /// The energy does not reach the potential.
+    #[error("over (l, L/G) = ({l}, {z}) the potential is {potential}, at or above the energy")]
+    BelowPotential {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// U there.
+        potential: f64,
+    },
+    /// The motion does not come back to the section.
+    #[error("the section is not met again after {crossings} crossings, up to t = {time:.4e}")]
+    NeverCrossed {
+        /// Until when.
+        time: f64,
+        /// How often it was met.
+        crossings: usize,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -35,6 +64,10 @@ impl FlowError {
             FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { .. } => "choose another start, or a shorter time",
+            FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
+            FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
+            FlowError::NeverCrossed { .. } => "choose another start, or another g0",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -8,21 +8,26 @@
 //! of lower orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or
 //! over double-double.
 
+mod andoyer;
 mod compile;
 mod error;
+mod event;
 mod form;
 mod motion;
 mod number;
 mod orbit;
 mod program;
+mod section;
 mod series;
 mod start;
 mod stepper;
 
+pub use andoyer::spread;
 pub use error::FlowError;
 pub use motion::program;
 pub use number::{Lanes, Number};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit};
 pub use program::Program;
+pub use section::{Crossing, SectionOrbit, SectionRequest, section};
 pub use start::Start;
 pub use stepper::{Accuracy, Piece, Stepper};

@@ -27,6 +27,8 @@ pub trait Number:
     const LANES: usize;
     /// How many coefficients a dot product takes at once; rows are padded to multiples of it.
     const WIDTH: usize;
+    /// The spacing of numbers at 1.
+    const EPSILON: f64;
     /// A dot product before its parts are added up.
     type Partial: Copy;
 
@@ -86,6 +88,7 @@ impl Number for f64 {
     type One = f64;
     const ZERO: f64 = 0.0;
     const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = WIDTH;
     type Partial = Lanes<WIDTH>;
 
@@ -159,6 +162,7 @@ impl Number for Pair {
     type One = Pair;
     const ZERO: Pair = Pair { hi: 0.0, lo: 0.0 };
     const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
     const WIDTH: usize = 1;
     type Partial = Pair;
 
@@ -257,6 +261,7 @@ impl<const N: usize> Number for Lanes<N> {
     type One = f64;
     const ZERO: Self = Self([0.0; N]);
     const LANES: usize = N;
+    const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = 1;
     type Partial = Self;
 

@@ -9,7 +9,7 @@ use crate::case::{Case, Expect};
 use crate::claim::Kind;
 use crate::formula::Formula;
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::{LevelFunction, Phase};
+use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -183,6 +183,21 @@ fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
     let mut evaluator = Evaluator::new(tape, Pairs);
     evaluator.run(state);
     evaluator.outputs().copied().collect()
+}
+
+/// The relative change of the energy from a start to another state; 0 where there is no energy.
+pub(super) fn energy_drift(
+    model: &Model,
+    start: &Start,
+    end: &[Pair],
+) -> Result<f64, FlowError> {
+    let (graph, energy) = record(model.dimension(), |state| {
+        Source::Energy.values(&point(model, &start.parameters, state))
+    })?;
+    let tape = Tape::new(&graph, &energy);
+    let both = (values(&tape, &start.state), values(&tape, end));
+    let (Some(begin), Some(end)) = (both.0.first(), both.1.first()) else { return Ok(0.0) };
+    Ok((*end - *begin).hi.abs() / begin.hi.abs())
 }
 
 /// The level functions, the energy, the claimed integrals, and formulas that have to drift.

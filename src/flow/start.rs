@@ -27,6 +27,27 @@ pub struct Start {
     pub moved: f64,
 }
 
+/// The components of the free parameters at an index of the seed, and the state drawn with them.
+fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
+    let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+    let mut values: Vec<Rational> = sampler
+        .printed(index)
+        .iter()
+        .map(|text| text.parse().map_err(|_| FlowError::NoStart))
+        .collect::<Result<_, _>>()?;
+    let state = values.split_off(case.model.free_components());
+    Ok((values, state))
+}
+
+/// The components of the free parameters at an index of the seed.
+pub(super) fn fixed_parameters(
+    case: &Case,
+    seed: u64,
+    index: u64,
+) -> Result<Vec<Rational>, FlowError> {
+    drawn(case, seed, index).map(|(parameters, _)| parameters)
+}
+
 impl Start {
     /// The state `index` of the seed, or the one that is given, with the parameters of that index.
     pub fn new(
@@ -35,15 +56,9 @@ impl Start {
         seed: u64,
         index: u64,
     ) -> Result<Self, FlowError> {
-        let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
-        let drawn = sampler.printed(index);
-        let mut values: Vec<Rational> = drawn
-            .iter()
-            .map(|text| text.parse().map_err(|_| FlowError::NoStart))
-            .collect::<Result<_, _>>()?;
-        let drawn_state = values.split_off(case.model.free_components());
-        let state = state.unwrap_or(&drawn_state).iter().map(Pair::from_rational).collect();
-        Self::near(&case.model, values, state)
+        let (parameters, drawn) = drawn(case, seed, index)?;
+        let state = state.unwrap_or(&drawn).iter().map(Pair::from_rational).collect();
+        Self::near(&case.model, parameters, state)
     }
 
     /// The state of the level set nearest to this one, by Newton's method across the level.
