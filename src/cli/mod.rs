@@ -6,6 +6,7 @@ pub mod eval;
 mod files;
 pub mod orbit;
 pub mod search;
+pub mod section;
 pub mod stress;
 pub mod table;
 
@@ -33,6 +34,8 @@ pub enum Command {
     Search(Search),
     /// Follow one motion: the state at the end, and how far integrals drift
     Orbit(orbit::Orbit),
+    /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
+    Section(section::Section),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right

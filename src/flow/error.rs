@@ -49,6 +49,9 @@ pub enum FlowError {
         /// How often it was met.
         crossings: usize,
     },
+    /// A claim that the case does not have, or that is about no formula.
+    #[error("the case has no claim `{0}` about a formula")]
+    NoSuchClaim(String),
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -68,6 +71,7 @@ impl FlowError {
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => "choose another start, or another g0",
+            FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

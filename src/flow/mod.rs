@@ -28,6 +28,6 @@ pub use motion::program;
 pub use number::{Lanes, Number};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit};
 pub use program::Program;
-pub use section::{Crossing, SectionOrbit, SectionRequest, section};
+pub use section::{Crossing, SectionOrbit, SectionRequest, section, values_at_starts};
 pub use start::Start;
 pub use stepper::{Accuracy, Piece, Stepper};

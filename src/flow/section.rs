@@ -9,14 +9,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::andoyer::{Chart, applies, coordinates, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
-use super::motion::program;
+use super::motion::{point, program};
 use super::number::Lanes;
 use super::orbit::energy_drift;
 use super::program::Program;
 use super::start::{Start, fixed_parameters};
 use super::stepper::{Accuracy, Piece, Stepper};
 use crate::case::{Angle, Case, Direction};
-use crate::number::pair::Pair;
+use crate::graph::{Evaluator, Tape, record};
+use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 
 /// Orbits side by side.
@@ -120,6 +121,28 @@ pub fn section(
             Ok(orbit)
         })
         .collect()
+}
+
+/// The value of a claim's formula at each start, NaN where there is no state.
+pub fn values_at_starts(
+    case: &Case,
+    request: &SectionRequest,
+    claim: &str,
+) -> Result<Vec<f64>, FlowError> {
+    let formula = case.claim(claim).and_then(|claim| claim.kind.formula());
+    let formula = formula.ok_or_else(|| FlowError::NoSuchClaim(claim.to_string()))?;
+    let parameters = fixed_parameters(case, request.seed, request.index)?;
+    let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
+    let (graph, values) = record(case.model.dimension(), |state| {
+        point(&case.model, &parameters, state).evaluate(formula).components()
+    })?;
+    let tape = Tape::new(&graph, &values[..1]);
+    let mut evaluator = Evaluator::new(&tape, Pairs);
+    let mut at = |start: Start| {
+        evaluator.run(&start.state);
+        evaluator.output(0).hi
+    };
+    Ok(request.starts.iter().map(|l_z| chart.start(*l_z).map_or(f64::NAN, &mut at)).collect())
 }
 
 /// An orbit that is done.
