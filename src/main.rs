@@ -12,6 +12,7 @@ fn main() -> ExitCode {
         cli::Command::Bench(options) => cli::bench::run(&options),
         cli::Command::Check(options) => cli::check::run(&options),
         cli::Command::Eval(options) => cli::eval::run(&options),
+        cli::Command::Exponents(options) => cli::exponents::run(&options),
         cli::Command::Orbit(options) => cli::orbit::run(&options),
         cli::Command::Search(options) => cli::search::run(&options),
         cli::Command::Section(options) => cli::section::run(&options),

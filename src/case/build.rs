@@ -7,12 +7,12 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, poincare, solvable, variables, weights,
+    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, one_sided, poincare, solvable, variables, weights,
 };
 use crate::mechanics::{Chart, Surface, System, Vocabulary};
 
 /// The keys of a case file.
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 19] = [
     "title",
     "source",
     "note",
@@ -30,6 +30,7 @@ const KEYS: [&str; 18] = [
     "variables",
     "poisson",
     "section",
+    "one-sided",
     "claim",
 ];
 
@@ -67,9 +68,22 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
-    let Parts { model, chart, free_draws } = parts;
     let section = poincare::read(&root)?;
-    Ok(Case { title, source, system, model, chart, free_draws, claims, column, section, notes })
+    let one_sided = one_sided::read(&root, &parts.model)?;
+    let Parts { model, chart, free_draws } = parts;
+    Ok(Case {
+        title,
+        source,
+        system,
+        model,
+        chart,
+        free_draws,
+        claims,
+        column,
+        section,
+        one_sided,
+        notes,
+    })
 }
 
 /// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.

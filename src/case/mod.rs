@@ -8,6 +8,7 @@ mod error;
 mod field;
 mod homogeneous;
 mod lagrangian;
+mod one_sided;
 mod parameters;
 mod poincare;
 mod section;
@@ -22,6 +23,7 @@ use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
 pub use error::{CaseError, Problem};
+pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
 
@@ -50,6 +52,8 @@ pub struct Case {
     pub column: Option<Column>,
     /// The Poincaré section that shows its motion.
     pub section: Option<SectionPlan>,
+    /// A one-sided constraint, where the motion has one.
+    pub one_sided: Option<OneSided>,
     /// What to know beside the verdicts.
     pub notes: Vec<String>,
 }

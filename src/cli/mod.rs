@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod check;
 pub mod eval;
+pub mod exponents;
 mod files;
 pub mod orbit;
 pub mod search;
@@ -36,6 +37,8 @@ pub enum Command {
     Orbit(orbit::Orbit),
     /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
     Section(section::Section),
+    /// Measure the largest Lyapunov exponent and the mean divergence along motions
+    Exponents(exponents::Exponents),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right

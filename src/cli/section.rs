@@ -71,7 +71,7 @@ pub struct Section {
     pub json: bool,
 }
 
-fn parse_start(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn parse_start(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
     pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())

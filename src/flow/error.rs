@@ -52,6 +52,21 @@ pub enum FlowError {
     /// A claim that the case does not have, or that is about no formula.
     #[error("the case has no claim `{0}` about a formula")]
     NoSuchClaim(String),
+    /// A one-sided motion does not determine its past.
+    #[error("a motion with a one-sided constraint cannot be followed backwards")]
+    OneSidedBackwards,
+    /// A start beyond the constraint.
+    #[error("the start violates the one-sided constraint: its function is {by:e} there")]
+    BehindConstraint {
+        /// r, which should not be negative.
+        by: f64,
+    },
+    /// Contact and free motion alternate without end.
+    #[error("contact and free motion alternate without end near t = {time}")]
+    TooManyPhases {
+        /// When.
+        time: f64,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -72,6 +87,9 @@ impl FlowError {
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => "choose another start, or another g0",
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
+            FlowError::OneSidedBackwards => "give a positive --time",
+            FlowError::BehindConstraint { .. } => "choose a start where the function is not negative",
+            FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

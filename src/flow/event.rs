@@ -54,6 +54,11 @@ pub struct Sides {
 }
 
 impl Sides {
+    /// A function that is known to come from this side.
+    pub fn on(positive: bool) -> Self {
+        Self { positive: Some(positive) }
+    }
+
     /// What happens between 0 and `length`; not at 0, if that is where the motion starts.
     pub fn events<T: Number<One = T>>(&mut self, polynomial: &[T], length: T) -> Vec<Event<T>> {
         if length.leading() == 0.0 {

@@ -1,10 +1,10 @@
 //! The motion of a case with fixed parameters: its field as a Taylor program.
 
 use super::error::FlowError;
+use super::merge::merged;
 use super::program::Program;
-use crate::graph::{Expr, Graph, Step, record};
-use crate::mechanics::{LevelEquation, LevelFunction, Model, Phase};
-use crate::number::{Function, Operation};
+use crate::graph::{Expr, record};
+use crate::mechanics::{Model, Phase};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -25,44 +25,31 @@ pub fn program(
     parameters: &[Rational],
     further: impl FnOnce(&Phase<'_, Expr>) -> Vec<Expr>,
 ) -> Result<Program, FlowError> {
-    let (graph, (rates, outputs, unit)) = record(model.dimension(), |state| {
-        let phase = point(model, parameters, state);
-        (phase.field().to_vec(), further(&phase), unit_normal(&phase))
+    extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
+}
+
+/// The program of a field in the state and some more variables: `build` is given a point and those
+/// variables, and gives the rates of all, and further functions.
+pub(super) fn extended_program(
+    model: &Model,
+    parameters: &[Rational],
+    more: usize,
+    build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
+) -> Result<Program, FlowError> {
+    let dimension = model.dimension();
+    let (graph, (rates, outputs)) = record(dimension + more, |inputs| {
+        let (state, more) = inputs.split_at(dimension);
+        build(&point(model, parameters, state), more)
     })?;
-    // On the level (γ,γ) is 1, and what is built on it is constant.
-    let square = unit.and_then(|unit| square_of(&graph, graph.place(unit)));
-    let Some(square) = square else { return Program::compile(&graph, &rates, &outputs) };
+    if graph.inputs() > dimension + more {
+        return Err(FlowError::Antiderivative);
+    }
+    if !model.system.conserves_level() {
+        return Program::compile(&graph, &rates, &outputs);
+    }
     let count = rates.len();
     let wanted = [rates, outputs].concat();
-    let reached = graph.reached(wanted.iter().copied());
-    let (simpler, values) = record(model.dimension(), |state| {
-        let one = Expr::rational(&Rational::from(1));
-        let values =
-            graph.replay(&reached, state, |place, _, _| (place == square).then_some(one));
-        wanted.iter().map(|expr| values[graph.place(*expr)]).collect::<Option<Vec<Expr>>>()
-    })?;
-    let mut values = values.ok_or(FlowError::Antiderivative)?;
+    let (simpler, mut values) = merged(model, &graph, &wanted)?;
     let outputs = values.split_off(count);
     Program::compile(&simpler, &values, &outputs)
-}
-
-/// F0 = (γ,γ) - 1, for systems that keep the level whatever is put for (γ,γ): γ' is across γ, and
-/// a multiplier keeps (ω,γ).
-fn unit_normal(phase: &Phase<'_, Expr>) -> Option<Expr> {
-    let model = phase.model();
-    let unit = |equation: &&LevelEquation| matches!(equation.function, LevelFunction::UnitNormal);
-    let equation = model.level.iter().find(unit)?;
-    let keeps = model.system.conserves_level();
-    keeps.then(|| phase.level_function(&equation.function))
-}
-
-/// s, where the step is s - 1, which may be recorded as -(1 - s).
-fn square_of(graph: &Graph, place: usize) -> Option<usize> {
-    let is_one = |place: usize| matches!(graph.step(place), Step::Constant(one) if one.is_one());
-    match graph.step(place) {
-        Step::Unary(Function::Neg, inner) => square_of(graph, inner),
-        Step::Binary(Operation::Sub, a, b) if is_one(a) => Some(b),
-        Step::Binary(Operation::Sub, a, b) if is_one(b) => Some(a),
-        _ => None,
-    }
 }

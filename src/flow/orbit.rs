@@ -3,6 +3,7 @@
 use super::error::FlowError;
 use super::motion::{point, program};
 use super::number::Number;
+use super::one_sided::{ContactEvent, follow};
 use super::start::Start;
 use super::stepper::{Accuracy, Stepper};
 use crate::case::{Case, Expect};
@@ -69,6 +70,8 @@ pub struct Orbit {
     pub order: usize,
     /// What was followed.
     pub followed: Vec<Followed>,
+    /// What happened at a one-sided constraint.
+    pub events: Vec<ContactEvent>,
 }
 
 /// Follows a motion of a case for some time, backwards if it is negative.
@@ -84,31 +87,42 @@ pub fn orbit(
     }
 }
 
-fn orbit_over<T: Number>(
+fn orbit_over<T: Number<One = T>>(
     case: &Case,
     start: Start,
     time: Pair,
     accuracy: Accuracy,
 ) -> Result<Orbit, FlowError> {
-    let program = program(&case.model, &start.parameters, |_| Vec::new())?;
-    let mut stepper = Stepper::<T>::new(&program, accuracy);
     let mut watch = Watch::new(case, &start)?;
-    stepper.start(0, &start.state, time);
     let mut looks = 0;
-    while !stepper.is_done(0) {
-        stepper.expand();
-        stepper.check(0)?;
-        stepper.advance();
-        let passed = stepper.time(0).hi / time.hi * f64::from(LOOKS);
+    let mut look = |now: Pair, state: &[Pair]| {
+        let passed = now.hi / time.hi * f64::from(LOOKS);
         if passed >= f64::from(looks) {
             looks = passed as u32 + 1;
-            watch.look(&stepper.pairs(0));
+            watch.look(state);
         }
-    }
-    let end = stepper.pairs(0);
+    };
+    let (end, steps, events) = match &case.one_sided {
+        Some(rule) => {
+            let found = follow::<T>(case, rule, &start, time, accuracy, &mut look)?;
+            (found.end, found.steps, found.events)
+        }
+        None => {
+            let program = program(&case.model, &start.parameters, |_| Vec::new())?;
+            let mut stepper = Stepper::<T>::new(&program, accuracy);
+            stepper.start(0, &start.state, time);
+            while !stepper.is_done(0) {
+                stepper.expand();
+                stepper.check(0)?;
+                stepper.advance();
+                look(stepper.time(0), &stepper.pairs(0));
+            }
+            (stepper.pairs(0), stepper.steps(0), Vec::new())
+        }
+    };
     watch.look(&end);
-    let (steps, order) = (stepper.steps(0), accuracy.order);
-    Ok(Orbit { start, time, end, steps, order, followed: watch.followed })
+    let order = accuracy.order;
+    Ok(Orbit { start, time, end, steps, order, followed: watch.followed, events })
 }
 
 /// The quantities that are followed, on a tape.

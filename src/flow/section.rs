@@ -10,7 +10,7 @@ use super::andoyer::{Chart, applies, coordinates, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
 use super::motion::{point, program};
-use super::number::Lanes;
+use super::number::{Lanes, Number};
 use super::orbit::energy_drift;
 use super::program::Program;
 use super::start::{Start, fixed_parameters};
@@ -22,6 +22,8 @@ use crate::number::rational::Rational;
 
 /// Orbits side by side.
 const LANES: usize = 8;
+/// Fewer orbits than that are faster one by one.
+const FEW: usize = 4;
 /// A section that is not met in so many steps is not met again.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
 /// Far later than any crossing.
@@ -101,10 +103,13 @@ pub fn section(
     let next = AtomicUsize::new(0);
     let done = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, starts.len().div_ceil(LANES).max(1)) {
+        let abreast = if starts.len() < FEW { 1 } else { LANES };
+        for _ in 0..threads.clamp(1, starts.len().div_ceil(abreast).max(1)) {
             scope.spawn(|| {
-                let mut worker = Worker::new(&program, request, &starts, &next);
-                let own = worker.run(progress);
+                let own = match starts.len() {
+                    0..FEW => Worker::<f64>::new(&program, request, &starts, &next).run(progress),
+                    _ => Worker::<Lanes<LANES>>::new(&program, request, &starts, &next).run(progress),
+                };
                 done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
             });
         }
@@ -121,6 +126,22 @@ pub fn section(
             Ok(orbit)
         })
         .collect()
+}
+
+/// The states over points (l, L/G) of a section.
+pub fn section_starts(
+    case: &Case,
+    g0: &Angle,
+    energy: &Rational,
+    points: &[[f64; 2]],
+    seed: u64,
+) -> Result<Vec<Result<Start, FlowError>>, FlowError> {
+    if !applies(&case.model) {
+        return Err(FlowError::NoAndoyer);
+    }
+    let parameters = fixed_parameters(case, seed, 0)?;
+    let chart = Chart::new(&case.model, &parameters, g0, energy)?;
+    Ok(points.iter().map(|at| chart.start(*at)).collect())
 }
 
 /// The value of a claim's formula at each start, NaN where there is no state.
@@ -153,12 +174,12 @@ struct Done {
 }
 
 /// The orbits of one thread.
-struct Worker<'w> {
+struct Worker<'w, T: Number<One = f64>> {
     request: &'w SectionRequest,
     starts: &'w [Result<Start, FlowError>],
     next: &'w AtomicUsize,
-    stepper: Stepper<Lanes<LANES>>,
-    running: [Option<Running>; LANES],
+    stepper: Stepper<T>,
+    running: Vec<Option<Running>>,
     done: Vec<Done>,
 }
 
@@ -172,7 +193,7 @@ struct Running {
     last_met: u64,
 }
 
-impl<'w> Worker<'w> {
+impl<'w, T: Number<One = f64>> Worker<'w, T> {
     fn new(
         program: &Program,
         request: &'w SectionRequest,
@@ -180,12 +201,13 @@ impl<'w> Worker<'w> {
         next: &'w AtomicUsize,
     ) -> Self {
         let stepper = Stepper::new(program, Accuracy::FLOAT);
-        Self { request, starts, next, stepper, running: Default::default(), done: Vec::new() }
+        let running = (0..T::LANES).map(|_| None).collect();
+        Self { request, starts, next, stepper, running, done: Vec::new() }
     }
 
     fn run(&mut self, progress: &(dyn Fn() + Sync)) -> Vec<Done> {
         loop {
-            for lane in 0..LANES {
+            for lane in 0..T::LANES {
                 if self.running[lane].is_none() {
                     self.fill(lane, progress);
                 }
@@ -194,7 +216,7 @@ impl<'w> Worker<'w> {
                 return std::mem::take(&mut self.done);
             }
             self.stepper.expand();
-            for lane in 0..LANES {
+            for lane in 0..T::LANES {
                 if self.look(lane) {
                     self.finish(lane);
                     progress();
@@ -272,10 +294,10 @@ impl<'w> Worker<'w> {
 
 impl Running {
     /// Takes note of an event; has the orbit all its crossings?
-    fn meet(
+    fn meet<T: Number<One = f64>>(
         &mut self,
         event: Event<f64>,
-        piece: &Piece<'_, Lanes<LANES>>,
+        piece: &Piece<'_, T>,
         request: &SectionRequest,
         steps: u64,
     ) -> bool {

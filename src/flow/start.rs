@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Tape, record};
 use crate::mechanics::Model;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::{Jet, rejection};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::verdict::Sampler;
@@ -125,4 +125,20 @@ impl Level {
         }
         Err(FlowError::NoStart)
     }
+}
+
+/// A unit vector along the level set at a start, in no special direction.
+pub(super) fn across_level(model: &Model, start: &Start) -> Result<Vec<f64>, FlowError> {
+    let level = Level::new(model, &start.parameters)?;
+    let mut evaluator = Evaluator::new(&level.tape, Pairs);
+    evaluator.run(&start.state);
+    let outputs: Vec<f64> = evaluator.outputs().map(|value| value.hi).collect();
+    let gradients: Vec<Vec<f64>> =
+        outputs[level.equations..].chunks(model.dimension()).map(<[f64]>::to_vec).collect();
+    // Irrational directions: the golden ratio's multiples.
+    let any: Vec<f64> =
+        (1..=model.dimension()).map(|k| (k as f64 * 0.618_033_988_75).fract() - 0.37).collect();
+    let along = rejection(&any, &gradients);
+    let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+    Ok(along.into_iter().map(|x| x / length).collect())
 }

@@ -4,6 +4,8 @@
 //! norms (Jorba, Zou 2005, with κ in place of their 2 + 0.7/(n - 1)). The field does not depend on
 //! time, so that each lane takes its own step.
 
+use std::ops::Range;
+
 use super::error::FlowError;
 use super::number::Number;
 use super::program::Program;
@@ -69,6 +71,16 @@ impl<T: Number> Stepper<T> {
             set(&mut self.rest[index], lane, rest);
         }
         self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
+    }
+
+    /// Multiplies some components of a motion's state.
+    pub fn scale(&mut self, lane: usize, components: Range<usize>, factor: T::One) {
+        for row in components {
+            for part in [&mut self.state[row], &mut self.rest[row]] {
+                let scaled = part.lane(lane) * factor;
+                set(part, lane, scaled);
+            }
+        }
     }
 
     /// Changes where a motion ends.

@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod diagnostic;
 pub mod diagram;
+pub mod exponents;
 pub mod json;
 pub mod orbit;
 pub mod picture;

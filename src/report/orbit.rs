@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::case::Case;
-use crate::flow::{Orbit, Precision, Role};
+use crate::flow::{Contact, Orbit, Precision, Role};
 use crate::mechanics::Variable;
 use crate::number::pair::Pair;
 use crate::number::precise::Approximation;
@@ -26,6 +26,14 @@ fn role(role: Role) -> &'static str {
         Role::Energy => "energy",
         Role::Integral => "integral",
         Role::Decoy => "decoy",
+    }
+}
+
+fn contact(kind: Contact) -> &'static str {
+    match kind {
+        Contact::Arrives => "contact",
+        Contact::Leaves => "leaves",
+        Contact::Grazes => "grazes",
     }
 }
 
@@ -73,6 +81,12 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
     if orbit.start.moved > 0.0 {
         line(format!("the start was moved to the level set, by {:.1e}", orbit.start.moved));
     }
+    for event in &orbit.events {
+        let time = written(event.time, precision);
+        let values: Vec<String> = event.state.iter().map(|x| written(*x, precision)).collect();
+        line(format!("{:<8} at t = {time}", contact(event.kind)));
+        line(format!("  {:<16} {}", "state", values.join(", ")));
+    }
     line(format!("{:<44} {:<9} {:>10} {:>10}", "drift", "", "largest", "at the end"));
     for followed in &orbit.followed {
         line(format!(
@@ -107,6 +121,14 @@ pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, 
             })
         })
         .collect();
+    let events: Vec<Value> = orbit
+        .events
+        .iter()
+        .map(|event| {
+            let time = written(event.time, precision);
+            json!({ "event": contact(event.kind), "time": time, "state": state(&event.state) })
+        })
+        .collect();
     let mut root = Map::new();
     root.insert("title".into(), case.title.clone().into());
     root.insert("precision".into(), precision_name(precision).into());
@@ -116,6 +138,9 @@ pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, 
     root.insert("moved".into(), orbit.start.moved.into());
     root.insert("start".into(), state(&orbit.start.state));
     root.insert("end".into(), state(&orbit.end));
+    if !events.is_empty() {
+        root.insert("events".into(), events.into());
+    }
     root.insert("followed".into(), followed.into());
     serde_json::to_string_pretty(&Value::Object(root))
 }
