@@ -14,6 +14,7 @@ fn main() -> ExitCode {
         cli::Command::Eval(options) => cli::eval::run(&options),
         cli::Command::Exponents(options) => cli::exponents::run(&options),
         cli::Command::Orbit(options) => cli::orbit::run(&options),
+        cli::Command::Periodic(options) => cli::periodic::run(&options),
         cli::Command::Search(options) => cli::search::run(&options),
         cli::Command::Section(options) => cli::section::run(&options),
         cli::Command::Table(options) => cli::table::run(&options),

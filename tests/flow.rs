@@ -2,7 +2,10 @@
 
 use differential_equations::prelude::*;
 use liouville::case::Case;
-use liouville::flow::{FlowError, Orbit, Precision, Role, Start, orbit};
+use liouville::flow::{
+    Character, Contact, FlowError, Multipliers, Orbit, Precision, Role, SectionMap, SectionOrbit,
+    SectionRequest, Start, Variational, orbit, section, section_starts, spread, values_at_starts,
+};
 use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
 use liouville::verdict::read_state;
@@ -170,4 +173,144 @@ fn a_modulus_is_refused_by_name() {
     let found = orbit(&case, start(&case, "x=1"), Pair::from_f64(2.0), Precision::Float);
     let error = found.expect_err("|x| has no series at 0").to_string();
     assert!(error.contains("|x|"), "{error}");
+}
+
+/// A case of the catalogue.
+fn catalogue(path: &str) -> Case {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(path);
+    Case::read(&path, &[]).1.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn contact_leaving_and_grazing_at_the_right_times() {
+    let case = catalogue("one-sided/motion.toml");
+    // Reference times in 24 digits, by an independent computation in many digits.
+    let reference = [
+        (Contact::Arrives, "2.928150885740918661499363"),
+        (Contact::Leaves, "3.814896187257355099547223"),
+    ];
+    for (precision, bound) in [(Precision::Float, 1e-12), (Precision::Pair, 6e-25)] {
+        let found = follow(&case, "ω=[3,-27/10,3/2]", 12.0, precision);
+        let kinds: Vec<Contact> = found.events.iter().map(|event| event.kind).collect();
+        use Contact::{Arrives, Grazes, Leaves};
+        assert_eq!(kinds, [Arrives, Leaves, Grazes, Grazes], "in {precision:?}");
+        for (event, (_, time)) in found.events.iter().zip(&reference) {
+            let time: Rational = time.parse().expect("a number");
+            let error = (&event.time.to_rational().expect("finite") - &time).abs().to_f64().0;
+            assert!(error < bound, "{:?} is off by {error:e} in {precision:?}", event.kind);
+        }
+        let [energy, momentum] = [0, 1].map(|k| &found.followed[k]);
+        assert!(energy.drift < 1e-14, "the energy is kept through all phases");
+        assert!(momentum.drift > 0.2, "the momentum is not kept in contact");
+    }
+}
+
+#[test]
+fn a_start_behind_the_constraint_is_refused() {
+    let case = catalogue("one-sided/motion.toml");
+    let begin = start(&case, "ω=[-1,-1,-1]");
+    let found = orbit(&case, begin, Pair::from_f64(1.0), Precision::Float);
+    assert!(matches!(found, Err(FlowError::BehindConstraint { .. })), "(ω,e) < 0");
+}
+
+fn request(case: &Case, starts: &[[f64; 2]], crossings: usize) -> SectionRequest {
+    let plan = case.section.as_ref().expect("a [section]");
+    SectionRequest {
+        g0: plan.g0.clone(),
+        energy: plan.energy.clone(),
+        direction: plan.direction,
+        crossings,
+        skip: 0,
+        starts: starts.to_vec(),
+        backwards: false,
+        seed: 1,
+        index: 0,
+    }
+}
+
+#[test]
+fn sections_do_not_depend_on_threads_and_lie_on_level_lines() {
+    let case = catalogue("figures/fig-3.toml");
+    let mut starts = spread(20);
+    starts.push([1.0, 1.5]);
+    let request = request(&case, &starts, 40);
+    let one = section(&case, &request, 1, &|| ()).expect("a section");
+    let three = section(&case, &request, 3, &|| ()).expect("a section");
+    let bits = |orbits: &[SectionOrbit]| -> Vec<u64> {
+        let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
+        crossings.flat_map(|c| c.at.map(f64::to_bits)).collect()
+    };
+    assert_eq!(bits(&one), bits(&three), "byte for byte");
+    assert!(matches!(one[20].problem, Some(FlowError::OffSphere { .. })), "|L/G| > 1 is told");
+    for orbit in &one[..20] {
+        assert_eq!(orbit.crossings.len(), 40, "each orbit has its crossings");
+        assert!(orbit.drift < 1e-14, "energy: {:e}", orbit.drift);
+    }
+    // F2 is the same at all crossings of an orbit: put the crossings back on the section.
+    let crossings: Vec<[f64; 2]> = one[..4].iter().flat_map(|o| &o.crossings).map(|c| c.at).collect();
+    let again = SectionRequest { starts: crossings, ..request };
+    let values = values_at_starts(&case, &again, "F2").expect("a claim of the case");
+    for orbit in values.chunks(40) {
+        let spread = orbit.iter().fold(0f64, |worst, x| worst.max((x / orbit[0] - 1.0).abs()));
+        assert!(spread < 1e-12, "a level line of F2: {spread:e}");
+    }
+}
+
+#[test]
+fn the_strange_attractor_fills_the_left_half() {
+    let case = catalogue("figures/fig-8.toml");
+    let mut request = request(&case, &[[1.26685, -0.04083]], 2000);
+    request.skip = 1500;
+    request.crossings = 500;
+    let orbits = section(&case, &request, 1, &|| ()).expect("a section");
+    let range = orbits[0].crossings.iter().map(|c| c.at[0]);
+    let (low, high) = range.fold((f64::MAX, f64::MIN), |(a, b), l| (a.min(l), b.max(l)));
+    assert!(low > 0.3 && high < 3.0, "0.4 < l < 2.9: {low}, {high}");
+}
+
+#[test]
+fn fixed_points_have_the_multipliers_of_the_figures() {
+    let check = |file: &str, near: [f64; 2], at: [f64; 2], time: f64, product: f64| {
+        let case = catalogue(file);
+        let plan = case.section.as_ref().expect("a [section]");
+        let map = SectionMap::new(&case, &plan.g0, &plan.energy, 1).expect("a map");
+        let found = map.periodic(near, 1).expect("it converges");
+        for k in 0..2 {
+            assert!((found.at[k] - at[k]).abs() < 1e-9, "{file}: {:?} and {at:?}", found.at);
+        }
+        assert!((found.time - time).abs() < 2e-9, "{file}: returns after {}", found.time);
+        assert!((found.determinant - product).abs() < 1e-7, "{file}: {}", found.determinant);
+        found.multipliers()
+    };
+    let half = std::f64::consts::FRAC_PI_2;
+    let found = check("figures/fig-3.toml", [1.5, 0.02], [half, 0.0], 4.442882938, 1.0);
+    let Multipliers::Complex { argument, .. } = found else { panic!("elliptic") };
+    assert!((argument - 0.400072).abs() < 2e-6, "argument {argument}");
+    let found = check("figures/fig-3.toml", [3.1, 0.02], [2.0 * half, 0.0], 4.659734937, 1.0);
+    let Multipliers::Real(larger, _) = found else { panic!("hyperbolic") };
+    assert!((larger - 1.33154584).abs() < 1e-7, "multiplier {larger}");
+    let sink = [3.359081287460, 0.324121776845];
+    let modulus: f64 = 0.99000342;
+    let found = check("figures/fig-8.toml", [3.36, 0.32], sink, 3.197991923, modulus * modulus);
+    let Multipliers::Complex { argument, .. } = found else { panic!("a sink that turns") };
+    assert!((argument - 0.715269).abs() < 2e-6, "argument {argument}");
+}
+
+#[test]
+fn exponents_tell_regular_motion_from_chaos() {
+    let exponents = |file: &str, at: [f64; 2], time: f64| {
+        let case = catalogue(file);
+        let plan = case.section.as_ref().expect("a [section]");
+        let starts = section_starts(&case, &plan.g0, &plan.energy, &[at], 1).expect("a chart");
+        let start = starts.into_iter().next().expect("one").expect("a state");
+        Variational::new(&case.model, &start).and_then(|motion| motion.exponents(time))
+    };
+    let regular = exponents("figures/fig-3.toml", [1.0, 0.3], 1000.0).expect("no singularity");
+    assert_eq!(regular.character, Character::Regular, "{regular:?}");
+    assert!(regular.largest.mean < 0.004, "falls like (ln t)/t: {regular:?}");
+    let chaos = exponents("figures/fig-14.toml", [1.26685, 0.42875], 1500.0).expect("no singularity");
+    assert_eq!(chaos.character, Character::ConservativeChaos, "{chaos:?}");
+    assert!((chaos.largest.mean - 0.104).abs() < 3.0 * (chaos.largest.error + 0.006), "{chaos:?}");
+    let back = exponents("figures/fig-14.toml", [1.26685, 0.42875], -300.0).expect("no singularity");
+    assert!(back.largest.mean > 0.05, "chaos backwards too: {back:?}");
 }

@@ -8,6 +8,7 @@ mod error;
 mod field;
 mod homogeneous;
 mod lagrangian;
+mod lines;
 mod one_sided;
 mod parameters;
 mod poincare;
@@ -23,6 +24,7 @@ use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
 pub use error::{CaseError, Problem};
+pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};

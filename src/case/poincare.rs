@@ -3,8 +3,12 @@
 use toml::de::DeValue;
 
 use super::error::{CaseError, Problem};
+use super::lines::Line;
 use super::section::{Section, Text, numbers};
 use crate::number::rational::Rational;
+
+/// Images of a line where a case does not say how many: as in the paper's figures.
+const DEFAULT_IMAGES: usize = 10;
 
 /// An angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +52,10 @@ pub struct SectionPlan {
     pub colour: Option<String>,
     /// Follow the motion backwards in time?
     pub backwards: bool,
+    /// Lines whose images under the section map are drawn.
+    pub lines: Vec<Line>,
+    /// How many images of them, forwards and backwards.
+    pub images: usize,
 }
 
 impl std::str::FromStr for Angle {
@@ -114,6 +122,12 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError>
         starts: starts(&section)?,
         colour: section.text("colour")?.map(|text| text.value),
         backwards: section.boolean("backwards")?.unwrap_or(false),
+        lines: section
+            .texts("lines")?
+            .iter()
+            .map(|text| text.value.parse().map_err(|message| wrong(text, message)))
+            .collect::<Result<_, _>>()?,
+        images: section.integer("images")?.map_or(DEFAULT_IMAGES, |count| count as usize),
     };
     section.finish()?;
     Ok(Some(plan))

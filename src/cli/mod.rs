@@ -6,6 +6,7 @@ pub mod eval;
 pub mod exponents;
 mod files;
 pub mod orbit;
+pub mod periodic;
 pub mod search;
 pub mod section;
 pub mod stress;
@@ -39,6 +40,8 @@ pub enum Command {
     Section(section::Section),
     /// Measure the largest Lyapunov exponent and the mean divergence along motions
     Exponents(exponents::Exponents),
+    /// Find fixed and periodic points of a section, with their multipliers
+    Periodic(periodic::Periodic),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville::case::{Angle, Case, Direction};
-use liouville::flow::{self, SectionRequest};
+use liouville::case::{Angle, Case, Direction, Line};
+use liouville::flow::{self, FlowError, SectionOrbit, SectionRequest};
 use liouville::number::rational::Rational;
-use liouville::report::section::{SectionReport, picture};
+use liouville::report::section::{SectionReport, draw_lines, picture};
 use liouville::report::picture;
 
 use super::Answer;
@@ -19,6 +19,9 @@ use super::orbit::told;
 /// Orbits and crossings where neither the case nor the command line says how many.
 const ORBITS: usize = 40;
 const CROSSINGS: usize = 500;
+/// Points of a line whose images are drawn, and how many images.
+const POINTS: usize = 800;
+const IMAGES: usize = 10;
 
 #[derive(Debug, Args)]
 pub struct Section {
@@ -51,6 +54,12 @@ pub struct Section {
     /// Colour the orbits by the value of this claim's formula, instead of one by one
     #[arg(long, value_name = "CLAIM")]
     pub colour: Option<String>,
+    /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and 3π/2)
+    #[arg(long, value_delimiter = ',')]
+    pub lines: Vec<Line>,
+    /// How many images of the lines, forwards and backwards
+    #[arg(long)]
+    pub images: Option<usize>,
     /// Draw to this file, .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -96,7 +105,9 @@ pub fn run(options: &Section) -> Result<Answer, String> {
         ),
     };
     if let Some(path) = &options.out {
-        let drawn = picture(&case.title, &orbits, shades.as_deref(), options.width);
+        let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.width);
+        let images = images(&case, &request, options, threads);
+        draw_lines(&mut drawn, &images.map_err(|error| told(&options.case, &error))?);
         write(path, &drawn)?;
     }
     let report = SectionReport { case: &case, request: &request, orbits: &orbits };
@@ -110,6 +121,33 @@ pub fn run(options: &Section) -> Result<Answer, String> {
         Some(problem) if empty => Err(told(&options.case, problem)),
         _ => Ok(Answer { text, code: 0 }),
     }
+}
+
+/// The images of the lines that are asked for, forwards and backwards.
+fn images(
+    case: &Case,
+    request: &SectionRequest,
+    options: &Section,
+    threads: usize,
+) -> Result<Vec<Vec<SectionOrbit>>, FlowError> {
+    let plan = case.section.as_ref();
+    let lines = match &options.lines[..] {
+        [] => plan.map(|plan| plan.lines.clone()).unwrap_or_default(),
+        given => given.to_vec(),
+    };
+    let crossings = options.images.or(plan.map(|plan| plan.images)).unwrap_or(IMAGES);
+    let image = |line: &Line| {
+        let mut both = Vec::new();
+        for backwards in [false, true] {
+            let starts = line.points(POINTS);
+            let (skip, direction) = (0, Direction::Both);
+            let request =
+                SectionRequest { starts, crossings, skip, direction, backwards, ..request.clone() };
+            both.extend(flow::section(case, &request, threads, &|| ())?);
+        }
+        Ok(both)
+    };
+    lines.iter().map(image).collect()
 }
 
 /// What the command line asks for, and the case where it does not say.

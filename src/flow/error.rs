@@ -67,6 +67,16 @@ pub enum FlowError {
         /// When.
         time: f64,
     },
+    /// Newton's method does not converge.
+    #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
+    NoPeriodicPoint {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// How many crossings.
+        period: usize,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -90,6 +100,7 @@ impl FlowError {
             FlowError::OneSidedBackwards => "give a positive --time",
             FlowError::BehindConstraint { .. } => "choose a start where the function is not negative",
             FlowError::TooManyPhases { .. } => "choose a shorter time",
+            FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -288,7 +288,17 @@ impl<T: Number> Series<T> {
     /// Σ c x_k y_{n-k} from k = 1 to n - 1 for each operation; lower orders only.
     #[inline(always)]
     fn inner_sums(&mut self, n: usize) {
-        let length = (n - 1).next_multiple_of(T::WIDTH);
+        // A length that is known when this is compiled makes the loops straight.
+        match (n - 1).next_multiple_of(T::WIDTH) {
+            8 if T::WIDTH == 8 => self.inner_sums_of(n, 8),
+            16 if T::WIDTH == 8 => self.inner_sums_of(n, 16),
+            24 if T::WIDTH == 8 => self.inner_sums_of(n, 24),
+            length => self.inner_sums_of(n, length),
+        }
+    }
+
+    #[inline(always)]
+    fn inner_sums_of(&mut self, n: usize, length: usize) {
         for (inner, operation) in self.partial.iter_mut().zip(&self.operations) {
             let mut sum = T::nothing();
             for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize] {
@@ -402,11 +412,13 @@ impl<T: Number> Series<T> {
                 }
                 for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize]
                 {
+                    let mut outer = T::ZERO;
                     for product in &self.products[group.first as usize..group.last as usize] {
-                        let outer = memory[product.a] * memory[product.b + n]
-                            + memory[product.a + n] * memory[product.b];
-                        sum = group.weight.add(sum, outer);
+                        outer = outer
+                            + (memory[product.a] * memory[product.b + n]
+                                + memory[product.a + n] * memory[product.b]);
                     }
+                    sum = group.weight.add(sum, outer);
                 }
                 sum
             }

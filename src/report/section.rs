@@ -117,6 +117,18 @@ pub fn picture(
     }
 }
 
+/// Adds the images of lines, a colour each, and makes room for them.
+pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
+    for (index, orbits) in lines.iter().enumerate() {
+        let start = |orbit: &SectionOrbit| Dot { l: orbit.start[0], z: orbit.start[1] };
+        let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
+        let mut dots: Vec<Dot> = crossings.map(|c| Dot { l: c.at[0], z: c.at[1] }).collect();
+        dots.extend(orbits.iter().map(start));
+        let shade = index as f64 / 2.0;
+        picture.layers.push(Layer { shade, dots });
+    }
+}
+
 /// The rank of each value, from 0 for the least to 1 for the largest.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
