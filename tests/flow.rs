@@ -314,3 +314,46 @@ fn exponents_tell_regular_motion_from_chaos() {
     let back = exponents("figures/fig-14.toml", [1.26685, 0.42875], -300.0).expect("no singularity");
     assert!(back.largest.mean > 0.05, "chaos backwards too: {back:?}");
 }
+
+/// The Euler top with I33 = 1/ε and its limits, in the example of the catalogue's limit theorem.
+fn top(field: &str) -> Case {
+    parse(&format!(
+        "title = 't'\nsystem = 'field'\ncheck-weights = false\n[parameters]\n\
+         I = [['5/2', '2/5', '-3/7'], ['2/5', '17/8', '1/2'], ['-3/7', '1/2', 3]]\n{field}"
+    ))
+}
+
+#[test]
+fn heavy_tops_tend_to_the_vakonomic_motion_at_the_stated_rate() {
+    let planar = |rates: &str, begin: &str| {
+        let text = format!(
+            "[state]\nw1 = '-2..2'\nw2 = '-2..2'\nn = '-2..2'\n[let]\n\
+             d = 'I[1,1]*I[2,2] − I[1,2]²'\nM3 = 'I[1,3]*w1 + I[2,3]*w2 − n'\n{rates}"
+        );
+        follow(&top(&text), begin, 2.0, Precision::Pair).end
+    };
+    let vakonomic = planar(
+        "dw1 = '−M3*(I[2,2]*w2 + I[1,2]*w1)/d'\ndw2 = 'M3*(I[1,2]*w2 + I[1,1]*w1)/d'\n\
+         [field]\n\"w1'\" = 'dw1'\n\"w2'\" = 'dw2'\n\
+         \"n'\" = 'I[1,3]*dw1 + I[2,3]*dw2 + (I[2,2] − I[1,1])*w1*w2 + I[1,2]*(w1² − w2²)'\n",
+        "w1=2/3 w2=-4/5 n=0",
+    );
+    // Reference values by an independent computation in many digits.
+    let reference = ["0.219175412765153974817361757237", "-0.993768214773554576043339364269"];
+    for (value, exact) in vakonomic.iter().zip(reference) {
+        let exact: Rational = exact.parse().expect("a number");
+        let error = (&value.to_rational().expect("finite") - &exact).abs().to_f64().0;
+        assert!(error < 1e-28, "off by {error:e}");
+    }
+    // The error times I33, by the theorem's rate O(1/I33).
+    for (moment, constant) in [("100", 0.0332518669130), ("10000", 0.0331946942146)] {
+        let text = format!(
+            "[state]\nw = 'vector(-2..2)'\n[let]\n\
+             A = 'mat([I[1,1], I[1,2], I[1,3]], [I[1,2], I[2,2], I[2,3]], [I[1,3], I[2,3], {moment}])'\n\
+             [field]\n\"w'\" = 'A⁻¹*(A*w × w)'\n"
+        );
+        let found = follow(&top(&text), "w=[2/3,-4/5,0]", 2.0, Precision::Pair).end;
+        let error = distance(&found[..2], &vakonomic[..2]) * moment.parse::<f64>().expect("one");
+        assert!((error - constant).abs() < 1e-10, "I33 = {moment}: {error} and {constant}");
+    }
+}

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::FlowError;
 use super::motion::point;
+use super::number::Number;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Tape, record};
@@ -113,8 +114,9 @@ impl Level {
             if !size.is_finite() {
                 break;
             }
-            // Steps shrink until rounding stops them.
-            if size == 0.0 || (size >= last && size < f64::EPSILON * norm(state)) {
+            // Steps shrink until rounding stops them; components near 0 would shrink for ever.
+            let rounding = Pair::EPSILON * norm(state);
+            if size <= rounding || (size >= last && size < f64::EPSILON * norm(state)) {
                 let moved: Vec<Pair> = state.iter().zip(&begin).map(|(x, y)| *x - *y).collect();
                 return Ok(norm(&moved));
             }

@@ -80,7 +80,7 @@ impl Canvas {
             let width = ADVANCE * name.chars().count() as i64;
             self.write(name, left - 6 - width, (y - SIZE.1 / 2).max(0));
         }
-        self.write("l", right - 28, bottom + 8);
+        self.write("l", (frame.x(TICKS_L[3].0) as i64 + right) / 2, bottom + 8);
         self.write("L/G", left - 6 - 3 * ADVANCE, frame.y(0.75) as i64 - SIZE.1 / 2);
     }
 

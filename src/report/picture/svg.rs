@@ -68,9 +68,9 @@ fn axes(out: &mut String, frame: &Frame) {
     }
     let _ = writeln!(
         out,
-        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">l</text>\
+        "<text x=\"{:.1}\" y=\"{:.1}\" font-style=\"italic\">l</text>\
          <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">L/G</text>",
-        right - 20.0,
+        (frame.x(TICKS_L[3].0) + right) / 2.0,
         bottom + 18.0,
         left - 7.0,
         frame.y(0.75) + 4.0
