@@ -353,7 +353,10 @@ fn orbit_reports_drift_beside_a_decoy() {
     };
     assert!(drift("energy") < 1e-14 && drift("integral") < 1e-14, "rounding alone");
     assert!(drift("decoy") > 1e-3, "what is no integral drifts");
-    assert!(report["moved"].as_f64().is_some_and(|moved| moved > 0.1), "the start is off the level");
+    assert!(
+        report["moved"].as_f64().is_some_and(|moved| moved > 0.1),
+        "the start is off the level"
+    );
     let wrong = liouville(&["orbit", &case, "--state", "ω=[0,0,0]"]).assert().code(2);
     wrong.stderr(contains("no value for `γ`"));
 }
@@ -366,7 +369,8 @@ fn section_draws_the_same_bytes_with_any_threads() {
         let draw = |name: &str, threads: &str| {
             let path = folder.join(format!("{name}.{ending}"));
             let out = path.to_str().expect("UTF-8");
-            let arguments = ["--orbits", "12", "--crossings", "20", "--threads", threads, "--out", out];
+            let arguments =
+                ["--orbits", "12", "--crossings", "20", "--threads", threads, "--out", out];
             liouville(&[&["section", &case], &arguments[..]].concat()).assert().success();
             fs::read(path).expect("a picture")
         };
@@ -383,7 +387,10 @@ fn sections_that_cannot_be_drawn_say_why() {
     fails(&["section", &case, "--energy", "10"], "at or above the energy");
     fails(&["section", &case, "--start", "1,1.5"], "has to be below 1");
     fails(&["section", &case, "--g0", "tomorrow"], "is no angle");
-    fails(&["section", &case, "--start", "1,0", "--crossings", "1", "--out", "x.gif"], "neither .svg");
+    fails(
+        &["section", &case, "--start", "1,0", "--crossings", "1", "--out", "x.gif"],
+        "neither .svg",
+    );
     let free = folder("no-section", &[("free.toml", GOOD)]).join("free.toml");
     fails(&["section", free.to_str().expect("UTF-8")], "no [section]");
 }

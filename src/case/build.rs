@@ -7,7 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, one_sided, poincare, solvable, variables, weights,
+    Case, Claim, Column, TABLE_ROWS, claims, field, homogeneous, one_sided, poincare, solvable,
+    variables, weights,
 };
 use crate::mechanics::{Chart, Surface, System, Vocabulary};
 

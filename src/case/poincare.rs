@@ -78,7 +78,9 @@ impl std::str::FromStr for Angle {
 impl std::fmt::Display for Angle {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Angle::QuarterTurns(turns) => out.write_str(["0", "π/2", "π", "3π/2"][*turns as usize % 4]),
+            Angle::QuarterTurns(turns) => {
+                out.write_str(["0", "π/2", "π", "3π/2"][*turns as usize % 4])
+            }
             Angle::Radians(value) => write!(out, "{value}"),
         }
     }
@@ -112,9 +114,10 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError>
     };
     let plan = SectionPlan {
         g0: g0.value.parse().map_err(|message| wrong(&g0, message))?,
-        energy: energy.value.parse().map_err(|_| {
-            wrong(&energy, format!("`{}` is no number", energy.value))
-        })?,
+        energy: energy
+            .value
+            .parse()
+            .map_err(|_| wrong(&energy, format!("`{}` is no number", energy.value)))?,
         direction,
         orbits: section.integer("orbits")?.map(|count| count as usize),
         crossings: section.integer("crossings")?.map(|count| count as usize),

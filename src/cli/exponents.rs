@@ -93,7 +93,9 @@ pub fn run(options: &Exponents) -> Result<Answer, String> {
         rows.push((name, exponents.map_err(told)?));
     }
     let text = match options.json {
-        true => exponents::json(&case.title, &rows).map_err(|error| format!("error: {error}"))? + "\n",
+        true => {
+            exponents::json(&case.title, &rows).map_err(|error| format!("error: {error}"))? + "\n"
+        }
         false => exponents::text(&case.title, &rows),
     };
     Ok(Answer { text, code: 0 })

@@ -68,8 +68,7 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
         ),
     };
     let told = |error: FlowError| told(&options.case, &error);
-    let start =
-        Start::new(&case, state.as_deref(), options.seed, options.index).map_err(told)?;
+    let start = Start::new(&case, state.as_deref(), options.seed, options.index).map_err(told)?;
     let precision = options.precision.precision();
     let time = Pair::from_rational(&options.time);
     let found = flow::orbit(&case, start, time, precision).map_err(told)?;

@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use liouville::case::{Angle, Case, Direction, Line};
 use liouville::flow::{self, FlowError, SectionOrbit, SectionRequest};
 use liouville::number::rational::Rational;
-use liouville::report::section::{SectionReport, draw_lines, picture};
 use liouville::report::picture;
+use liouville::report::section::{SectionReport, draw_lines, picture};
 
 use super::Answer;
 use super::eval::open;
@@ -90,13 +90,14 @@ pub fn run(options: &Section) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;
     let request = request(&case, options)?;
     let bar = progress(request.starts.len() as u64);
-    let threads = options.threads.unwrap_or_else(|| {
-        std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
-    });
+    let threads = options
+        .threads
+        .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
     let orbits = flow::section(&case, &request, threads, &|| bar.inc(1))
         .map_err(|error| told(&options.case, &error))?;
     bar.finish_and_clear();
-    let colour = options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
+    let colour =
+        options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
     let shades = match &colour {
         None => None,
         Some(name) => Some(
@@ -164,7 +165,9 @@ fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
     let spread = match (options.orbits, plan) {
         (Some(count), _) => count,
         (None, _) if !options.start.is_empty() => 0,
-        (None, Some(plan)) => plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 }),
+        (None, Some(plan)) => {
+            plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 })
+        }
         (None, None) => ORBITS,
     };
     let mut starts = match plan {

@@ -86,11 +86,8 @@ impl<'m> Chart<'m> {
             let (cos, sin) = circular(g0);
             let s = (Expr::rational(&Rational::from(1)) - z * z).sqrt();
             let direction = [s * l.sin(), s * l.cos(), z];
-            let gamma = [
-                z * cos * l.sin() + sin * l.cos(),
-                z * cos * l.cos() - sin * l.sin(),
-                -(s * cos),
-            ];
+            let gamma =
+                [z * cos * l.sin() + sin * l.cos(), z * cos * l.cos() - sin * l.sin(), -(s * cos)];
             let energy_at = |omega: [Expr; 3]| {
                 let state = [omega, gamma].concat();
                 model.system.energy(&point(model, parameters, &state))

@@ -39,7 +39,9 @@ impl Program {
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             let form = match (step, &constants[place]) {
                 (Step::Constant(value), _) => Form::of_constant(value),
-                (_, Some(value)) => Form::of_constant(&value.to_rational().unwrap_or(Rational::from(0))),
+                (_, Some(value)) => {
+                    Form::of_constant(&value.to_rational().unwrap_or(Rational::from(0)))
+                }
                 _ => compiler.form_of(step, dimension)?,
             };
             compiler.forms[place] = Some(form);
@@ -127,8 +129,7 @@ impl Compiler {
                 let base = self.row(a);
                 let logarithm = self.logarithm(base);
                 let (factor, exponent) = self.factor(b);
-                let argument =
-                    self.emit(Rule::Sum, Form::of_product(factor, exponent, logarithm));
+                let argument = self.emit(Rule::Sum, Form::of_product(factor, exponent, logarithm));
                 Form::of_row(Self::one(), self.exponential(argument))
             }
             Step::Unary(Function::Neg, a) => self.term(a).times(&Rational::from(-1)),
@@ -148,8 +149,11 @@ impl Compiler {
                 let theta = self.theta(x);
                 // The row itself, and the θ of it that comes after it.
                 let (out, own_theta) = (self.next, self.next + 1);
-                let form = Form::of_product(exponent.clone(), theta, out)
-                    .plus(Form::of_product(Rational::from(-1), own_theta, x));
+                let form = Form::of_product(exponent.clone(), theta, out).plus(Form::of_product(
+                    Rational::from(-1),
+                    own_theta,
+                    x,
+                ));
                 let rule = Rule::Power { x, theta, exponent: exponent.clone() };
                 let row = self.emit(rule, form);
                 self.theta(row);

@@ -98,7 +98,9 @@ impl FlowError {
             FlowError::NeverCrossed { .. } => "choose another start, or another g0",
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
             FlowError::OneSidedBackwards => "give a positive --time",
-            FlowError::BehindConstraint { .. } => "choose a start where the function is not negative",
+            FlowError::BehindConstraint { .. } => {
+                "choose a start where the function is not negative"
+            }
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",

@@ -28,13 +28,15 @@ mod stepper;
 
 pub use andoyer::spread;
 pub use error::FlowError;
+pub use lyapunov::{Character, Estimate, Exponents, Variational};
 pub use motion::program;
 pub use number::{Lanes, Number};
-pub use lyapunov::{Character, Estimate, Exponents, Variational};
 pub use one_sided::{Contact, ContactEvent};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit};
-pub use program::Program;
 pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
-pub use section::{Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts};
+pub use program::Program;
+pub use section::{
+    Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
+};
 pub use start::Start;
 pub use stepper::{Accuracy, Piece, Stepper};

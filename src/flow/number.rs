@@ -239,7 +239,7 @@ macro_rules! lanewise {
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
                 for lane in 0..N {
-                    self.0[lane] = self.0[lane] $operator other.0[lane];
+                    self.0[lane] $operator other.0[lane];
                 }
                 self
             }
@@ -247,7 +247,7 @@ macro_rules! lanewise {
     )*};
 }
 
-lanewise! { Add add +; Sub sub -; Mul mul *; }
+lanewise! { Add add +=; Sub sub -=; Mul mul *=; }
 
 impl<const N: usize> Neg for Lanes<N> {
     type Output = Self;

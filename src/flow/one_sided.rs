@@ -63,9 +63,8 @@ impl Phases {
             outputs
         })?;
         let touching = Model { system: System::Field(rule.contact.clone()), ..model.clone() };
-        let contact = program(&touching, &start.parameters, |phase| {
-            vec![phase.scalar(&rule.reaction)]
-        })?;
+        let contact =
+            program(&touching, &start.parameters, |phase| vec![phase.scalar(&rule.reaction)])?;
         Ok(Self { free, contact })
     }
 }
@@ -129,7 +128,9 @@ impl<T: Number<One = T>> Walk<T> {
         let piece = self.free.piece(0);
         let first = |output: usize| piece.output(output)[0].leading();
         let (r, rate, reaction) = (first(0), first(1), first(2));
-        let rounding = ROUNDINGS * T::EPSILON * piece.output(0).iter().map(|x| x.leading().abs()).fold(0.0, f64::max);
+        let rounding = ROUNDINGS
+            * T::EPSILON
+            * piece.output(0).iter().map(|x| x.leading().abs()).fold(0.0, f64::max);
         match r {
             r if r > rounding => Ok(false),
             r if r < -rounding => Err(FlowError::BehindConstraint { by: r }),
@@ -158,7 +159,8 @@ impl<T: Number<One = T>> Walk<T> {
                     false => Contact::Grazes,
                 };
                 // The tangency at which a free phase begins is no event.
-                let begins = self.free.steps(0) == 0 && after.leading() < 1e-3 * piece.length().leading();
+                let begins =
+                    self.free.steps(0) == 0 && after.leading() < 1e-3 * piece.length().leading();
                 if kind == Contact::Grazes && begins {
                     continue;
                 }

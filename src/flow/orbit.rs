@@ -181,7 +181,8 @@ impl Watch {
         for followed in &mut self.followed {
             let (own, others) = rest.split_at(followed.value.len());
             rest = others;
-            let norm = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+            let norm =
+                |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
             let change = norm(&mut own.iter().zip(&followed.value).map(|(x, y)| (*x - *y).hi));
             let size = norm(&mut followed.value.iter().map(|x| x.hi));
             let at_level = followed.role == Role::Level || size == 0.0;
@@ -200,11 +201,7 @@ fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
 }
 
 /// The relative change of the energy from a start to another state; 0 where there is no energy.
-pub(super) fn energy_drift(
-    model: &Model,
-    start: &Start,
-    end: &[Pair],
-) -> Result<f64, FlowError> {
+pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result<f64, FlowError> {
     let (graph, energy) = record(model.dimension(), |state| {
         Source::Energy.values(&point(model, &start.parameters, state))
     })?;

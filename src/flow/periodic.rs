@@ -102,9 +102,8 @@ impl<'c> SectionMap<'c> {
             return Err(FlowError::NoAndoyer);
         }
         let parameters = fixed_parameters(case, seed, 0)?;
-        let program = program(&case.model, &parameters, |phase| {
-            section_functions(phase, g0).to_vec()
-        })?;
+        let program =
+            program(&case.model, &parameters, |phase| section_functions(phase, g0).to_vec())?;
         Ok(Self { chart: Chart::new(&case.model, &parameters, g0, energy)?, program })
     }
 
@@ -150,11 +149,15 @@ impl<'c> SectionMap<'c> {
             };
             let (ahead, behind) = (moved(1.0)?.0, moved(-1.0)?.0);
             let across = 2.0 * distance;
-            Ok::<_, FlowError>([short(ahead[0] - behind[0]) / across, (ahead[1] - behind[1]) / across])
+            Ok::<_, FlowError>([
+                short(ahead[0] - behind[0]) / across,
+                (ahead[1] - behind[1]) / across,
+            ])
         };
         let mut columns = [[0.0; 2]; 2];
         for (column, entries) in columns.iter_mut().enumerate() {
-            let (wide, narrow) = (difference(column, DISTANCE)?, difference(column, DISTANCE / 2.0)?);
+            let (wide, narrow) =
+                (difference(column, DISTANCE)?, difference(column, DISTANCE / 2.0)?);
             *entries = [0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0);
         }
         Ok(columns)

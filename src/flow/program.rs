@@ -28,12 +28,32 @@ pub enum Rule {
     Theta(Row),
     Recip(Row),
     Sqrt(Row),
-    Exp { x: Row, theta: Row },
-    Ln { x: Row },
-    Sin { x: Row, theta: Row, cosine: Row },
-    Cos { x: Row, theta: Row, sine: Row },
-    Atan { x: Row, square: Row },
-    Power { x: Row, theta: Row, exponent: Rational },
+    Exp {
+        x: Row,
+        theta: Row,
+    },
+    Ln {
+        x: Row,
+    },
+    Sin {
+        x: Row,
+        theta: Row,
+        cosine: Row,
+    },
+    Cos {
+        x: Row,
+        theta: Row,
+        sine: Row,
+    },
+    Atan {
+        x: Row,
+        square: Row,
+    },
+    Power {
+        x: Row,
+        theta: Row,
+        exponent: Rational,
+    },
 }
 
 /// One row to be computed.

@@ -94,9 +94,8 @@ pub fn section(
         return Err(FlowError::NoAndoyer);
     }
     let parameters = fixed_parameters(case, request.seed, request.index)?;
-    let program = program(&case.model, &parameters, |phase| {
-        section_functions(phase, &request.g0).to_vec()
-    })?;
+    let program =
+        program(&case.model, &parameters, |phase| section_functions(phase, &request.g0).to_vec())?;
     let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
     let starts: Vec<Result<Start, FlowError>> =
         request.starts.iter().map(|at| chart.start(*at)).collect();
@@ -108,7 +107,9 @@ pub fn section(
             scope.spawn(|| {
                 let own = match starts.len() {
                     0..FEW => Worker::<f64>::new(&program, request, &starts, &next).run(progress),
-                    _ => Worker::<Lanes<LANES>>::new(&program, request, &starts, &next).run(progress),
+                    _ => {
+                        Worker::<Lanes<LANES>>::new(&program, request, &starts, &next).run(progress)
+                    }
                 };
                 done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
             });

@@ -264,7 +264,6 @@ impl<T: Number> Series<T> {
         let place = self.outputs[index];
         &self.memory[place..place + self.order]
     }
-
 }
 
 /// One expansion.
@@ -360,7 +359,8 @@ impl<T: Number> Series<T> {
         match &operation.rule {
             Bound::Sum => {
                 let mut sum = operation.constant.unwrap_or(T::ZERO);
-                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()] {
+                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()]
+                {
                     sum = weight.add(sum, memory[*x]);
                 }
                 for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize]
@@ -407,7 +407,8 @@ impl<T: Number> Series<T> {
         match &operation.rule {
             Bound::Sum => {
                 let mut sum = inner;
-                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()] {
+                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()]
+                {
                     sum = weight.add(sum, memory[*x + n]);
                 }
                 for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize]
@@ -428,9 +429,7 @@ impl<T: Number> Series<T> {
                 -(inner + memory[*x + n] * z) * z
             }
             Bound::Sqrt(x) => (memory[*x + n] - inner) * operation.kept,
-            Bound::Exp { theta, .. } => {
-                (inner + memory[*theta + n] * memory[operation.out]) * by_n
-            }
+            Bound::Exp { theta, .. } => (inner + memory[*theta + n] * memory[operation.out]) * by_n,
             Bound::Ln { x } | Bound::Atan { x, .. } => {
                 (memory[*x + n] - inner * by_n) * operation.kept
             }

@@ -52,7 +52,8 @@ struct Lane<One> {
 impl<T: Number> Stepper<T> {
     /// Motions of a program's field; each lane is to be given a start.
     pub fn new(program: &Program, accuracy: Accuracy) -> Self {
-        let idle = Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
+        let idle =
+            Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
         let state = vec![T::ZERO; program.dimension()];
         Self {
             series: Series::new(program, accuracy.order),

@@ -25,9 +25,7 @@ pub fn text(title: &str, rows: &[(String, Exponents)]) -> String {
 
 /// The same as JSON.
 pub fn json(title: &str, rows: &[(String, Exponents)]) -> Result<String, serde_json::Error> {
-    let estimate = |estimate: Estimate| {
-        json!({ "mean": estimate.mean, "error": estimate.error, "later": estimate.later })
-    };
+    let estimate = |estimate: Estimate| json!({ "mean": estimate.mean, "error": estimate.error, "later": estimate.later });
     let rows: Vec<Value> = rows
         .iter()
         .map(|(name, found)| {

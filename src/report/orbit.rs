@@ -72,7 +72,9 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
         precision_name(precision),
         orbit.steps
     ));
-    for (time, state) in [("0".to_string(), &orbit.start.state), (written(orbit.time, precision), &orbit.end)] {
+    for (time, state) in
+        [("0".to_string(), &orbit.start.state), (written(orbit.time, precision), &orbit.end)]
+    {
         line(format!("at t = {time}"));
         for (name, values) in named(&case.model.state, state, precision) {
             line(format!("  {name:<16} {}", values.join(", ")));
