@@ -66,6 +66,7 @@
 pub mod bench;
 pub mod case;
 pub mod claim;
+pub mod flow;
 pub mod formula;
 pub mod graph;
 pub mod mechanics;

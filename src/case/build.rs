@@ -7,13 +7,13 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, branches, claims, field, homogeneous, shadows, solvable,
-    variables, velocities, weights,
+    Case, Claim, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare,
+    shadows, solvable, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 
 /// The keys of a case file.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 19] = [
     "title",
     "source",
     "note",
@@ -30,6 +30,8 @@ const KEYS: [&str; 17] = [
     "let",
     "variables",
     "poisson",
+    "section",
+    "one-sided",
     "claim",
 ];
 
@@ -71,8 +73,23 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
+    let section = poincare::read(&root)?;
+    let one_sided = one_sided::read(&root, &parts.model)?;
     let Parts { model, chart, free_draws, .. } = parts;
-    Ok(Case { title, source, system, model, chart, free_draws, claims, column, notes, warnings })
+    Ok(Case {
+        title,
+        source,
+        system,
+        model,
+        chart,
+        free_draws,
+        claims,
+        column,
+        section,
+        one_sided,
+        notes,
+        warnings,
+    })
 }
 
 /// A level set is not fixed by an equation whose constant is open.

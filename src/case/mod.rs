@@ -11,7 +11,10 @@ mod error;
 mod field;
 mod homogeneous;
 mod lagrangian;
+mod lines;
+mod one_sided;
 mod parameters;
+mod poincare;
 mod section;
 mod shadows;
 mod solvable;
@@ -26,7 +29,10 @@ use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
 pub use error::{CaseError, Problem};
+pub use lines::Line;
+pub use one_sided::OneSided;
 pub use parameters::Setting;
+pub use poincare::{Angle, Direction, SectionPlan};
 
 /// No case needs a larger file.
 const MAX_BYTES: u64 = 4 << 20;
@@ -51,6 +57,10 @@ pub struct Case {
     pub claims: Vec<Claim>,
     /// The table and column of the paper that this case belongs to.
     pub column: Option<Column>,
+    /// The Poincaré section that shows its motion.
+    pub section: Option<SectionPlan>,
+    /// A one-sided constraint, where the motion has one.
+    pub one_sided: Option<OneSided>,
     /// What to know beside the verdicts.
     pub notes: Vec<String>,
     /// What the file may not mean to say.

@@ -3,9 +3,13 @@
 pub mod bench;
 pub mod check;
 pub mod eval;
+pub mod exponents;
 mod files;
+pub mod orbit;
+pub mod periodic;
 pub mod report;
 pub mod search;
+pub mod section;
 pub mod stress;
 pub mod table;
 
@@ -33,6 +37,14 @@ pub enum Command {
     Report(Report),
     /// Look for integrals and densities that nobody typed: count them, find them, prove them
     Search(Search),
+    /// Follow one motion: the state at the end, and how far integrals drift
+    Orbit(orbit::Orbit),
+    /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
+    Section(section::Section),
+    /// Measure the largest Lyapunov exponent and the mean divergence along motions
+    Exponents(exponents::Exponents),
+    /// Find fixed and periodic points of a section, with their multipliers
+    Periodic(periodic::Periodic),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
     /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right

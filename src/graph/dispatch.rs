@@ -10,7 +10,7 @@
 #![allow(unsafe_code, reason = "a function with target features is called after asking for them")]
 
 /// A piece of work that is inlined into functions compiled for several instruction sets.
-pub(super) trait Work {
+pub(crate) trait Work {
     /// Does it; to be marked `#[inline(always)]`, like all that it calls.
     fn run(self);
 }
@@ -47,7 +47,7 @@ pub fn vector_features() -> &'static [&'static str] {
 }
 
 /// Does the work with the widest vectors there are.
-pub(super) fn with_widest_vectors(work: impl Work) {
+pub(crate) fn with_widest_vectors(work: impl Work) {
     match widest() {
         // SAFETY: the processor has the features that the function is compiled for.
         #[cfg(target_arch = "x86_64")]

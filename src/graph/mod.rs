@@ -23,6 +23,7 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
 pub use dispatch::vector_features;
+pub(crate) use dispatch::{Work, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 pub use steps::Step;

@@ -8,6 +8,7 @@ pub mod ball;
 pub mod complex;
 pub mod exact;
 pub mod float;
+pub mod pair;
 pub mod precise;
 pub mod prime;
 pub mod rational;

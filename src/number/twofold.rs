@@ -13,6 +13,7 @@
 //! fused multiply-add as long as it does not underflow; `TINY` puts back what is lost then, divided
 //! by s for a root. Elementary functions are computed in [`precise`](super::precise) arithmetic.
 
+use super::pair::Pair;
 use super::precise::{Approximation, Precise};
 use super::rational::Rational;
 use super::{Domain, Enclosing, Function, Operation};
@@ -55,34 +56,9 @@ impl<const N: usize> Twofolds<N> {
     }
 }
 
-/// a + b = s + e exactly.
 #[inline(always)]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let s = a + b;
-    let c = s - a;
-    (s, (a - (s - c)) + (b - c))
-}
-
-/// The same for |a| ≥ |b|, or a = 0.
-#[inline(always)]
-fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
-    let s = a + b;
-    (s, b - (s - a))
-}
-
-/// a b = p + e exactly, where e does not underflow.
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let p = a * b;
-    (p, a.mul_add(b, -p))
-}
-
-#[inline(always)]
-fn sum(a: f64, al: f64, b: f64, bl: f64) -> (f64, f64) {
-    let (s, e) = two_sum(a, b);
-    let (t, f) = two_sum(al, bl);
-    let (s, e) = quick_two_sum(s, e + t);
-    quick_two_sum(s, f + e)
+fn pair(hi: f64, lo: f64) -> Pair {
+    Pair { hi, lo }
 }
 
 /// Puts back what computing a bound in f64 may have lost.
@@ -93,41 +69,35 @@ fn widen(radius: f64) -> f64 {
 
 #[inline(always)]
 fn add((a, al, ra): Lane, (b, bl, rb): Lane) -> Lane {
-    let (z, zl) = sum(a, al, b, bl);
-    (z, zl, widen(ra + rb + 4.0 * UNIT * z.abs()))
+    let z = pair(a, al) + pair(b, bl);
+    (z.hi, z.lo, widen(ra + rb + 4.0 * UNIT * z.hi.abs()))
 }
 
 #[inline(always)]
 fn multiply((a, al, ra): Lane, (b, bl, rb): Lane) -> Lane {
-    let (p, e) = two_product(a, b);
-    let (z, zl) = quick_two_sum(p, e + (a * bl + al * b));
-    (z, zl, widen(a.abs() * rb + b.abs() * ra + ra * rb + 8.0 * UNIT * z.abs()))
+    let z = pair(a, al) * pair(b, bl);
+    (z.hi, z.lo, widen(a.abs() * rb + b.abs() * ra + ra * rb + 8.0 * UNIT * z.hi.abs()))
 }
 
 #[inline(always)]
 fn reciprocal((a, al, ra): Lane) -> Lane {
-    let q = 1.0 / a;
-    let (p, e) = two_product(q, a);
-    let r = ((1.0 - p) - e) - q * al;
-    let (z, zl) = quick_two_sum(q, r * q);
+    let z = pair(a, al).recip();
     // The midpoint is |a| up to one part in 2^53.
     let room = a.abs() * (1.0 - f64::EPSILON) - ra;
-    let rad = widen(z.abs() * (ra / room) + 32.0 * UNIT * z.abs());
-    (z, zl, if room > 0.0 { rad } else { f64::NAN })
+    let rad = widen(z.hi.abs() * (ra / room) + 32.0 * UNIT * z.hi.abs());
+    (z.hi, z.lo, if room > 0.0 { rad } else { f64::NAN })
 }
 
 #[inline(always)]
 fn square_root((a, al, ra): Lane) -> Lane {
     let s = a.sqrt();
-    let (p, e) = two_product(s, s);
-    let r = ((a - p) - e) + al;
-    let (z, zl) = quick_two_sum(s, r / (s + s));
+    let z = pair(a, al).sqrt();
     // |√x - √a| ≤ |x - a|/√a; √0 is exactly 0.
     let rad = widen((ra + TINY) / (s * (1.0 - f64::EPSILON)) + 16.0 * UNIT * s);
     let is_zero = a == 0.0 && ra == 0.0;
-    let (z, zl, rad) = if is_zero { (0.0, 0.0, 0.0) } else { (z, zl, rad) };
+    let rad = if is_zero { 0.0 } else { rad };
     let lowest = a * (1.0 - f64::EPSILON);
-    (z, zl, if lowest >= ra || is_zero { rad } else { f64::NAN })
+    (z.hi, z.lo, if lowest >= ra || is_zero { rad } else { f64::NAN })
 }
 
 /// An elementary function by way of more digits.

@@ -7,10 +7,12 @@
 mod axes;
 mod labels;
 
+pub(super) use labels::escape;
+
 use std::fmt::Write;
 
 use self::axes::Axes;
-use self::labels::{Labels, escape};
+use self::labels::Labels;
 use crate::bench::{Measured, Method, Row};
 
 /// More claims than that share one panel.

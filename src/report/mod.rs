@@ -3,9 +3,13 @@
 pub mod bench;
 pub mod diagnostic;
 pub mod diagram;
+pub mod exponents;
 pub mod json;
+pub mod orbit;
+pub mod picture;
 pub mod point;
 pub mod search;
+pub mod section;
 pub mod stress;
 pub mod survey;
 pub mod table;

@@ -1,0 +1,50 @@
+//! Lines of a section whose images are drawn: the fixed points of reversing involutions (A.1.9),
+//! (A.1.10) of Bizyaev, Borisov, Mamaev (2013).
+
+use std::f64::consts::PI;
+
+/// A line of points that a reversor of the section map leaves where they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// L = 0
+    Equator,
+    /// l = 0 and l = π
+    Meridian,
+    /// l = π/2 and l = 3π/2
+    QuarterMeridian,
+}
+
+impl std::str::FromStr for Line {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let plain: String = text.split_whitespace().collect();
+        match plain.replace("pi", "π").as_str() {
+            "L=0" => Ok(Line::Equator),
+            "l=0" => Ok(Line::Meridian),
+            "l=π/2" => Ok(Line::QuarterMeridian),
+            _ => Err(format!("`{text}` is no line; write L=0, l=0 or l=π/2")),
+        }
+    }
+}
+
+impl Line {
+    /// `count` points of the line.
+    pub fn points(self, count: usize) -> Vec<[f64; 2]> {
+        let along = |k: usize, count: usize| (k as f64 + 0.5) / count.max(1) as f64;
+        let meridians = |first: f64| {
+            let half = count / 2;
+            let at = |k: usize| {
+                let (l, place) = if k < half { (first, k) } else { (first + PI, k - half) };
+                // Equal angles from pole to pole.
+                [l, libm::cos(PI * along(place, count - half))]
+            };
+            (0..count).map(at).collect()
+        };
+        match self {
+            Line::Equator => (0..count).map(|k| [2.0 * PI * along(k, count), 0.0]).collect(),
+            Line::Meridian => meridians(0.0),
+            Line::QuarterMeridian => meridians(PI / 2.0),
+        }
+    }
+}

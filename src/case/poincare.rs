@@ -1,0 +1,151 @@
+//! `[section]`: which Poincaré section of the motion a case draws.
+
+use toml::de::DeValue;
+
+use super::error::{CaseError, Problem};
+use super::lines::Line;
+use super::section::{Section, Text, numbers};
+use crate::number::rational::Rational;
+
+/// Images of a line where a case does not say how many: as in the paper's figures.
+const DEFAULT_IMAGES: usize = 10;
+
+/// An angle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Angle {
+    /// A multiple of π/2.
+    QuarterTurns(u32),
+    /// Any other, in radians.
+    Radians(Rational),
+}
+
+/// Which crossings of a section count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// Those with g' > 0.
+    Up,
+    /// Those with g' < 0.
+    Down,
+    /// Both.
+    #[default]
+    Both,
+}
+
+/// A Poincaré section g = g₀ in the Andoyer-like variables, and how it is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionPlan {
+    /// g₀
+    pub g0: Angle,
+    /// The energy h.
+    pub energy: Rational,
+    /// The crossings that are drawn.
+    pub direction: Direction,
+    /// Orbits from starts spread over the sphere.
+    pub orbits: Option<usize>,
+    /// Crossings of each orbit.
+    pub crossings: Option<usize>,
+    /// Crossings left out at the beginning.
+    pub skip: usize,
+    /// Further starts (l, L/G).
+    pub starts: Vec<[f64; 2]>,
+    /// The claim whose value colours the orbits.
+    pub colour: Option<String>,
+    /// Follow the motion backwards in time?
+    pub backwards: bool,
+    /// Lines whose images under the section map are drawn.
+    pub lines: Vec<Line>,
+    /// How many images of them, forwards and backwards.
+    pub images: usize,
+}
+
+impl std::str::FromStr for Angle {
+    type Err = String;
+
+    /// Reads `0`, `π`, `pi/2`, `3π/2`, or radians.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let plain: String = text.split_whitespace().collect();
+        let plain = plain.replace("pi", "π").replace('*', "");
+        let quarter = ["0", "π/2", "π", "3π/2"].iter().position(|name| *name == plain);
+        match quarter {
+            Some(turns) => Ok(Angle::QuarterTurns(turns as u32)),
+            None => plain.parse().map(Angle::Radians).map_err(|_| {
+                format!("`{text}` is no angle; write 0, π/2, π, 3π/2, or a number of radians")
+            }),
+        }
+    }
+}
+
+impl std::fmt::Display for Angle {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Angle::QuarterTurns(turns) => {
+                out.write_str(["0", "π/2", "π", "3π/2"][*turns as usize % 4])
+            }
+            Angle::Radians(value) => write!(out, "{value}"),
+        }
+    }
+}
+
+impl std::str::FromStr for Direction {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "up" => Ok(Direction::Up),
+            "down" => Ok(Direction::Down),
+            "both" => Ok(Direction::Both),
+            _ => Err(format!("`{text}` is no direction; write \"up\", \"down\" or \"both\"")),
+        }
+    }
+}
+
+/// Reads `[section]`.
+pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError> {
+    let Some(section) = root.section("section")? else { return Ok(None) };
+    let wrong = |text: &Text, message: String| {
+        let remedy = "docs/writing-a-case.md shows a [section]".to_string();
+        CaseError::at(text.span.clone(), Problem::Other { message, remedy })
+    };
+    let g0 = section.required("g0", "add g0 = \"π\", the angle of the section")?;
+    let energy = section.required("energy", "add energy = 1, the level of the energy")?;
+    let direction = match section.text("direction")? {
+        Some(text) => text.value.parse().map_err(|message| wrong(&text, message))?,
+        None => Direction::default(),
+    };
+    let plan = SectionPlan {
+        g0: g0.value.parse().map_err(|message| wrong(&g0, message))?,
+        energy: energy
+            .value
+            .parse()
+            .map_err(|_| wrong(&energy, format!("`{}` is no number", energy.value)))?,
+        direction,
+        orbits: section.integer("orbits")?.map(|count| count as usize),
+        crossings: section.integer("crossings")?.map(|count| count as usize),
+        skip: section.integer("skip")?.unwrap_or(0) as usize,
+        starts: starts(&section)?,
+        colour: section.text("colour")?.map(|text| text.value),
+        backwards: section.boolean("backwards")?.unwrap_or(false),
+        lines: section
+            .texts("lines")?
+            .iter()
+            .map(|text| text.value.parse().map_err(|message| wrong(text, message)))
+            .collect::<Result<_, _>>()?,
+        images: section.integer("images")?.map_or(DEFAULT_IMAGES, |count| count as usize),
+    };
+    section.finish()?;
+    Ok(Some(plan))
+}
+
+/// `starts = [[l, z], …]`
+fn starts(section: &Section<'_>) -> Result<Vec<[f64; 2]>, CaseError> {
+    let Some(value) = section.value("starts") else { return Ok(Vec::new()) };
+    let wrong = |span| section.wrong_type("starts", "a list of points [l, L/G]", span);
+    let DeValue::Array(points) = value.get_ref() else { return Err(wrong(value.span())) };
+    let point = |item: &toml::Spanned<DeValue<'_>>| {
+        let DeValue::Array(pair) = item.get_ref() else { return None };
+        let numbers: Vec<f64> =
+            numbers(pair)?.iter().map(|text| text.parse().ok()).collect::<Option<_>>()?;
+        <[f64; 2]>::try_from(numbers).ok()
+    };
+    points.iter().map(|item| point(item).ok_or_else(|| wrong(item.span()))).collect()
+}

@@ -1,0 +1,135 @@
+//! The Andoyer-like variables (1.17) of Bizyaev, Borisov, Mamaev (2013), and sections g = g₀.
+//!
+//! ```text
+//! ω = (√(G² - L²) sin l, √(G² - L²) cos l, L)
+//! γ = ((L/G) cos g sin l + sin g cos l, (L/G) cos g cos l - sin g sin l, -√(1 - L²/G²) cos g)
+//! ```
+//!
+//! With s = √(G² - L²): s sin(g - g₀) = cos g₀ (γ×ω)₃ + sin g₀ |ω| γ₃, and
+//! s cos(g - g₀) = sin g₀ (γ×ω)₃ - cos g₀ |ω| γ₃. The first vanishes on the section, where the second
+//! is positive; both are smooth, and without square roots where g₀ is a multiple of π/2.
+
+use num_dual::DualNum;
+
+use super::error::FlowError;
+use super::motion::point;
+use super::start::Start;
+use crate::case::Angle;
+use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::mechanics::{Model, Phase, System};
+use crate::number::pair::{Pair, Pairs};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// The state has ω and γ, and nothing else.
+const DIMENSION: usize = 6;
+
+/// Are these variables defined for the model?
+pub fn applies(model: &Model) -> bool {
+    matches!(model.system, System::Rubber(_)) && model.dimension() == DIMENSION
+}
+
+/// cos and sin of an angle.
+fn circular(angle: &Angle) -> (Expr, Expr) {
+    match angle {
+        Angle::QuarterTurns(n) => {
+            let value = |k: u32| Expr::rational(&Rational::from([1, 0, -1, 0][k as usize % 4]));
+            (value(*n), value(n + 3))
+        }
+        Angle::Radians(value) => {
+            let value = Expr::rational(value);
+            (value.cos(), value.sin())
+        }
+    }
+}
+
+/// s sin(g - g₀) and s cos(g - g₀).
+pub fn section_functions(phase: &Phase<'_, Expr>, g0: &Angle) -> [Expr; 2] {
+    let state = phase.state();
+    let [w1, w2, w3, y1, y2, y3] = [0, 1, 2, 3, 4, 5].map(|k| state[k]);
+    let (cos, sin) = circular(g0);
+    let across = y1 * w2 - y2 * w1;
+    // A quarter turn needs one of the terms only, and then |ω| > 0 is a mere factor.
+    let along = match g0 {
+        Angle::QuarterTurns(_) => y3,
+        Angle::Radians(_) => (w1 * w1 + w2 * w2 + w3 * w3).sqrt() * y3,
+    };
+    [cos * across + sin * along, sin * across - cos * along]
+}
+
+/// (l, L/G) of a state, l in [0, 2π).
+pub fn coordinates(state: &[Pair]) -> [f64; 2] {
+    let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
+    let l = libm::atan2(x, y);
+    let turn = 2.0 * std::f64::consts::PI;
+    let length = libm::sqrt(x * x + y * y + z * z);
+    [if l < 0.0 { (l + turn).min(turn.next_down()) } else { l }, z / length]
+}
+
+/// States of the section at an energy.
+pub struct Chart<'m> {
+    model: &'m Model,
+    parameters: Vec<Rational>,
+    tape: Tape,
+}
+
+impl<'m> Chart<'m> {
+    /// The states with g = g₀ and this energy.
+    pub fn new(
+        model: &'m Model,
+        parameters: &[Rational],
+        g0: &Angle,
+        energy: &Rational,
+    ) -> Result<Self, FlowError> {
+        let (graph, outputs) = record(2, |inputs| {
+            let (l, z) = (inputs[0], inputs[1]);
+            let (cos, sin) = circular(g0);
+            let s = (Expr::rational(&Rational::from(1)) - z * z).sqrt();
+            let direction = [s * l.sin(), s * l.cos(), z];
+            let gamma =
+                [z * cos * l.sin() + sin * l.cos(), z * cos * l.cos() - sin * l.sin(), -(s * cos)];
+            let energy_at = |omega: [Expr; 3]| {
+                let state = [omega, gamma].concat();
+                model.system.energy(&point(model, parameters, &state))
+            };
+            let zero = Expr::rational(&Rational::from(0));
+            let potential = energy_at([zero; 3]).unwrap_or(zero);
+            let kinetic = energy_at(direction).unwrap_or(zero) - potential;
+            // E = G² T(e) + U
+            let square = (Expr::rational(energy) - potential) / kinetic;
+            let length = square.sqrt();
+            let mut outputs = vec![square, potential];
+            outputs.extend(direction.map(|x| x * length));
+            outputs.extend(gamma);
+            outputs
+        })?;
+        let tape = Tape::new(&graph, &outputs);
+        Ok(Self { model, parameters: parameters.to_vec(), tape })
+    }
+
+    /// The state over (l, L/G).
+    pub fn start(&self, at: [f64; 2]) -> Result<Start, FlowError> {
+        if !at[0].is_finite() || at[1].abs() >= 1.0 || at[1].is_nan() {
+            return Err(FlowError::OffSphere { l: at[0], z: at[1] });
+        }
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        evaluator.run(&at.map(Pair::from_f64));
+        let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+        if outputs[0].hi.is_nan() || outputs[0].hi <= 0.0 {
+            return Err(FlowError::BelowPotential { l: at[0], z: at[1], potential: outputs[1].hi });
+        }
+        Start::near(self.model, self.parameters.clone(), outputs[2..].to_vec())
+    }
+}
+
+/// `count` points spread evenly over the sphere: a spiral with the golden angle.
+pub fn spread(count: usize) -> Vec<[f64; 2]> {
+    let turn = 2.0 * std::f64::consts::PI;
+    let golden = (3.0 - 5f64.sqrt()) / 2.0;
+    (0..count)
+        .map(|k| {
+            let share = (k as f64 + 0.5) / count as f64;
+            [turn * (golden * (k as f64 + 0.5)).fract(), 1.0 - 2.0 * share]
+        })
+        .collect()
+}

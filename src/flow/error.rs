@@ -1,0 +1,118 @@
+//! Why a motion cannot be computed.
+
+use crate::graph::Fault;
+use crate::number::Function;
+
+/// Why a motion cannot be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlowError {
+    /// The field contains a function that has no Taylor series.
+    #[error("the field contains {0}, which has no Taylor series where it changes its sign")]
+    NotAnalytic(&'static str),
+    /// The field contains an antiderivative, whose value is not known.
+    #[error("the field contains ∫, whose value is not determined")]
+    Antiderivative,
+    /// The steps become too small, or values are no longer finite.
+    #[error("the motion runs into a singularity at t = {time}, near the state {state:?}")]
+    Singular {
+        /// When.
+        time: f64,
+        /// Where.
+        state: Vec<f64>,
+    },
+    /// The section has other variables than this system.
+    #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
+    NoAndoyer,
+    /// A point that is not on the sphere.
+    #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
+    OffSphere {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+    },
+    /// The energy does not reach the potential.
+    #[error("over (l, L/G) = ({l}, {z}) the potential is {potential}, at or above the energy")]
+    BelowPotential {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// U there.
+        potential: f64,
+    },
+    /// The motion does not come back to the section.
+    #[error("the section is not met again after {crossings} crossings, up to t = {time:.4e}")]
+    NeverCrossed {
+        /// Until when.
+        time: f64,
+        /// How often it was met.
+        crossings: usize,
+    },
+    /// A claim that the case does not have, or that is about no formula.
+    #[error("the case has no claim `{0}` about a formula")]
+    NoSuchClaim(String),
+    /// A one-sided motion does not determine its past.
+    #[error("a motion with a one-sided constraint cannot be followed backwards")]
+    OneSidedBackwards,
+    /// A start beyond the constraint.
+    #[error("the start violates the one-sided constraint: its function is {by:e} there")]
+    BehindConstraint {
+        /// r, which should not be negative.
+        by: f64,
+    },
+    /// Contact and free motion alternate without end.
+    #[error("contact and free motion alternate without end near t = {time}")]
+    TooManyPhases {
+        /// When.
+        time: f64,
+    },
+    /// Newton's method does not converge.
+    #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
+    NoPeriodicPoint {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// How many crossings.
+        period: usize,
+    },
+    /// No state on the level set was found.
+    #[error("no state on the level set was found near the one that was asked for")]
+    NoStart,
+    /// The equations cannot be recorded.
+    #[error("{0}")]
+    Recording(#[from] Fault),
+}
+
+impl FlowError {
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
+            FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
+            FlowError::Singular { .. } => "choose another start, or a shorter time",
+            FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
+            FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
+            FlowError::NeverCrossed { .. } => "choose another start, or another g0",
+            FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
+            FlowError::OneSidedBackwards => "give a positive --time",
+            FlowError::BehindConstraint { .. } => {
+                "choose a start where the function is not negative"
+            }
+            FlowError::TooManyPhases { .. } => "choose a shorter time",
+            FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
+            FlowError::NoStart => "give a state by --state, or another --seed or --index",
+            FlowError::Recording(_) => "use operations that hold for every number",
+        }
+    }
+
+    /// The complaint about a function without a Taylor rule.
+    pub(super) fn of_function(function: Function) -> Self {
+        match function {
+            Function::Abs => FlowError::NotAnalytic("|x|"),
+            _ => FlowError::NotAnalytic("a function"),
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Events: where a function of the state vanishes within a piece of a motion.
+//!
+//! The function is known as a polynomial on each piece. Its sign at the ends, and at the extremum
+//! between them if there is one, brackets each root; Newton's method finds it, guarded by bisection.
+//! An extremum whose value is 0 up to rounding is a tangency, and no crossing.
+
+use super::number::Number;
+
+/// More than bisection alone would take.
+const MAX_STEPS: usize = 200;
+/// A value below this many roundings of the largest term may as well be 0.
+const ROUNDINGS: f64 = 256.0;
+
+/// Something that happens to a function within a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event<T> {
+    /// It goes through 0 at this time after the beginning; upwards in time?
+    Crossing {
+        /// When.
+        after: T,
+        /// Does it grow with time there?
+        rising: bool,
+    },
+    /// It touches 0 and turns back.
+    Tangency {
+        /// When.
+        after: T,
+    },
+}
+
+/// The value of a polynomial and its slope.
+pub fn value<T: Number>(polynomial: &[T], at: T) -> (T, T) {
+    let (mut sum, mut slope) = (T::ZERO, T::ZERO);
+    for coefficient in polynomial.iter().rev() {
+        slope = slope * at + sum;
+        sum = sum * at + *coefficient;
+    }
+    (sum, slope)
+}
+
+/// The polynomial of the slope.
+pub fn slope<T: Number>(polynomial: &[T]) -> Vec<T> {
+    let terms = polynomial.iter().enumerate().skip(1);
+    terms.map(|(n, coefficient)| T::float(n as f64) * *coefficient).collect()
+}
+
+/// The side of 0 on which a function was last seen, from piece to piece.
+///
+/// A piece that ends at a root up to rounding leaves it to the next one, which begins there: the
+/// side that is remembered decides, so that no crossing is missed or counted twice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sides {
+    positive: Option<bool>,
+}
+
+impl Sides {
+    /// A function that is known to come from this side.
+    pub fn on(positive: bool) -> Self {
+        Self { positive: Some(positive) }
+    }
+
+    /// What happens between 0 and `length`; not at 0, if that is where the motion starts.
+    pub fn events<T: Number<One = T>>(&mut self, polynomial: &[T], length: T) -> Vec<Event<T>> {
+        if length.leading() == 0.0 {
+            return Vec::new();
+        }
+        let rounding = size(polynomial, length) * ROUNDINGS * T::EPSILON;
+        let first = polynomial[0].leading();
+        let begin = match self.positive {
+            _ if first.abs() > rounding => first > 0.0,
+            Some(positive) => positive,
+            None => value_after(polynomial, rounding, length) > 0.0,
+        };
+        let end = value(polynomial, length).0.leading() > 0.0;
+        self.positive = Some(end);
+        between(polynomial, length, begin, end, rounding)
+    }
+}
+
+fn between<T: Number<One = T>>(
+    polynomial: &[T],
+    length: T,
+    begin: bool,
+    end: bool,
+    rounding: f64,
+) -> Vec<Event<T>> {
+    let forward = length.leading() > 0.0;
+    let crossing = |after: T, to: bool| Event::Crossing { after, rising: to == forward };
+    if begin != end {
+        return vec![crossing(root(polynomial, T::ZERO, length, begin), end)];
+    }
+    // Between equal signs, the function may only come to 0 where its slope turns.
+    let rate = slope(polynomial);
+    let (first, last) = (value(&rate, T::ZERO).0.leading(), value(&rate, length).0.leading());
+    let leaves = ((first > 0.0) == forward) == begin;
+    if (first > 0.0) == (last > 0.0) || leaves {
+        return Vec::new();
+    }
+    let extremum = root(&rate, T::ZERO, length, first > 0.0);
+    let depth = value(polynomial, extremum).0.leading();
+    if depth.abs() <= rounding {
+        return vec![Event::Tangency { after: extremum }];
+    }
+    if (depth > 0.0) == begin {
+        return Vec::new();
+    }
+    vec![
+        crossing(root(polynomial, T::ZERO, extremum, begin), !begin),
+        crossing(root(polynomial, extremum, length, !begin), begin),
+    ]
+}
+
+/// The value where it first differs from 0: a little later if it vanishes at the beginning.
+fn value_after<T: Number>(polynomial: &[T], rounding: f64, length: T) -> f64 {
+    let mut after = length;
+    let mut last = value(polynomial, after).0.leading();
+    for _ in 0..64 {
+        after = after * T::float(0.5);
+        let nearer = value(polynomial, after).0.leading();
+        if nearer.abs() <= rounding {
+            break;
+        }
+        last = nearer;
+    }
+    last
+}
+
+/// The largest term of a polynomial on a piece.
+fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
+    let mut power = 1.0;
+    let mut largest: f64 = 0.0;
+    for coefficient in polynomial {
+        largest = largest.max(coefficient.leading().abs() * power);
+        power *= length.leading().abs();
+    }
+    largest
+}
+
+/// The root between `a`, where the sign is `positive`, and `b`, where it is the other.
+fn root<T: Number<One = T>>(polynomial: &[T], a: T, b: T, positive: bool) -> T {
+    let (mut a, mut b) = (a, b);
+    let half = T::float(0.5);
+    let tolerance = 4.0 * T::EPSILON * (b - a).leading().abs();
+    let mut at = (a + b) * half;
+    for _ in 0..MAX_STEPS {
+        let (value, slope) = value(polynomial, at);
+        if value.leading() == 0.0 {
+            break;
+        }
+        match (value.leading() > 0.0) == positive {
+            true => a = at,
+            false => b = at,
+        }
+        let step = value * slope.recip();
+        let newton = at - step;
+        // Between a and b, whichever is the larger.
+        let inside = (newton - a).leading() * (b - newton).leading() > 0.0;
+        let next = if inside { newton } else { (a + b) * half };
+        let moved = (next - at).leading().abs();
+        at = next;
+        if moved <= tolerance {
+            break;
+        }
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (τ - r)… for some roots, and no higher terms.
+    fn with_roots(roots: &[f64]) -> Vec<f64> {
+        roots.iter().fold(vec![1.0], |polynomial, root| {
+            let mut product = vec![0.0; polynomial.len() + 1];
+            for (n, coefficient) in polynomial.iter().enumerate() {
+                product[n + 1] += coefficient;
+                product[n] -= root * coefficient;
+            }
+            product
+        })
+    }
+
+    fn events(polynomial: &[f64], length: f64) -> Vec<Event<f64>> {
+        Sides::default().events(polynomial, length)
+    }
+
+    fn times(found: &[Event<f64>]) -> Vec<(f64, bool)> {
+        let times = found.iter().filter_map(|event| match event {
+            Event::Crossing { after, rising } => Some((*after, *rising)),
+            Event::Tangency { .. } => None,
+        });
+        times.collect()
+    }
+
+    #[test]
+    fn crossings_are_found_with_their_direction() {
+        let [(at, rising)] = times(&events(&with_roots(&[0.3, 2.0]), 1.0))[..] else {
+            panic!("one root within the piece")
+        };
+        assert!((at - 0.3).abs() < 1e-15 && !rising, "falls through 0 at 0.3");
+        let [(at, rising)] = times(&events(&with_roots(&[-0.3]), -1.0))[..] else {
+            panic!("backwards in time too")
+        };
+        assert!((at + 0.3).abs() < 1e-15 && rising, "rises with time, met backwards");
+    }
+
+    #[test]
+    fn a_pair_of_roots_is_told_from_a_tangency() {
+        let pair = events(&with_roots(&[0.4, 0.400001]), 1.0);
+        assert_eq!(times(&pair).len(), 2, "two crossings between equal signs: {pair:?}");
+        let touch = events(&with_roots(&[0.4, 0.4]), 1.0);
+        let [Event::Tangency { after }] = touch[..] else { panic!("a double root: {touch:?}") };
+        assert!((after - 0.4).abs() < 1e-12, "where the slope vanishes");
+        let beside: Vec<f64> = with_roots(&[0.4, 0.4]);
+        let beside = [beside[0] + 1e-6, beside[1], beside[2]];
+        assert_eq!(events(&beside, 1.0), [], "passes by at a distance");
+    }
+
+    #[test]
+    fn a_root_between_two_pieces_is_found_once() {
+        // The first piece ends just before or behind the root; the next one disagrees by rounding.
+        for (end, begin) in [(1e-17, -1e-17), (-1e-17, 1e-17), (1e-17, 1e-17), (-1e-17, -1e-17)] {
+            let mut sides = Sides::default();
+            let mut found = sides.events(&[1.0 + end, -1.0], 1.0);
+            found.extend(sides.events(&[begin, -1.0], 1.0));
+            assert_eq!(times(&found).len(), 1, "{end:e}, {begin:e}");
+        }
+    }
+
+    #[test]
+    fn a_root_at_the_beginning_is_not_found_again() {
+        assert_eq!(events(&with_roots(&[0.0, 2.0]), 1.0), []);
+        let next = events(&with_roots(&[0.0, 0.5]), 1.0);
+        assert_eq!(times(&next).len(), 1, "the next one is: {next:?}");
+    }
+}

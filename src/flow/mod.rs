@@ -1,0 +1,42 @@
+//! Motion: trajectories by Taylor series, to rounding, on the recorded field of any case.
+//!
+//! ```text
+//! case, start ─ record ─▶ graph of the field ─ compile ─▶ Program ─ expand at a state ─▶ Series ─ step ─▶ trajectory
+//! ```
+//!
+//! A [`Program`] says how the coefficients of order n of every intermediate result follow from those
+//! of lower orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or
+//! over double-double.
+
+mod andoyer;
+mod compile;
+mod error;
+mod event;
+mod form;
+mod lyapunov;
+mod merge;
+mod motion;
+mod number;
+mod one_sided;
+mod orbit;
+mod periodic;
+mod program;
+mod section;
+mod series;
+mod start;
+mod stepper;
+
+pub use andoyer::spread;
+pub use error::FlowError;
+pub use lyapunov::{Character, Estimate, Exponents, Variational};
+pub use motion::program;
+pub use number::{Lanes, Number};
+pub use one_sided::{Contact, ContactEvent};
+pub use orbit::{Followed, Orbit, Precision, Role, orbit};
+pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
+pub use program::Program;
+pub use section::{
+    Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
+};
+pub use start::Start;
+pub use stepper::{Accuracy, Piece, Stepper};

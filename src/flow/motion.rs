@@ -1,0 +1,55 @@
+//! The motion of a case with fixed parameters: its field as a Taylor program.
+
+use super::error::FlowError;
+use super::merge::merged;
+use super::program::Program;
+use crate::graph::{Expr, record};
+use crate::mechanics::{Model, Phase};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// A point over exprs whose parameters are exact constants.
+pub(super) fn point<'m>(
+    model: &'m Model,
+    parameters: &[Rational],
+    state: &[Expr],
+) -> Phase<'m, Expr> {
+    let parameters: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
+    Phase::new(model, &parameters, state)
+}
+
+/// The program of a case's field with these values of its free parameters, and of further
+/// functions of the state beside it.
+pub fn program(
+    model: &Model,
+    parameters: &[Rational],
+    further: impl FnOnce(&Phase<'_, Expr>) -> Vec<Expr>,
+) -> Result<Program, FlowError> {
+    extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
+}
+
+/// The program of a field in the state and some more variables: `build` is given a point and those
+/// variables, and gives the rates of all, and further functions.
+pub(super) fn extended_program(
+    model: &Model,
+    parameters: &[Rational],
+    more: usize,
+    build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
+) -> Result<Program, FlowError> {
+    let dimension = model.dimension();
+    let (graph, (rates, outputs)) = record(dimension + more, |inputs| {
+        let (state, more) = inputs.split_at(dimension);
+        build(&point(model, parameters, state), more)
+    })?;
+    if graph.inputs() > dimension + more {
+        return Err(FlowError::Antiderivative);
+    }
+    if !model.system.conserves_level() {
+        return Program::compile(&graph, &rates, &outputs);
+    }
+    let count = rates.len();
+    let wanted = [rates, outputs].concat();
+    let (simpler, mut values) = merged(model, &graph, &wanted)?;
+    let outputs = values.split_off(count);
+    Program::compile(&simpler, &values, &outputs)
+}

@@ -1,0 +1,331 @@
+//! What Taylor coefficients are made of: f64, several f64 side by side, or double-double.
+
+use std::fmt::Debug;
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::number::float::Float;
+use crate::number::pair::{Pair, two_sum};
+use crate::number::rational::Rational;
+use crate::number::{Domain, Function};
+
+/// A number that series are made of; undefined ones are not finite.
+pub trait Number:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    /// One lane of it.
+    type One: Number<One = Self::One>;
+    /// 0
+    const ZERO: Self;
+    /// How many orbits are side by side.
+    const LANES: usize;
+    /// How many coefficients a dot product takes at once; rows are padded to multiples of it.
+    const WIDTH: usize;
+    /// The spacing of numbers at 1.
+    const EPSILON: f64;
+    /// A dot product before its parts are added up.
+    type Partial: Copy;
+
+    /// An exact constant, rounded once.
+    fn rational(value: &Rational) -> Self;
+    /// One number a lane.
+    fn from_lanes(value: impl Fn(usize) -> Self::One) -> Self;
+    /// One lane.
+    fn lane(self, lane: usize) -> Self::One;
+    /// An f64 in all lanes.
+    fn float(value: f64) -> Self;
+    /// The leading part of the first lane.
+    fn leading(self) -> f64;
+    /// The first lane as a pair.
+    fn pair(self) -> Pair;
+    /// A pair in all lanes, and what rounding leaves of it.
+    fn split(value: Pair) -> (Self, Self);
+    /// 1/x
+    fn recip(self) -> Self;
+    /// f(x)
+    fn apply(self, function: Function) -> Self;
+    /// x^q
+    fn power(self, exponent: &Rational) -> Self;
+    /// Adds an increment to a compensated sum hi + lo.
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
+
+    /// No products yet.
+    fn nothing() -> Self::Partial;
+    /// sum + Σ x_k y_k; both have the same length, a multiple of `WIDTH`.
+    fn dot(sum: Self::Partial, x: &[Self], y: &[Self]) -> Self::Partial;
+    /// sum + factor · part
+    fn weigh(sum: Self::Partial, factor: Self, part: Self::Partial) -> Self::Partial;
+    /// The sums of all parts, of several products at once.
+    fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
+}
+
+/// A function of an f64, by the platform-independent implementation that tapes use.
+#[inline(always)]
+fn applied(function: Function, x: f64) -> f64 {
+    let mut out = [0.0];
+    Float::<1>.unary(function, &[x], &mut out);
+    out[0]
+}
+
+fn powered(x: f64, exponent: &Rational) -> f64 {
+    let mut out = [0.0];
+    Float::<1>.power(&[x], exponent, &mut out);
+    out[0]
+}
+
+/// Lanes in which dot products along the order are taken.
+const WIDTH: usize = 8;
+/// How many of them are finished at once.
+pub(super) const BLOCK: usize = 8;
+
+impl Number for f64 {
+    type One = f64;
+    const ZERO: f64 = 0.0;
+    const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON;
+    const WIDTH: usize = WIDTH;
+    type Partial = Lanes<WIDTH>;
+
+    fn rational(value: &Rational) -> Self {
+        value.to_f64().0
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> f64) -> Self {
+        value(0)
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self
+    }
+    fn pair(self) -> Pair {
+        Pair::from_f64(self)
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (value.hi, value.lo)
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        applied(function, self)
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        powered(self, exponent)
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
+        (*hi, *lo) = two_sum(*hi, *lo + increment);
+    }
+    #[inline(always)]
+    fn nothing() -> Lanes<WIDTH> {
+        Lanes::ZERO
+    }
+    #[inline(always)]
+    fn dot(mut sum: Lanes<WIDTH>, x: &[f64], y: &[f64]) -> Lanes<WIDTH> {
+        let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
+        for (x, y) in x.iter().zip(y) {
+            sum = sum + Lanes(*x) * Lanes(*y);
+        }
+        sum
+    }
+    #[inline(always)]
+    fn weigh(sum: Lanes<WIDTH>, factor: f64, part: Lanes<WIDTH>) -> Lanes<WIDTH> {
+        sum + Lanes([factor; WIDTH]) * part
+    }
+    #[inline(always)]
+    fn totals(sums: &[Lanes<WIDTH>; BLOCK], totals: &mut [f64; BLOCK]) {
+        for (sum, total) in sums.iter().zip(totals) {
+            let s = &sum.0;
+            let [a, b, c, d] = [s[0] + s[4], s[1] + s[5], s[2] + s[6], s[3] + s[7]];
+            *total = (a + c) + (b + d);
+        }
+    }
+}
+
+impl Number for Pair {
+    type One = Pair;
+    const ZERO: Pair = Pair { hi: 0.0, lo: 0.0 };
+    const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
+    const WIDTH: usize = 1;
+    type Partial = Pair;
+
+    fn rational(value: &Rational) -> Self {
+        Pair::from_rational(value)
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> Pair) -> Self {
+        value(0)
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> Pair {
+        self
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        Pair::from_f64(value)
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self.hi
+    }
+    fn pair(self) -> Pair {
+        self
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (value, Self::ZERO)
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Pair::recip(self)
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        match function {
+            Function::Sqrt => self.sqrt(),
+            _ => Pair::apply(self, function),
+        }
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        Pair::power(self, exponent)
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, _: &mut Self, increment: Self) {
+        *hi = *hi + increment;
+    }
+    #[inline(always)]
+    fn nothing() -> Pair {
+        Pair::default()
+    }
+    #[inline(always)]
+    fn dot(sum: Pair, x: &[Pair], y: &[Pair]) -> Pair {
+        x.iter().zip(y).fold(sum, |sum, (x, y)| sum + *x * *y)
+    }
+    #[inline(always)]
+    fn weigh(sum: Pair, factor: Pair, part: Pair) -> Pair {
+        sum + factor * part
+    }
+    #[inline(always)]
+    fn totals(sums: &[Pair; BLOCK], totals: &mut [Pair; BLOCK]) {
+        *totals = *sums;
+    }
+}
+
+/// `N` f64 side by side, one orbit a lane.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Lanes<const N: usize>(pub [f64; N]);
+
+macro_rules! lanewise {
+    ($($trait:ident $method:ident $operator:tt;)*) => {$(
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for lane in 0..N {
+                    self.0[lane] $operator other.0[lane];
+                }
+                self
+            }
+        }
+    )*};
+}
+
+lanewise! { Add add +=; Sub sub -=; Mul mul *=; }
+
+impl<const N: usize> Neg for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+impl<const N: usize> Number for Lanes<N> {
+    type One = f64;
+    const ZERO: Self = Self([0.0; N]);
+    const LANES: usize = N;
+    const EPSILON: f64 = f64::EPSILON;
+    const WIDTH: usize = 1;
+    type Partial = Self;
+
+    fn rational(value: &Rational) -> Self {
+        Self([value.to_f64().0; N])
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        Self([value; N])
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self.0[0]
+    }
+    fn pair(self) -> Pair {
+        Pair::from_f64(self.0[0])
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (Self([value.hi; N]), Self([value.lo; N]))
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self(self.0.map(|x| 1.0 / x))
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        Self(self.0.map(|x| applied(function, x)))
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        Self(self.0.map(|x| powered(x, exponent)))
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
+        for lane in 0..N {
+            (hi.0[lane], lo.0[lane]) = two_sum(hi.0[lane], lo.0[lane] + increment.0[lane]);
+        }
+    }
+    #[inline(always)]
+    fn nothing() -> Self {
+        Self([0.0; N])
+    }
+    #[inline(always)]
+    fn dot(mut sum: Self, x: &[Self], y: &[Self]) -> Self {
+        for (x, y) in x.iter().zip(y) {
+            for lane in 0..N {
+                sum.0[lane] += x.0[lane] * y.0[lane];
+            }
+        }
+        sum
+    }
+    #[inline(always)]
+    fn weigh(sum: Self, factor: Self, part: Self) -> Self {
+        sum + factor * part
+    }
+    #[inline(always)]
+    fn totals(sums: &[Self; BLOCK], totals: &mut [Self; BLOCK]) {
+        *totals = *sums;
+    }
+}

@@ -1,0 +1,240 @@
+//! One motion from start to end, and how far what should be constant drifts.
+
+use super::error::FlowError;
+use super::motion::{point, program};
+use super::number::Number;
+use super::one_sided::{ContactEvent, follow};
+use super::start::Start;
+use super::stepper::{Accuracy, Stepper};
+use crate::case::{Case, Expect};
+use crate::claim::Kind;
+use crate::formula::Formula;
+use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::mechanics::{LevelFunction, Model, Phase};
+use crate::number::pair::{Pair, Pairs};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// At how many times the drift is looked at.
+const LOOKS: u32 = 256;
+
+/// The arithmetic that a motion is computed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// f64 with compensated sums.
+    Float,
+    /// Double-double: some 32 digits.
+    Pair,
+}
+
+/// Why a quantity is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A function that defines the level set.
+    Level,
+    /// The energy.
+    Energy,
+    /// A claimed integral.
+    Integral,
+    /// A formula that is no integral: it has to drift.
+    Decoy,
+}
+
+/// A function of the state along a motion.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// Its name.
+    pub name: String,
+    /// Why it is followed.
+    pub role: Role,
+    /// Its components at the start.
+    pub value: Vec<Pair>,
+    /// The largest |F(t) - F(0)|/|F(0)| at the times looked at; |F(t) - F(0)| where F(0) = 0.
+    pub drift: f64,
+    /// The same at the end.
+    pub drift_at_end: f64,
+}
+
+/// One motion.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    /// Where it starts.
+    pub start: Start,
+    /// How long it lasts.
+    pub time: Pair,
+    /// The state at the end.
+    pub end: Vec<Pair>,
+    /// Steps taken.
+    pub steps: u64,
+    /// The order of the series.
+    pub order: usize,
+    /// What was followed.
+    pub followed: Vec<Followed>,
+    /// What happened at a one-sided constraint.
+    pub events: Vec<ContactEvent>,
+}
+
+/// Follows a motion of a case for some time, backwards if it is negative.
+pub fn orbit(
+    case: &Case,
+    start: Start,
+    time: Pair,
+    precision: Precision,
+) -> Result<Orbit, FlowError> {
+    match precision {
+        Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT),
+        Precision::Pair => orbit_over::<Pair>(case, start, time, Accuracy::PAIR),
+    }
+}
+
+fn orbit_over<T: Number<One = T>>(
+    case: &Case,
+    start: Start,
+    time: Pair,
+    accuracy: Accuracy,
+) -> Result<Orbit, FlowError> {
+    let mut watch = Watch::new(case, &start)?;
+    let mut looks = 0;
+    let mut look = |now: Pair, state: &[Pair]| {
+        let passed = now.hi / time.hi * f64::from(LOOKS);
+        if passed >= f64::from(looks) {
+            looks = passed as u32 + 1;
+            watch.look(state);
+        }
+    };
+    let (end, steps, events) = match &case.one_sided {
+        Some(rule) => {
+            let found = follow::<T>(case, rule, &start, time, accuracy, &mut look)?;
+            (found.end, found.steps, found.events)
+        }
+        None => {
+            let program = program(&case.model, &start.parameters, |_| Vec::new())?;
+            let mut stepper = Stepper::<T>::new(&program, accuracy);
+            stepper.start(0, &start.state, time);
+            while !stepper.is_done(0) {
+                stepper.expand();
+                stepper.check(0)?;
+                stepper.advance();
+                look(stepper.time(0), &stepper.pairs(0));
+            }
+            (stepper.pairs(0), stepper.steps(0), Vec::new())
+        }
+    };
+    watch.look(&end);
+    let order = accuracy.order;
+    Ok(Orbit { start, time, end, steps, order, followed: watch.followed, events })
+}
+
+/// The quantities that are followed, on a tape.
+struct Watch {
+    tape: Tape,
+    followed: Vec<Followed>,
+}
+
+/// What a followed quantity is computed from.
+enum Source<'c> {
+    Level(&'c LevelFunction),
+    Energy,
+    Formula(&'c Formula),
+    /// Σ k x_k over the components of the state
+    Sum,
+}
+
+impl Source<'_> {
+    fn values(&self, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+        match self {
+            Source::Level(function) => vec![phase.level_function(function)],
+            Source::Energy => phase.model().system.energy(phase).into_iter().collect(),
+            Source::Formula(formula) => phase.evaluate(formula).components(),
+            Source::Sum => {
+                let weight = |k: usize| Expr::rational(&Rational::from(k as i64 + 1));
+                let terms = phase.state().into_iter().enumerate();
+                vec![terms.map(|(k, x)| weight(k) * x).sum()]
+            }
+        }
+    }
+}
+
+impl Watch {
+    fn new(case: &Case, start: &Start) -> Result<Self, FlowError> {
+        let sources = sources(case);
+        let (graph, groups) = record(case.model.dimension(), |state| {
+            let phase = point(&case.model, &start.parameters, state);
+            sources.iter().map(|(_, _, source)| source.values(&phase)).collect::<Vec<_>>()
+        })?;
+        let tape = Tape::new(&graph, &groups.concat());
+        let values = values(&tape, &start.state);
+        let mut rest = values.as_slice();
+        let mut followed = Vec::new();
+        for ((name, role, _), group) in sources.into_iter().zip(&groups) {
+            let (own, others) = rest.split_at(group.len());
+            rest = others;
+            let value = own.to_vec();
+            followed.push(Followed { name, role, value, drift: 0.0, drift_at_end: 0.0 });
+        }
+        Ok(Self { tape, followed })
+    }
+
+    fn look(&mut self, state: &[Pair]) {
+        let values = values(&self.tape, state);
+        let mut rest = values.as_slice();
+        for followed in &mut self.followed {
+            let (own, others) = rest.split_at(followed.value.len());
+            rest = others;
+            let norm =
+                |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+            let change = norm(&mut own.iter().zip(&followed.value).map(|(x, y)| (*x - *y).hi));
+            let size = norm(&mut followed.value.iter().map(|x| x.hi));
+            let at_level = followed.role == Role::Level || size == 0.0;
+            let drift = if at_level { change } else { change / size };
+            followed.drift_at_end = drift;
+            // A drift that is undefined is worse than any other.
+            followed.drift = if drift.is_nan() { drift } else { followed.drift.max(drift) };
+        }
+    }
+}
+
+fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
+    let mut evaluator = Evaluator::new(tape, Pairs);
+    evaluator.run(state);
+    evaluator.outputs().copied().collect()
+}
+
+/// The relative change of the energy from a start to another state; 0 where there is no energy.
+pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result<f64, FlowError> {
+    let (graph, energy) = record(model.dimension(), |state| {
+        Source::Energy.values(&point(model, &start.parameters, state))
+    })?;
+    let tape = Tape::new(&graph, &energy);
+    let both = (values(&tape, &start.state), values(&tape, end));
+    let (Some(begin), Some(end)) = (both.0.first(), both.1.first()) else { return Ok(0.0) };
+    Ok((*end - *begin).hi.abs() / begin.hi.abs())
+}
+
+/// The level functions, the energy, the claimed integrals, and formulas that have to drift.
+fn sources(case: &Case) -> Vec<(String, Role, Source<'_>)> {
+    let model = &case.model;
+    let level = model.level.iter();
+    let mut sources: Vec<_> = level
+        .map(|equation| (equation.text.clone(), Role::Level, Source::Level(&equation.function)))
+        .collect();
+    if model.system.has_energy() {
+        sources.push(("energy".to_string(), Role::Energy, Source::Energy));
+    }
+    for claim in &case.claims {
+        let Kind::Integral(integral) = &claim.kind else { continue };
+        let named_energy = claim.name == "energy" && model.system.has_energy();
+        if integral.0.has_antiderivative() || named_energy {
+            continue;
+        }
+        let role = match claim.expect {
+            Expect::Holds | Expect::Open => Role::Integral,
+            Expect::Fails => Role::Decoy,
+        };
+        sources.push((claim.name.clone(), role, Source::Formula(&integral.0)));
+    }
+    if sources.iter().all(|(_, role, _)| *role != Role::Decoy) {
+        sources.push(("Σ k x_k".to_string(), Role::Decoy, Source::Sum));
+    }
+    sources
+}

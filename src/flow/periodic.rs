@@ -1,0 +1,196 @@
+//! Fixed and periodic points of the section map, by Newton's method, with their multipliers.
+
+use std::f64::consts::PI;
+
+use super::andoyer::{Chart, applies, coordinates, section_functions};
+use super::error::FlowError;
+use super::event::{Event, Sides, value};
+use super::motion::program;
+use super::number::Number;
+use super::program::Program;
+use super::start::fixed_parameters;
+use super::stepper::{Accuracy, Stepper};
+use crate::case::{Angle, Case};
+use crate::number::pair::Pair;
+use crate::number::rational::Rational;
+
+/// Newton's method converges in far fewer from a point that is near.
+const MAX_STEPS: usize = 40;
+/// A return that takes more steps than that is none.
+const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// Far later than any return.
+const NEVER: f64 = 1e15;
+/// Half the distance of central differences: errors of order four are taken out by a second one.
+const DISTANCE: f64 = 1e-3;
+/// Residuals below this are rounding.
+const RESIDUAL: f64 = 1e-12;
+
+/// A periodic point of the section map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeriodicPoint {
+    /// l and L/G.
+    pub at: [f64; 2],
+    /// After how many crossings it comes back.
+    pub period: usize,
+    /// After what time.
+    pub time: f64,
+    /// How far from itself it comes back.
+    pub residual: f64,
+    /// The trace and the determinant of the derivative of the map there.
+    pub trace: f64,
+    /// The product of the multipliers: 1 where an area is kept, and for symmetric points.
+    pub determinant: f64,
+}
+
+/// The eigenvalues of the derivative of the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Multipliers {
+    /// r e^(±iφ)
+    Complex {
+        /// r
+        modulus: f64,
+        /// φ in (0, π)
+        argument: f64,
+    },
+    /// Two real ones, the larger modulus first.
+    Real(f64, f64),
+}
+
+impl PeriodicPoint {
+    /// The roots of λ² - trace λ + determinant.
+    pub fn multipliers(&self) -> Multipliers {
+        let (half, square) = (self.trace / 2.0, self.trace * self.trace / 4.0 - self.determinant);
+        if square < 0.0 {
+            let modulus = self.determinant.sqrt();
+            return Multipliers::Complex { modulus, argument: libm::acos(half / modulus) };
+        }
+        let larger = half + square.sqrt().copysign(half);
+        Multipliers::Real(larger, self.determinant / larger)
+    }
+
+    /// What kind of point it is.
+    pub fn kind(&self) -> &'static str {
+        // Beyond the error of the derivative.
+        let near_one = |modulus: f64| (modulus - 1.0).abs() < 1e-6;
+        match self.multipliers() {
+            Multipliers::Complex { modulus, .. } if near_one(modulus) => "elliptic",
+            Multipliers::Complex { modulus, .. } if modulus < 1.0 => "sink",
+            Multipliers::Complex { .. } => "source",
+            Multipliers::Real(a, b) if a.abs() > 1.0 && b.abs() < 1.0 => "hyperbolic",
+            Multipliers::Real(a, _) if a.abs() < 1.0 => "sink",
+            Multipliers::Real(_, b) if b.abs() > 1.0 => "source",
+            Multipliers::Real(..) => "degenerate",
+        }
+    }
+}
+
+/// The map from the section g = g₀ to itself, crossings in both directions.
+pub struct SectionMap<'c> {
+    chart: Chart<'c>,
+    program: Program,
+}
+
+impl<'c> SectionMap<'c> {
+    /// The map of a case at an energy.
+    pub fn new(
+        case: &'c Case,
+        g0: &Angle,
+        energy: &Rational,
+        seed: u64,
+    ) -> Result<Self, FlowError> {
+        if !applies(&case.model) {
+            return Err(FlowError::NoAndoyer);
+        }
+        let parameters = fixed_parameters(case, seed, 0)?;
+        let program =
+            program(&case.model, &parameters, |phase| section_functions(phase, g0).to_vec())?;
+        Ok(Self { chart: Chart::new(&case.model, &parameters, g0, energy)?, program })
+    }
+
+    /// Where a point is after some crossings, and when.
+    pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
+        let start = self.chart.start(at)?;
+        let mut stepper = Stepper::<f64>::new(&self.program, Accuracy::FLOAT);
+        stepper.start(0, &start.state, Pair::from_f64(NEVER));
+        let (mut sides, mut met) = (Sides::default(), 0);
+        while stepper.steps(0) < MAX_STEPS_BETWEEN * crossings as u64 {
+            stepper.expand();
+            stepper.check(0)?;
+            let piece = stepper.piece(0);
+            for event in sides.events(&piece.output(0), piece.length()) {
+                let Event::Crossing { after, .. } = event else { continue };
+                if value(&piece.output(1), after).0.leading() <= 0.0 {
+                    continue;
+                }
+                met += 1;
+                if met == crossings {
+                    let time = piece.begin().hi + after;
+                    return Ok((coordinates(&piece.state(after)), time));
+                }
+            }
+            stepper.advance();
+        }
+        Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met })
+    }
+
+    /// Φⁿ(x) - x, the angle taken the short way.
+    fn defect(&self, at: [f64; 2], period: usize) -> Result<([f64; 2], f64), FlowError> {
+        let (image, time) = self.image(at, period)?;
+        Ok(([short(image[0] - at[0]), image[1] - at[1]], time))
+    }
+
+    /// The derivative of Φⁿ: central differences at two distances, extrapolated.
+    fn derivative(&self, at: [f64; 2], period: usize) -> Result<[[f64; 2]; 2], FlowError> {
+        let difference = |column: usize, distance: f64| {
+            let moved = |sign: f64| {
+                let mut point = at;
+                point[column] += sign * distance;
+                self.image(point, period)
+            };
+            let (ahead, behind) = (moved(1.0)?.0, moved(-1.0)?.0);
+            let across = 2.0 * distance;
+            Ok::<_, FlowError>([
+                short(ahead[0] - behind[0]) / across,
+                (ahead[1] - behind[1]) / across,
+            ])
+        };
+        let mut columns = [[0.0; 2]; 2];
+        for (column, entries) in columns.iter_mut().enumerate() {
+            let (wide, narrow) =
+                (difference(column, DISTANCE)?, difference(column, DISTANCE / 2.0)?);
+            *entries = [0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0);
+        }
+        Ok(columns)
+    }
+
+    /// The periodic point near `near`.
+    pub fn periodic(&self, near: [f64; 2], period: usize) -> Result<PeriodicPoint, FlowError> {
+        let mut at = near;
+        let mut best = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            let ([dl, dz], time) = self.defect(at, period)?;
+            let residual = libm::hypot(dl, dz);
+            let [[a, c], [b, d]] = self.derivative(at, period)?;
+            if residual <= RESIDUAL || (residual >= best && residual < 1e3 * RESIDUAL) {
+                let (trace, determinant) = (a + d, a * d - b * c);
+                let at = [(at[0] + 2.0 * PI) % (2.0 * PI), at[1]];
+                return Ok(PeriodicPoint { at, period, time, residual, trace, determinant });
+            }
+            best = best.min(residual);
+            // (Φ' - E) step = -defect
+            let (p, s) = (a - 1.0, d - 1.0);
+            let determinant = p * s - b * c;
+            let step = [-(s * dl - b * dz) / determinant, -(p * dz - c * dl) / determinant];
+            at = [at[0] + step[0], at[1] + step[1]];
+            if !step[0].is_finite() || step[0].abs() > PI || at[1].abs() >= 1.0 {
+                break;
+            }
+        }
+        Err(FlowError::NoPeriodicPoint { l: near[0], z: near[1], period })
+    }
+}
+
+/// An angle difference between -π and π.
+fn short(angle: f64) -> f64 {
+    angle - 2.0 * PI * (angle / (2.0 * PI)).round()
+}

@@ -1,0 +1,333 @@
+//! Poincaré sections: many orbits, several side by side in lanes, on several threads.
+//!
+//! An orbit that has all its crossings gives its lane to the next one. Lanes do not know of each
+//! other, so that the points do not depend on how orbits meet lanes and threads.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::andoyer::{Chart, applies, coordinates, section_functions};
+use super::error::FlowError;
+use super::event::{Event, Sides, value};
+use super::motion::{point, program};
+use super::number::{Lanes, Number};
+use super::orbit::energy_drift;
+use super::program::Program;
+use super::start::{Start, fixed_parameters};
+use super::stepper::{Accuracy, Piece, Stepper};
+use crate::case::{Angle, Case, Direction};
+use crate::graph::{Evaluator, Tape, record};
+use crate::number::pair::{Pair, Pairs};
+use crate::number::rational::Rational;
+
+/// Orbits side by side.
+const LANES: usize = 8;
+/// Fewer orbits than that are faster one by one.
+const FEW: usize = 4;
+/// A section that is not met in so many steps is not met again.
+const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// Far later than any crossing.
+const NEVER: f64 = 1e15;
+
+/// Which section, and of which orbits.
+#[derive(Clone, Debug)]
+pub struct SectionRequest {
+    /// g₀
+    pub g0: Angle,
+    /// The energy.
+    pub energy: Rational,
+    /// The crossings that count.
+    pub direction: Direction,
+    /// How many of them for each orbit.
+    pub crossings: usize,
+    /// How many are left out at the beginning.
+    pub skip: usize,
+    /// Where the orbits start: (l, L/G).
+    pub starts: Vec<[f64; 2]>,
+    /// Follow them backwards in time?
+    pub backwards: bool,
+    /// Seed and index of the free parameters.
+    pub seed: u64,
+    /// The index of the free parameters among the draws.
+    pub index: u64,
+}
+
+/// A crossing of the section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// l and L/G.
+    pub at: [f64; 2],
+    /// When.
+    pub time: f64,
+    /// Does g grow with time there?
+    pub rising: bool,
+}
+
+/// An orbit's crossings.
+#[derive(Clone, Debug)]
+pub struct SectionOrbit {
+    /// Where it starts.
+    pub start: [f64; 2],
+    /// The crossings that count, those at the beginning left out.
+    pub crossings: Vec<Crossing>,
+    /// Crossings in the other direction, which are not drawn.
+    pub others: usize,
+    /// Where the orbit touches the section without crossing it.
+    pub tangencies: usize,
+    /// Steps taken.
+    pub steps: u64,
+    /// The relative change of the energy between start and end.
+    pub drift: f64,
+    /// Why it ended early, or did not start.
+    pub problem: Option<FlowError>,
+}
+
+/// The section of a case: one entry a start, in their order. `progress` is told of each orbit that
+/// is done.
+pub fn section(
+    case: &Case,
+    request: &SectionRequest,
+    threads: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Vec<SectionOrbit>, FlowError> {
+    if !applies(&case.model) {
+        return Err(FlowError::NoAndoyer);
+    }
+    let parameters = fixed_parameters(case, request.seed, request.index)?;
+    let program =
+        program(&case.model, &parameters, |phase| section_functions(phase, &request.g0).to_vec())?;
+    let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
+    let starts: Vec<Result<Start, FlowError>> =
+        request.starts.iter().map(|at| chart.start(*at)).collect();
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        let abreast = if starts.len() < FEW { 1 } else { LANES };
+        for _ in 0..threads.clamp(1, starts.len().div_ceil(abreast).max(1)) {
+            scope.spawn(|| {
+                let own = match starts.len() {
+                    0..FEW => Worker::<f64>::new(&program, request, &starts, &next).run(progress),
+                    _ => {
+                        Worker::<Lanes<LANES>>::new(&program, request, &starts, &next).run(progress)
+                    }
+                };
+                done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
+            });
+        }
+    });
+    let mut orbits = done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    orbits.sort_by_key(|found: &Done| found.index);
+    orbits
+        .into_iter()
+        .map(|found| {
+            let mut orbit = found.orbit;
+            if let (Ok(start), Some(end)) = (&starts[found.index], found.end) {
+                orbit.drift = energy_drift(&case.model, start, &end)?;
+            }
+            Ok(orbit)
+        })
+        .collect()
+}
+
+/// The states over points (l, L/G) of a section.
+pub fn section_starts(
+    case: &Case,
+    g0: &Angle,
+    energy: &Rational,
+    points: &[[f64; 2]],
+    seed: u64,
+) -> Result<Vec<Result<Start, FlowError>>, FlowError> {
+    if !applies(&case.model) {
+        return Err(FlowError::NoAndoyer);
+    }
+    let parameters = fixed_parameters(case, seed, 0)?;
+    let chart = Chart::new(&case.model, &parameters, g0, energy)?;
+    Ok(points.iter().map(|at| chart.start(*at)).collect())
+}
+
+/// The value of a claim's formula at each start, NaN where there is no state.
+pub fn values_at_starts(
+    case: &Case,
+    request: &SectionRequest,
+    claim: &str,
+) -> Result<Vec<f64>, FlowError> {
+    let formula = case.claim(claim).and_then(|claim| claim.kind.formula());
+    let formula = formula.ok_or_else(|| FlowError::NoSuchClaim(claim.to_string()))?;
+    let parameters = fixed_parameters(case, request.seed, request.index)?;
+    let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
+    let (graph, values) = record(case.model.dimension(), |state| {
+        point(&case.model, &parameters, state).evaluate(formula).components()
+    })?;
+    let tape = Tape::new(&graph, &values[..1]);
+    let mut evaluator = Evaluator::new(&tape, Pairs);
+    let mut at = |start: Start| {
+        evaluator.run(&start.state);
+        evaluator.output(0).hi
+    };
+    Ok(request.starts.iter().map(|l_z| chart.start(*l_z).map_or(f64::NAN, &mut at)).collect())
+}
+
+/// An orbit that is done.
+struct Done {
+    index: usize,
+    orbit: SectionOrbit,
+    end: Option<Vec<Pair>>,
+}
+
+/// The orbits of one thread.
+struct Worker<'w, T: Number<One = f64>> {
+    request: &'w SectionRequest,
+    starts: &'w [Result<Start, FlowError>],
+    next: &'w AtomicUsize,
+    stepper: Stepper<T>,
+    running: Vec<Option<Running>>,
+    done: Vec<Done>,
+}
+
+/// An orbit in a lane.
+struct Running {
+    index: usize,
+    orbit: SectionOrbit,
+    sides: Sides,
+    /// Crossings in the direction that counts, those left out included.
+    counted: usize,
+    last_met: u64,
+}
+
+impl<'w, T: Number<One = f64>> Worker<'w, T> {
+    fn new(
+        program: &Program,
+        request: &'w SectionRequest,
+        starts: &'w [Result<Start, FlowError>],
+        next: &'w AtomicUsize,
+    ) -> Self {
+        let stepper = Stepper::new(program, Accuracy::FLOAT);
+        let running = (0..T::LANES).map(|_| None).collect();
+        Self { request, starts, next, stepper, running, done: Vec::new() }
+    }
+
+    fn run(&mut self, progress: &(dyn Fn() + Sync)) -> Vec<Done> {
+        loop {
+            for lane in 0..T::LANES {
+                if self.running[lane].is_none() {
+                    self.fill(lane, progress);
+                }
+            }
+            if self.running.iter().all(Option::is_none) {
+                return std::mem::take(&mut self.done);
+            }
+            self.stepper.expand();
+            for lane in 0..T::LANES {
+                if self.look(lane) {
+                    self.finish(lane);
+                    progress();
+                }
+            }
+            self.stepper.advance();
+        }
+    }
+
+    /// Puts the next orbit into a lane; those that have no start are done at once.
+    fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
+        loop {
+            let index = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(start) = self.starts.get(index) else { return };
+            let orbit = SectionOrbit {
+                start: self.request.starts[index],
+                crossings: Vec::new(),
+                others: 0,
+                tangencies: 0,
+                steps: 0,
+                drift: 0.0,
+                problem: None,
+            };
+            match start {
+                Ok(start) => {
+                    let until = if self.request.backwards { -NEVER } else { NEVER };
+                    self.stepper.start(lane, &start.state, Pair::from_f64(until));
+                    let sides = Sides::default();
+                    let running = Running { index, orbit, sides, counted: 0, last_met: 0 };
+                    self.running[lane] = Some(running);
+                    return;
+                }
+                Err(problem) => {
+                    let orbit = SectionOrbit { problem: Some(problem.clone()), ..orbit };
+                    self.done.push(Done { index, orbit, end: None });
+                    progress();
+                }
+            }
+        }
+    }
+
+    /// Collects the crossings of the present piece; is the orbit done?
+    fn look(&mut self, lane: usize) -> bool {
+        let Some(running) = &mut self.running[lane] else { return false };
+        if let Err(problem) = self.stepper.check(lane) {
+            running.orbit.problem = Some(problem);
+            return true;
+        }
+        let steps = self.stepper.steps(lane);
+        let piece = self.stepper.piece(lane);
+        let polynomial = piece.output(0);
+        for event in running.sides.events(&polynomial, piece.length()) {
+            if running.meet(event, &piece, self.request, steps) {
+                return true;
+            }
+        }
+        if steps - running.last_met > MAX_STEPS_BETWEEN || self.stepper.is_done(lane) {
+            running.orbit.problem = Some(FlowError::NeverCrossed {
+                time: self.stepper.time(lane).hi,
+                crossings: running.counted,
+            });
+            return true;
+        }
+        false
+    }
+
+    fn finish(&mut self, lane: usize) {
+        let Some(mut running) = self.running[lane].take() else { return };
+        running.orbit.steps = self.stepper.steps(lane);
+        let end = self.stepper.pairs(lane);
+        let end = end.iter().all(|x| x.is_finite()).then_some(end);
+        self.done.push(Done { index: running.index, orbit: running.orbit, end });
+    }
+}
+
+impl Running {
+    /// Takes note of an event; has the orbit all its crossings?
+    fn meet<T: Number<One = f64>>(
+        &mut self,
+        event: Event<f64>,
+        piece: &Piece<'_, T>,
+        request: &SectionRequest,
+        steps: u64,
+    ) -> bool {
+        let (after, rising) = match event {
+            Event::Tangency { .. } => {
+                self.orbit.tangencies += 1;
+                return false;
+            }
+            Event::Crossing { after, rising } => (after, rising),
+        };
+        // The other half of the circle is g = g₀ + π, where g' has the other sign too.
+        if value(&piece.output(1), after).0 <= 0.0 {
+            return false;
+        }
+        let counts = match request.direction {
+            Direction::Both => true,
+            Direction::Up => rising,
+            Direction::Down => !rising,
+        };
+        self.last_met = steps;
+        if !counts {
+            self.orbit.others += 1;
+            return false;
+        }
+        self.counted += 1;
+        if self.counted > request.skip {
+            let at = coordinates(&piece.state(after));
+            self.orbit.crossings.push(Crossing { at, time: piece.begin().hi + after, rising });
+        }
+        self.counted >= request.skip + request.crossings
+    }
+}

@@ -1,0 +1,235 @@
+//! Step by step along motions: step sizes from the series, compensated states, dense output.
+//!
+//! The step is ρ e^(-κ), ρ the least of (‖x₀‖/‖x_n‖)^(1/n) over the last two orders, with maximum
+//! norms (Jorba, Zou 2005, with κ in place of their 2 + 0.7/(n - 1)). The field does not depend on
+//! time, so that each lane takes its own step.
+
+use std::ops::Range;
+
+use super::error::FlowError;
+use super::number::Number;
+use super::program::Program;
+use super::series::Series;
+use crate::number::pair::Pair;
+
+/// Order of the series, and κ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// The highest power of the step that is kept.
+    pub order: usize,
+    /// The step is ρ e^(-κ); the first term left out is about e^(-κ(order + 1)) of the state.
+    pub kappa: f64,
+}
+
+impl Accuracy {
+    /// For f64: e^(-κ·21) is a tenth of a unit in the last place.
+    pub const FLOAT: Self = Self { order: 20, kappa: 1.85 };
+    /// For double-double.
+    pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
+}
+
+/// Motions side by side, one a lane.
+pub struct Stepper<T: Number> {
+    series: Series<T>,
+    kappa: f64,
+    /// The state, and what rounding left of it.
+    state: Vec<T>,
+    rest: Vec<T>,
+    lanes: Vec<Lane<T::One>>,
+}
+
+/// One motion.
+#[derive(Clone, Copy)]
+struct Lane<One> {
+    time: Pair,
+    /// Where it ends; its sign against `time` is the direction.
+    until: Pair,
+    /// The step from the present expansion.
+    step: One,
+    steps: u64,
+}
+
+impl<T: Number> Stepper<T> {
+    /// Motions of a program's field; each lane is to be given a start.
+    pub fn new(program: &Program, accuracy: Accuracy) -> Self {
+        let idle =
+            Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
+        let state = vec![T::ZERO; program.dimension()];
+        Self {
+            series: Series::new(program, accuracy.order),
+            kappa: accuracy.kappa,
+            rest: state.clone(),
+            state,
+            lanes: vec![idle; T::LANES],
+        }
+    }
+
+    /// Starts a motion at time 0 that goes on to time `until`, which may be negative.
+    pub fn start(&mut self, lane: usize, state: &[Pair], until: Pair) {
+        for (index, value) in state.iter().enumerate() {
+            let (value, rest) = T::One::split(*value);
+            set(&mut self.state[index], lane, value);
+            set(&mut self.rest[index], lane, rest);
+        }
+        self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
+    }
+
+    /// Multiplies some components of a motion's state.
+    pub fn scale(&mut self, lane: usize, components: Range<usize>, factor: T::One) {
+        for row in components {
+            for part in [&mut self.state[row], &mut self.rest[row]] {
+                let scaled = part.lane(lane) * factor;
+                set(part, lane, scaled);
+            }
+        }
+    }
+
+    /// Changes where a motion ends.
+    pub fn extend(&mut self, lane: usize, until: Pair) {
+        self.lanes[lane].until = until;
+    }
+
+    /// Expands all motions at their states and chooses their steps.
+    pub fn expand(&mut self) {
+        self.series.expand(&self.state);
+        for index in 0..T::LANES {
+            let size = self.step_size(index);
+            let lane = &mut self.lanes[index];
+            let left = lane.until - lane.time;
+            lane.step = if size < left.hi.abs() {
+                T::One::float(size.copysign(left.hi))
+            } else {
+                T::One::split(left).0
+            };
+        }
+    }
+
+    /// Is the present expansion of a motion of any use? No where it runs into a singularity.
+    pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        let motion = &self.lanes[lane];
+        let step = motion.step.leading();
+        let finite = (0..self.state.len()).all(|row| {
+            let last = self.series.component(row)[self.series.order()];
+            last.lane(lane).leading().is_finite()
+        });
+        let at_end = (motion.until - motion.time).hi == 0.0;
+        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        match finite && advances && step.is_finite() {
+            true => Ok(()),
+            false => Err(FlowError::Singular {
+                time: motion.time.hi,
+                state: self.pairs(lane).iter().map(|x| x.hi).collect(),
+            }),
+        }
+    }
+
+    /// Takes the steps.
+    pub fn advance(&mut self) {
+        let steps = T::from_lanes(|lane| self.lanes[lane].step);
+        for (row, (state, rest)) in self.state.iter_mut().zip(&mut self.rest).enumerate() {
+            let coefficients = self.series.component(row);
+            T::advance(state, rest, increment(coefficients, steps));
+        }
+        for lane in &mut self.lanes {
+            if lane.step.leading() != 0.0 {
+                lane.time = lane.time + lane.step.pair();
+                lane.steps += 1;
+            }
+        }
+    }
+
+    /// Has a motion come to its end?
+    pub fn is_done(&self, lane: usize) -> bool {
+        let motion = &self.lanes[lane];
+        let left = motion.until - motion.time;
+        left.hi.abs() <= f64::EPSILON * motion.step.leading().abs()
+    }
+
+    /// The time of a motion.
+    pub fn time(&self, lane: usize) -> Pair {
+        self.lanes[lane].time
+    }
+
+    /// How many steps a motion has taken.
+    pub fn steps(&self, lane: usize) -> u64 {
+        self.lanes[lane].steps
+    }
+
+    /// The state of a motion.
+    pub fn pairs(&self, lane: usize) -> Vec<Pair> {
+        let parts = self.state.iter().zip(&self.rest);
+        parts.map(|(x, rest)| x.lane(lane).pair() + rest.lane(lane).pair()).collect()
+    }
+
+    /// The present piece of a motion.
+    pub fn piece(&self, lane: usize) -> Piece<'_, T> {
+        Piece { stepper: self, lane }
+    }
+
+    fn step_size(&self, lane: usize) -> f64 {
+        let order = self.series.order();
+        let norm = |n: usize| {
+            let entries = (0..self.state.len()).map(|row| self.series.component(row)[n]);
+            entries.map(|x| x.lane(lane).leading().abs()).fold(0.0, f64::max)
+        };
+        // A state that is exactly 0 has no size; its velocity has.
+        let first = if norm(0) > 0.0 { 0 } else { 1 };
+        let size = libm::log(norm(first));
+        let radius = |n: usize| (size - libm::log(norm(n))) / (n - first) as f64;
+        libm::exp(radius(order - 1).min(radius(order)) - self.kappa)
+    }
+}
+
+fn set<T: Number>(target: &mut T, lane: usize, value: T::One) {
+    let old = *target;
+    *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
+}
+
+/// Σ x_k h^k from k = 1 on.
+#[inline(always)]
+fn increment<T: Number>(coefficients: &[T], step: T) -> T {
+    let mut sum = T::ZERO;
+    for coefficient in coefficients[1..].iter().rev() {
+        sum = (sum + *coefficient) * step;
+    }
+    sum
+}
+
+/// A motion between two steps, as polynomials in the time since the first.
+pub struct Piece<'s, T: Number> {
+    stepper: &'s Stepper<T>,
+    lane: usize,
+}
+
+impl<T: Number> Piece<'_, T> {
+    /// The time at which it begins.
+    pub fn begin(&self) -> Pair {
+        self.stepper.lanes[self.lane].time
+    }
+
+    /// How long it lasts; negative backwards in time.
+    pub fn length(&self) -> T::One {
+        self.stepper.lanes[self.lane].step
+    }
+
+    /// The coefficients of a further function of the program.
+    pub fn output(&self, index: usize) -> Vec<T::One> {
+        self.stepper.series.output(index).iter().map(|x| x.lane(self.lane)).collect()
+    }
+
+    /// The state some time after the beginning.
+    pub fn state(&self, after: T::One) -> Vec<Pair> {
+        let stepper = self.stepper;
+        (0..stepper.state.len())
+            .map(|row| {
+                let coefficients = stepper.series.component(row);
+                let mut sum = T::One::ZERO;
+                for coefficient in coefficients[1..].iter().rev() {
+                    sum = (sum + coefficient.lane(self.lane)) * after;
+                }
+                let rest = stepper.rest[row].lane(self.lane) + sum;
+                stepper.state[row].lane(self.lane).pair() + rest.pair()
+            })
+            .collect()
+    }
+}
