@@ -159,6 +159,14 @@ fn nothing_is_found_where_there_is_nothing() {
 }
 
 #[test]
+fn a_field_without_series_makes_no_theorem() {
+    let report = searched("sphere/constant-curvature", &effort(2));
+    assert!(report.counts.is_empty() && report.excluded.is_empty(), "{:?}", report.excluded);
+    assert!(report.remarks.iter().any(|remark| remark.contains('∫')), "{:?}", report.remarks);
+    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["det(Ĩ)*(γ,Ĩ⁻¹*γ)*D_T"]);
+}
+
+#[test]
 fn a_false_claim_makes_no_theorem() {
     let body = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nI = 'inertia(0.5..5)'\n\
                 B = 'diag(1..3)'\n[body]\nshape = 'ellipsoid'\n[[claim]]\nname = 'F'\nintegral = '(Ĩ*ω,ω1*γ)'\n";

@@ -136,6 +136,12 @@ fn series(
         let counts: Result<Vec<jets::Count>, SearchError> =
             locals.iter().map(|local| jets::count(local, degree, mixed, known, seed)).collect();
         match counts.map(|counts| counts.into_iter().max_by_key(|count| count.dimension)) {
+            // A bound below what there is would be a defect of the tool: nothing is concluded.
+            Ok(Some(count)) if count.dimension < known => {
+                report
+                    .remark(format!("degree {degree}: fewer integrals are counted than are known"));
+                return Ok(());
+            }
             Ok(None) => {}
             Ok(Some(jets::Count { dimension, size: (unknowns, equations), .. })) => {
                 report.counts.push(CountReport {
@@ -200,7 +206,7 @@ pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
         count.known = all.products(count.degree, count.mixed);
     }
     let free_only = report.counts.iter().all(|count| count.free);
-    let complete = |count: &&super::CountReport| count.dimension <= count.known;
+    let complete = |count: &&CountReport| count.dimension == count.known;
     let relevant = report.counts.iter().filter(|count| count.free == free_only);
     let Some(last) = relevant.take_while(complete).last().copied() else { return Ok(()) };
     let degree = last.degree;

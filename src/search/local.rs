@@ -153,6 +153,10 @@ impl Local {
                 columns.iter().map(|a| columns.iter().map(|b| dot(a, b)).collect()).collect();
             solve_positive(gram, columns.iter().map(|a| dot(a, &field)).collect())
         })?;
+        // An ∫ is a function of the positions whose series is not known: its value is a free input.
+        if graph.inputs() > count + coordinates.count() {
+            return Err(SearchError::Unsplit("the field contains ∫"));
+        }
         Ok(Self { coordinates, graph, rates, draws })
     }
 }

@@ -38,7 +38,7 @@ pub use second_opinion::SecondOpinion;
 /// Why a search cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError {
-    /// Positions and velocities are not known apart.
+    /// Positions and velocities are not known apart, or the field has no series in them.
     #[error("integrals cannot be counted: {0}")]
     Unsplit(&'static str),
     /// The rates are no polynomials of degree 2 in the velocities.
