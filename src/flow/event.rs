@@ -126,7 +126,7 @@ fn value_after<T: Number>(polynomial: &[T], rounding: f64, length: T) -> f64 {
 }
 
 /// The largest term of a polynomial on a piece.
-fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
+pub(super) fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
     let mut power = 1.0;
     let mut largest: f64 = 0.0;
     for coefficient in polynomial {

@@ -4,7 +4,7 @@
 //! case, start ─ record ─▶ graph of the field ─ compile ─▶ Program ─ expand at a state ─▶ Series ─ step ─▶ trajectory
 //! ```
 //!
-//! A [`Program`] says how the coefficients of order n of every intermediate result follow from those
+//! A program says how the coefficients of order n of every intermediate result follow from those
 //! of lower orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or
 //! over double-double.
 
@@ -12,6 +12,7 @@ mod andoyer;
 mod compile;
 mod error;
 mod event;
+mod expand;
 mod form;
 mod lyapunov;
 mod merge;
@@ -29,14 +30,10 @@ mod stepper;
 pub use andoyer::spread;
 pub use error::FlowError;
 pub use lyapunov::{Character, Estimate, Exponents, Variational};
-pub use motion::program;
-pub use number::{Lanes, Number};
 pub use one_sided::{Contact, ContactEvent};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit};
 pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
-pub use program::Program;
 pub use section::{
     Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
 };
 pub use start::Start;
-pub use stepper::{Accuracy, Piece, Stepper};

@@ -6,7 +6,7 @@
 //! to rounding is told, and no contact.
 
 use super::error::FlowError;
-use super::event::{Event, Sides, slope, value};
+use super::event::{Event, Sides, size, slope, value};
 use super::motion::program;
 use super::number::Number;
 use super::program::Program;
@@ -220,11 +220,5 @@ fn is_deep<T: Number>(polynomial: &[T], root: T, length: T) -> bool {
     let rate = slope(polynomial);
     let (fall, curvature) = value(&rate, root);
     let depth = fall.leading() * fall.leading() / (2.0 * curvature.leading().abs());
-    let mut power = 1.0;
-    let mut largest: f64 = 0.0;
-    for coefficient in polynomial {
-        largest = largest.max(coefficient.leading().abs() * power);
-        power *= length.leading().abs();
-    }
-    fall.leading() < 0.0 && depth > ROUNDINGS * T::EPSILON * largest
+    fall.leading() < 0.0 && depth > ROUNDINGS * T::EPSILON * size(polynomial, length)
 }

@@ -84,14 +84,4 @@ impl Program {
     pub fn dimension(&self) -> usize {
         self.dimension
     }
-
-    /// How many rows are computed.
-    pub fn instructions(&self) -> usize {
-        self.instructions.len()
-    }
-
-    /// How many products of series one expansion takes.
-    pub fn products(&self) -> usize {
-        self.instructions.iter().map(|instruction| instruction.form.products.len()).sum()
-    }
 }
