@@ -143,3 +143,16 @@ fn an_inertia_tensor_is_symmetric() {
                 I = [[1, 0.5, 0], [0, 2, 0], [0, 0, 2.5]]\n[body]\nshape = 'ball'\n";
     assert!(matches!(judged(text), Err(JudgeError::AsymmetricInertia)));
 }
+
+#[test]
+fn a_constant_cannot_be_chosen_for_the_primes() {
+    // The product of four primes between 2⁶⁰ and 2⁶¹ that one seed once gave to every claim.
+    let product = "3794879169967486888276628507938376681881088323365498439445561909460045101";
+    let found = claims(&drift(&format!(
+        "[[claim]]\nidentity = '(x+y)² + {product}*1e-120*x = x²+2*x*y+y²'\nexpect = 'fails'\n\
+         [[claim]]\nidentity = '(x+y)*(x−y) + {product}e-120 = x²−y²'\nexpect = 'fails'\n"
+    )));
+    for claim in found {
+        assert_eq!(claim.verdict, Verdict::Refuted, "{}: off by 4e-48", claim.name);
+    }
+}

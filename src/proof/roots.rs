@@ -10,6 +10,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 use super::algebraic::{Algebraic, Root};
+use super::digest::Digest;
 use super::identity::{Certificate, Outcome, Trial};
 use super::squares::{Base, Samples};
 use super::standing::Standing;
@@ -58,12 +59,12 @@ pub fn eliminate(
     outputs: &[Expr],
     lowered: &Lowered<'_>,
     signs: Signs<'_>,
-    seed: u64,
+    digest: Digest,
 ) -> Result<Option<Eliminated>, Fault> {
     let Lowered { algebraic, trial, roots } = *lowered;
     let reached = graph.reached(group.iter().copied());
     let mut replacements = moduli(graph, &reached, roots, signs)?;
-    let samples = Samples::of(algebraic, trial, roots, seed);
+    let samples = Samples::of(algebraic, trial, roots, digest);
     let mut found_certificate = None;
     for (index, (root, standing)) in roots.iter().enumerate() {
         let (Some(place), Standing::Dependent, false) = (root.place, standing, root.is_modulus)
@@ -81,7 +82,7 @@ pub fn eliminate(
             let signs = real_signs(graph, &reached, &places, signs)?;
             // An even number of negative factors.
             let sign = signs.into_iter().try_fold(true, |sign, next| Some(sign == next?));
-            let proved = square_is(algebraic, root, base, &square, &over, roots, seed)?;
+            let proved = square_is(algebraic, root, base, &square, &over, roots, digest)?;
             if let (Some(factor), Some(certificate)) = (square_root(&square), proved) {
                 found_certificate = Some(
                     found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)),
@@ -125,7 +126,7 @@ fn square_is(
     square: &Rational,
     over: &[usize],
     roots: &[(Root, Standing)],
-    seed: u64,
+    digest: Digest,
 ) -> Result<Option<Certificate>, Fault> {
     let factors =
         || roots.iter().filter(|(r, _)| r.place.is_some_and(|place| over.contains(&place)));
@@ -159,7 +160,7 @@ fn square_is(
     if contained.iter().any(|root| standing(root) != Some(Standing::Independent)) {
         return Ok(None);
     }
-    Ok(match Trial::new(&claim, seed).test(&[difference], &contained, &[]) {
+    Ok(match Trial::new(&claim, digest).test(&[difference], &contained, &[]) {
         Outcome::Zero(certificate) => Some(certificate),
         _ => None,
     })

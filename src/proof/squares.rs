@@ -8,6 +8,7 @@ use crate::number::rational::Rational;
 
 use super::algebraic::{Algebraic, Root};
 use super::chance::Chance;
+use super::digest::Digest;
 use super::identity::{LANES, MOST_ROOTS, Trial, points};
 use super::standing::Standing;
 
@@ -60,7 +61,7 @@ impl Samples {
         algebraic: &Algebraic,
         trial: &Trial<'_>,
         roots: &[(Root, Standing)],
-        seed: u64,
+        digest: Digest,
     ) -> Option<Self> {
         let kept: Vec<usize> =
             (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
@@ -69,16 +70,17 @@ impl Samples {
         let count = outputs.len();
         outputs.extend(roots.iter().map(|(root, _)| root.radicand));
         let tape = Tape::new(&algebraic.graph, &outputs);
-        let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::new(seed, 4);
+        let moduli = trial.moduli_for_search();
+        let mut evaluator = Evaluator::new(&tape, Prime::new(moduli));
+        let mut chance = Chance::of(digest, 4);
         let mut samples = Self {
             moduli: Vec::new(),
             values: algebraic.values.iter().map(|value| value.map(|_| Vec::new())).collect(),
             radicands: roots.iter().map(|(root, _)| (root.sign, Vec::new())).collect(),
         };
         for _ in 0..MOST_BLOCKS {
-            evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));
-            for (lane, modulus) in trial.moduli().iter().enumerate() {
+            evaluator.run(&points(&moduli, &algebraic.sources, &[], &mut chance));
+            for (lane, modulus) in moduli.iter().enumerate() {
                 let exists = |index: usize| {
                     let radicand = evaluator.output(count + index)[lane];
                     roots[index].0.is_modulus

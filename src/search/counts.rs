@@ -140,14 +140,20 @@ pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
     let Some(last) = relevant.take_while(complete).last().copied() else { return Ok(()) };
     let degree = last.degree;
     let forces = match (free_only, last.mixed) {
-        (true, _) => " Leading forms are integrals of the free motion, so this holds for every gyrostat and every potential.",
+        (true, _) => {
+            " Leading forms are integrals of the free motion, so this holds for every gyrostat and every potential."
+        }
         (false, true) => " Potential, gyrostat and moments are those of the case.",
         (false, false) => "",
     };
     let names: Vec<&str> = all.names().collect();
     let what = match names.as_slice() {
-        [] => format!("there is no integral polynomial in the velocities of degree at most {degree}, constants aside."),
-        [only] => format!("every integral polynomial in the velocities of degree at most {degree} is a polynomial in {only}."),
+        [] => format!(
+            "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
+        ),
+        [only] => format!(
+            "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {only}."
+        ),
         several => format!(
             "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {}.",
             several.join(" and ")
