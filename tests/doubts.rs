@@ -156,3 +156,46 @@ fn a_constant_cannot_be_chosen_for_the_primes() {
         assert_eq!(claim.verdict, Verdict::Refuted, "{}: off by 4e-48", claim.name);
     }
 }
+
+/// x' = 0 for x in a range, and a claim about x.
+fn still(range: &str, claim: &str) -> Verdict {
+    let text = format!(
+        "title = 'x'\n[state]\nx = '{range}'\n[field]\n\"x'\" = '0*x'\n[[claim]]\n{claim}\nexpect = 'open'\n"
+    );
+    claims(&text)[0].verdict
+}
+
+#[test]
+fn a_sign_at_all_states_that_were_tried_is_none_at_all() {
+    for (range, claim) in [
+        ("-2..2", "identity = '|x − 1.9985| = 1.9985 − x'"),
+        ("-2..2", "identity = '√((x − 1.99)²) = 1.99 − x'"),
+        ("-0.001..1", "identity = '|x| = x'"),
+        ("-0.001..1", "identity = '√(x²) = x'"),
+        // x^1000000 is beyond f64 wherever it is above 1.
+        ("0..2", "identity = '|1 − x^1000000| = 1 − x^1000000'"),
+        ("0..2", "identity = '√((1 − x^1000000)²) = 1 − x^1000000'"),
+        // An antiderivative has a free constant.
+        ("-2..-1", "identity = '|∫(x, x)| = ∫(x, x)'"),
+        ("-2..-1", "identity = '√(∫(x³, x)²) = ∫(x³, x)'"),
+    ] {
+        assert_ne!(still(range, claim), Verdict::Proved, "{claim} on {range}");
+    }
+    for (range, claim) in [
+        ("-2..2", "identity = '|x − 2.5| = 2.5 − x'"),
+        ("-2..2", "identity = '√((x² − x + 1)²) = x² − x + 1'"),
+        ("0..1", "identity = '|x| = x'"),
+    ] {
+        assert_eq!(still(range, claim), Verdict::Proved, "{claim} on {range}");
+    }
+}
+
+#[test]
+fn a_range_that_nobody_asked_for_stands_for_all_numbers() {
+    let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n[body]\n\
+                shape = 'ball'\n[[claim]]\nidentity = '|γ3 + 0.9| = γ3 + 0.9'\nexpect = 'open'\n\
+                [[claim]]\nidentity = '|ω1 − 100| = 100 − ω1'\nexpect = 'open'\n";
+    for claim in claims(text) {
+        assert_ne!(claim.verdict, Verdict::Proved, "{}: γ3 = −1, or ω1 = 101", claim.name);
+    }
+}

@@ -14,12 +14,14 @@
 //! | `elimination`, `rank` | linear algebra modulo a prime |
 //! | `standing` | independent roots certified |
 //! | `squares`, `roots` | dependent roots found out and eliminated |
+//! | `extent` | signs of values wherever the inputs can be |
 
 mod algebraic;
 mod bounds;
 mod chance;
 mod digest;
 mod elimination;
+mod extent;
 mod identity;
 mod rank;
 mod relations;
@@ -33,9 +35,9 @@ mod tests;
 
 pub use bounds::Source;
 pub(crate) use chance::Chance;
+pub use extent::Extent;
 pub use identity::{Certificate, Outcome};
 pub(crate) use relations::reconstruct;
-pub use roots::Signs;
 
 use crate::graph::{Expr, Fault, Graph};
 
@@ -54,8 +56,8 @@ const MOST_CHOICES: usize = 4;
 pub struct Prover<'a> {
     /// The inputs of the graph in order; those beyond are uniform.
     pub sources: &'a [Source],
-    /// The signs of values at real states.
-    pub signs: Signs<'a>,
+    /// Where the inputs are at real states, in order; those beyond are anywhere.
+    pub extents: &'a [Extent],
     /// The seed of primes and points; what is to be proved enters them too.
     pub seed: u64,
 }
@@ -161,9 +163,8 @@ impl Prover<'_> {
         let roots: Vec<_> = roots.into_iter().zip(standing).collect();
         if roots.iter().any(|(_, s)| *s == Standing::Dependent) {
             let lowered = Lowered { algebraic: &algebraic, trial: &trial, roots: &roots };
-            let all: Vec<Expr> =
-                open.iter().flat_map(|group| work.groups[*group].clone()).collect();
-            let found = roots::eliminate(graph, group, &all, &lowered, self.signs, digest)?;
+            let all: Vec<&[Expr]> = open.iter().map(|group| &*work.groups[*group]).collect();
+            let found = roots::eliminate(graph, group, &all, &lowered, self.extents, digest)?;
             if let Some(found) = found {
                 work.replace(found, open);
                 return Ok(None);

@@ -111,15 +111,16 @@ impl Samples {
     }
 
     /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
-    /// points.
+    /// points; of equal ones the first whose sign is `known`.
     pub fn square(
         &self,
         place: usize,
         root: &Root,
         earlier: &[&Root],
+        known: &[bool],
     ) -> Option<(Base, Rational, Vec<usize>)> {
         let radicand = self.radicand(root)?;
-        let squares = Squares::of(self, place);
+        let squares = Squares::of(self, place, known);
         for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
             let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
             let mut target = radicand.clone();
@@ -154,7 +155,7 @@ struct Squares {
 }
 
 impl Squares {
-    fn of(samples: &Samples, before: usize) -> Self {
+    fn of(samples: &Samples, before: usize, known: &[bool]) -> Self {
         let mut all = Self { squares: Vec::new(), at_first: FxHashMap::default() };
         for (place, values) in samples.values.iter().enumerate().take(before) {
             let Some(values) = values else { continue };
@@ -163,7 +164,12 @@ impl Squares {
                 let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
                 let square: Vec<u64> = square.collect();
                 if let Some(first) = square.first() {
-                    all.at_first.entry(*first).or_insert(all.squares.len());
+                    let index = *all.at_first.entry(*first).or_insert(all.squares.len());
+                    let is_known = |place: usize| known.get(place) == Some(&true);
+                    if all.squares.get(index).is_some_and(|(p, _)| !is_known(*p)) && is_known(place)
+                    {
+                        all.at_first.insert(*first, all.squares.len());
+                    }
                     all.squares.push((place, square));
                 }
             }

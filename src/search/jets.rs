@@ -164,7 +164,7 @@ impl Expansion {
                 .map(|draw| {
                     let listed = match draw {
                         Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)),
-                        Draw::Within(_) => None,
+                        Draw::Within(_) | Draw::Of(..) => None,
                     };
                     series.number(listed.unwrap_or_else(|| chance.element(&modulus)))
                 })

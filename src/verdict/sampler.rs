@@ -3,11 +3,12 @@
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
-use crate::mechanics::{Chart, Draw, Draws};
+use crate::mechanics::{Chart, Draw, Draws, Line};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::rational::Rational;
+use crate::proof::Extent;
 use crate::scalar::Scalar;
 
 use super::newton::Newton;
@@ -78,11 +79,16 @@ impl Sampler {
         self.made_in(domain, &numbers)
     }
 
-    /// The numbers that are drawn, as balls, for the first states.
-    pub fn drawn(&self) -> Vec<Balls<LANES>> {
-        let lanes: Vec<Vec<Rational>> =
-            (0..LANES).map(|lane| self.draws.state(self.seed, lane as u64)).collect();
-        self.columns(&Ball::<LANES>, &lanes)
+    /// Where each of the numbers that are drawn can be.
+    pub fn extents(&self) -> Vec<Extent> {
+        let extent = |draw: &Draw| match draw {
+            Draw::Within(range) => Extent::between(&range.low, &range.high),
+            Draw::Of(Line::All, _) => Extent::ALL,
+            Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+            // Each value is put in before anything is proved.
+            Draw::OneOf(_) => Extent::ALL,
+        };
+        self.recipes.iter().map(extent).collect()
     }
 
     /// How each of the numbers is drawn.
