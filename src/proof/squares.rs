@@ -111,7 +111,7 @@ impl Samples {
     }
 
     /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
-    /// points; of equal ones the first whose sign is `known`.
+    /// points; one whose signs are `known` where there is one.
     pub fn square(
         &self,
         place: usize,
@@ -121,9 +121,21 @@ impl Samples {
     ) -> Option<(Base, Rational, Vec<usize>)> {
         let radicand = self.radicand(root)?;
         let squares = Squares::of(self, place, known);
+        [true, false]
+            .into_iter()
+            .find_map(|only_known| self.square_among(&squares, only_known, radicand, earlier))
+    }
+
+    fn square_among(
+        &self,
+        squares: &Squares,
+        only_known: bool,
+        radicand: &[u64],
+        earlier: &[&Root],
+    ) -> Option<(Base, Rational, Vec<usize>)> {
         for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
             let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
-            let mut target = radicand.clone();
+            let mut target = radicand.to_vec();
             for (_, root) in chosen() {
                 for ((entry, factor), m) in
                     target.iter_mut().zip(self.radicand(root)?).zip(&self.moduli)
@@ -138,7 +150,7 @@ impl Samples {
                     .zip(&self.moduli)
                     .map(|(x, m)| Some(m.mul(*x, m.rational(&square.recip()?)?)))
                     .collect();
-                if let Some(base) = squares.find(&self.moduli, &scaled?) {
+                if let Some(base) = squares.find(&self.moduli, &scaled?, only_known) {
                     let over = chosen().filter_map(|(_, root)| root.place).collect();
                     return Some((base, square, over));
                 }
@@ -150,8 +162,16 @@ impl Samples {
 
 /// The squares of all values before a place, by what they are at the first point.
 struct Squares {
-    squares: Vec<(usize, Vec<u64>)>,
+    squares: Vec<Square>,
     at_first: FxHashMap<u64, usize>,
+}
+
+/// The square of the value at a place, at all points.
+struct Square {
+    place: usize,
+    values: Vec<u64>,
+    /// Is the sign of the value known?
+    is_known: bool,
 }
 
 impl Squares {
@@ -160,44 +180,44 @@ impl Squares {
         for (place, values) in samples.values.iter().enumerate().take(before) {
             let Some(values) = values else { continue };
             // 0 has no inverse, and is the square of nothing that is asked for.
-            if values.iter().all(|value| *value != UNDEFINED && *value != 0) {
-                let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
-                let square: Vec<u64> = square.collect();
-                if let Some(first) = square.first() {
-                    let index = *all.at_first.entry(*first).or_insert(all.squares.len());
-                    let is_known = |place: usize| known.get(place) == Some(&true);
-                    if all.squares.get(index).is_some_and(|(p, _)| !is_known(*p)) && is_known(place)
-                    {
-                        all.at_first.insert(*first, all.squares.len());
-                    }
-                    all.squares.push((place, square));
-                }
+            if values.iter().any(|value| *value == UNDEFINED || *value == 0) {
+                continue;
             }
+            let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
+            let values: Vec<u64> = square.collect();
+            let Some(first) = values.first() else { continue };
+            let (next, is_known) = (all.squares.len(), known.get(place) == Some(&true));
+            let index = all.at_first.entry(*first).or_insert(next);
+            if is_known && all.squares.get(*index).is_some_and(|square| !square.is_known) {
+                *index = next;
+            }
+            all.squares.push(Square { place, values, is_known });
         }
         all
     }
 
     /// The place whose square this is.
-    fn place(&self, target: &[u64]) -> Option<usize> {
-        let (place, square) = &self.squares[*self.at_first.get(target.first()?)?];
-        (square == target).then_some(*place)
+    fn place(&self, target: &[u64], only_known: bool) -> Option<usize> {
+        let square = &self.squares[*self.at_first.get(target.first()?)?];
+        (square.values == target && (square.is_known || !only_known)).then_some(square.place)
     }
 
-    fn find(&self, moduli: &[Modulus], target: &[u64]) -> Option<Base> {
-        if let Some(value) = self.place(target) {
+    fn find(&self, moduli: &[Modulus], target: &[u64], only_known: bool) -> Option<Base> {
+        if let Some(value) = self.place(target, only_known) {
             return Some(Base { value, beside: None });
         }
         let combined = |square: &[u64], over: bool| -> Vec<u64> {
             let pairs = target.iter().zip(square).zip(moduli);
             pairs.map(|((t, s), m)| m.mul(*t, if over { *s } else { m.inverse(*s) })).collect()
         };
-        self.squares.iter().find_map(|(place, square)| {
+        let squares = self.squares.iter().filter(|square| square.is_known || !only_known);
+        squares.into_iter().find_map(|square| {
             [false, true].into_iter().find_map(|over| {
                 // The first point decides almost always.
-                let first = combined(&square[..1], over);
+                let first = combined(&square.values[..1], over);
                 self.at_first.get(first.first()?)?;
-                let value = self.place(&combined(square, over))?;
-                Some(Base { value, beside: Some((*place, over)) })
+                let value = self.place(&combined(&square.values, over), only_known)?;
+                Some(Base { value, beside: Some((square.place, over)) })
             })
         })
     }
