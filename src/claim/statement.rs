@@ -18,6 +18,9 @@ pub trait Statement: Clone {
     /// May the claim hold in wider places than its own, and is that worth knowing?
     const WIDENS: bool = true;
 
+    /// Is it about functions of new variables, and looked at where the states of a place have them?
+    const AT_IMAGES: bool = false;
+
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";
 

@@ -69,6 +69,12 @@ pub fn report(
     if holds && claim.only_there && elsewhere {
         evidence.reason = Some("it was claimed to hold there only".to_string());
     }
+    if claim.kind.is_at_images() {
+        for name in &mut evidence.holds {
+            let states = if name == "everywhere" { "all states" } else { name.as_str() };
+            *name = format!("at the images of {states}");
+        }
+    }
     ClaimReport {
         name: claim.name.clone(),
         formula: claim.kind.formula().map(|formula| formula.text().to_string()),
