@@ -9,6 +9,8 @@ use crate::proof::{Outcome, Prover};
 
 /// Combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
+/// Why nothing is proved where there are more.
+pub const TOO_MANY_COMBINATIONS: &str = "the lists of parameter values have too many combinations";
 
 /// The states of one place, as elements of prime fields.
 pub struct Field<'a> {
@@ -32,7 +34,7 @@ impl<'a> Field<'a> {
             return silent("the level set has no parametrisation");
         }
         let Some(combinations) = combinations(self.sampler.recipes()) else {
-            return silent("the lists of parameter values have too many combinations");
+            return silent(TOO_MANY_COMBINATIONS);
         };
         let extents = self.sampler.extents();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
@@ -84,7 +86,7 @@ fn both(a: Outcome, b: Outcome) -> Outcome {
 }
 
 /// Every choice of listed values: a proof speaks of one choice at a time.
-fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
+pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
     for recipe in recipes {
         let values: Vec<Option<Rational>> = match recipe {
