@@ -71,7 +71,11 @@ pub fn report(
     }
     if claim.kind.is_at_images() {
         for name in &mut evidence.holds {
-            let states = if name == "everywhere" { "all states" } else { name.as_str() };
+            let states = match name.as_str() {
+                "everywhere" => "all states",
+                "level" => "the level",
+                equation => equation,
+            };
             *name = format!("at the images of {states}");
         }
     }
