@@ -34,8 +34,8 @@ fn prove(sampler: &Sampler, graph: &Graph, residual: &[Expr]) -> Outcome {
     let fixed = vec![None; sampler.recipes().len()];
     let composed = sampler.compose(graph, &[residual.to_vec()], &fixed);
     let (graph, groups) = composed.expect("composes");
-    let signs = |_: &Graph, values: &[Expr]| vec![None; values.len()];
-    let prover = Prover { sources: &[], signs: &signs, seed: 1 };
+    let extents = sampler.extents();
+    let prover = Prover { sources: &[], extents: &extents, seed: 1 };
     prover.prove(&graph, &groups).expect("proves").remove(0)
 }
 

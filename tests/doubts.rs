@@ -3,7 +3,8 @@
 
 use liouville::case::Case;
 use liouville::verdict::{
-    CaseReport, ClaimReport, Independence, JudgeError, Options, Sign, Verdict, evaluate, judge,
+    CaseReport, ClaimReport, Independence, JudgeError, Options, Sign, Verdict, evaluate,
+    evaluate_digits, judge, read_state,
 };
 
 fn judged(text: &str) -> Result<CaseReport, JudgeError> {
@@ -215,4 +216,205 @@ fn a_level_that_falls_apart_is_told() {
     let chart = format!("{inputs}\nx = 'vec(2*u, 2*v, 1 − u² − v²)/(1 + u² + v²)'");
     let warnings = judged(&on_sphere(&chart, "")).expect("it can be judged").warnings;
     assert!(warnings.iter().any(|w| w.contains("image of [level.chart]")), "{warnings:?}");
+}
+
+#[test]
+fn a_constant_cannot_be_chosen_for_the_primes() {
+    // The product of four primes between 2⁶⁰ and 2⁶¹ that one seed once gave to every claim.
+    let product = "3794879169967486888276628507938376681881088323365498439445561909460045101";
+    let found = claims(&drift(&format!(
+        "[[claim]]\nidentity = '(x+y)² + {product}*1e-120*x = x²+2*x*y+y²'\nexpect = 'fails'\n\
+         [[claim]]\nidentity = '(x+y)*(x−y) + {product}e-120 = x²−y²'\nexpect = 'fails'\n"
+    )));
+    for claim in found {
+        assert_eq!(claim.verdict, Verdict::Refuted, "{}: off by 4e-48", claim.name);
+    }
+}
+
+/// x' = 0 for x in a range, and a claim about x.
+fn still(range: &str, claim: &str) -> Verdict {
+    let text = format!(
+        "title = 'x'\n[state]\nx = '{range}'\n[field]\n\"x'\" = '0*x'\n[[claim]]\n{claim}\nexpect = 'open'\n"
+    );
+    claims(&text)[0].verdict
+}
+
+#[test]
+fn a_sign_at_all_states_that_were_tried_is_none_at_all() {
+    for (range, claim) in [
+        ("-2..2", "identity = '|x − 1.9985| = 1.9985 − x'"),
+        ("-2..2", "identity = '√((x − 1.99)²) = 1.99 − x'"),
+        ("-0.001..1", "identity = '|x| = x'"),
+        ("-0.001..1", "identity = '√(x²) = x'"),
+        // x^1000000 is beyond f64 wherever it is above 1.
+        ("0..2", "identity = '|1 − x^1000000| = 1 − x^1000000'"),
+        ("0..2", "identity = '√((1 − x^1000000)²) = 1 − x^1000000'"),
+        // An antiderivative has a free constant.
+        ("-2..-1", "identity = '|∫(x, x)| = ∫(x, x)'"),
+        ("-2..-1", "identity = '√(∫(x³, x)²) = ∫(x³, x)'"),
+    ] {
+        assert_ne!(still(range, claim), Verdict::Proved, "{claim} on {range}");
+    }
+    for (range, claim) in [
+        ("-2..2", "identity = '|x − 2.5| = 2.5 − x'"),
+        ("-2..2", "identity = '√((x² − x + 1)²) = x² − x + 1'"),
+        ("0..1", "identity = '|x| = x'"),
+    ] {
+        assert_eq!(still(range, claim), Verdict::Proved, "{claim} on {range}");
+    }
+}
+
+#[test]
+fn a_range_that_nobody_asked_for_stands_for_all_numbers() {
+    let text = "title = 'x'\nsystem = 'rubber-plane'\ncheck-weights = false\n[parameters]\nm = 1\nR = 2\n\
+                I = [1, 2, 2.5]\n[body]\nshape = 'ball'\n[[claim]]\nidentity = '|γ3 + 0.9| = γ3 + 0.9'\nexpect = 'open'\n\
+                [[claim]]\nidentity = '|ω1 − 100| = 100 − ω1'\nexpect = 'open'\n";
+    for claim in claims(text) {
+        assert_ne!(claim.verdict, Verdict::Proved, "{}: γ3 = −1, or ω1 = 101", claim.name);
+    }
+}
+
+/// x' = x, y' = y, z' = z, on z = 0.
+fn growth(rest: &str) -> String {
+    format!(
+        "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\nz = '-1..1'\n[field]\n\"x'\" = 'x'\n\"y'\" = 'y'\n\
+         \"z'\" = 'z'\n[level]\nequations = ['z = 0']\n{rest}"
+    )
+}
+
+#[test]
+fn a_proof_goes_no_further_than_it_was_made() {
+    let found = claims(&growth(
+        "[[claim]]\nintegral = '(x + 1e-40*z*exp(x))/y'\n[[claim]]\nintegral = '(x + 1e-40*z*exp(x))/y'\n\
+         where = 'level only'\n[[claim]]\nintegral = 'x/y'\nwhere = 'level only'\n",
+    ));
+    assert!(found.iter().all(|claim| claim.verdict == Verdict::Proved), "on z = 0");
+    assert_eq!(found[0].evidence.holds, ["level"], "the field is silent off it");
+    assert!(found[1].agrees, "rounding does not contradict: {:?}", found[1].evidence.holds);
+    assert!(!found[2].agrees, "a proof does");
+}
+
+#[test]
+fn a_small_part_of_an_integral_is_no_rounding() {
+    let text = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\ny = '1..2'\n\"x'\" = '1..2'\n\
+                \"y'\" = '1..2'\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\n\
+                [[claim]]\nintegral = \"energy + 1e-30*x'\"\n[[claim]]\nintegral = \"1 + 1e-30*x'\"\n\
+                [[claim]]\nintegral = 'energy + energy²'\n";
+    let found: Vec<_> = claims(text).iter().map(|claim| claim.evidence.independence).collect();
+    let expected = [Independence::Independent, Independence::Independent, Independence::General];
+    assert_eq!(found, expected.map(Some));
+}
+
+#[test]
+fn independence_is_asked_for_each_value_of_a_list() {
+    let text = |values: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = 'one of {values}'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\
+             \"x'\" = '0*x'\n\"y'\" = '0*y'\n[[claim]]\nindependent = ['x', 'x + a*y']\nexpect = 'open'\n"
+        )
+    };
+    let wrong = &claims(&text("0, 1"))[0];
+    assert_eq!(wrong.verdict, Verdict::Refuted, "x and x");
+    let reason = wrong.evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("a = 0"), "{reason}");
+    assert_eq!(claims(&text("2, 1"))[0].verdict, Verdict::Proved);
+}
+
+#[test]
+fn a_slope_needs_a_second_derivative() {
+    let limit = |function: &str| {
+        let text = format!(
+            "title = 'x'\n[parameters]\ne = '0.1..1'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n[[claim]]\n\
+             limit = '{function}'\nequals = 'x'\nslope = '1'\nparameter = 'e'\nexpect = 'open'\n"
+        );
+        claims(&text)[0].verdict
+    };
+    for rough in ["x + e + e^(3/2)", "x + e + e*√e", "x + e + e*√(e*x)", "x + e + e*|e|"] {
+        assert_eq!(limit(rough), Verdict::Undecided, "{rough}");
+    }
+    for smooth in ["x + e + e²", "x + e + e^(5/2)", "x + sin(e)"] {
+        assert_eq!(limit(smooth), Verdict::Proved, "{smooth}");
+    }
+}
+
+#[test]
+fn a_level_that_is_missed_by_little_is_missed() {
+    let chart = |off: &str| {
+        format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '1..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n\
+             \"z'\" = '0*z'\n[level]\nequations = ['x² + y² = 1']\n[level.chart]\n\
+             inputs = {{ t = '-2..2', s = '1..2' }}\nx = '(1 − t²)/(1 + t²){off}'\ny = '2*t/(1 + t²)'\nz = 's'\n\
+             [[claim]]\nintegral = 'x² + y²'\n"
+        )
+    };
+    assert!(judged(&chart("")).is_ok(), "a point of the circle");
+    for off in ["+1e-40", "+1e-400"] {
+        let found = judged(&chart(off));
+        assert!(matches!(found, Err(JudgeError::OffLevel { .. })), "{off}: {found:?}");
+    }
+    let left = judged(
+        "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = 'x'\n\"y'\" = 'y + 1e-40'\n\
+         [level]\nequations = ['x*(1+y-y) = y+(x-x)']\n[[claim]]\nidentity = 'x = y'\n",
+    );
+    assert!(matches!(left, Err(JudgeError::NotInvariant { .. })), "{left:?}");
+}
+
+#[test]
+fn a_support_function_that_is_almost_homogeneous_is_not() {
+    let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 3]\n[body]\n\
+                support = '2*|γ| + 1e-40*γ[1]^2'\n[[claim]]\nidentity = 'h = -(r,γ)'\n";
+    assert_eq!(claims(text)[0].verdict, Verdict::Proved, "h is meant on the unit sphere");
+}
+
+#[test]
+fn what_is_off_by_less_than_rounding_is_not_confirmed() {
+    for claim in [
+        "identity = 'exp(2*log(x)) = x² + 1e-40'",
+        "identity = 'log(x*x) = 2*log(x) + 1e-40'",
+        "identity = '1e-400*x*exp(x) = 0'",
+        "identity = 'exp(1e-40*x) = 1'",
+    ] {
+        assert_eq!(still("1..2", claim), Verdict::Refuted, "{claim}");
+    }
+}
+
+#[test]
+fn a_bracket_is_looked_at_where_there_are_images() {
+    let text = "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = '0*x'\n[variables]\nX = 'x'\nY = 'x'\nZ = 'x'\n\
+                [poisson]\n\"X,Y\" = '(X−Y)*X*Z'\n\"Y,Z\" = '(Y−Z)^2+X−Z'\n\"Z,X\" = '(Z−X)*Y^2+X−Y'\n\
+                [[claim]]\njacobi-identity = 'holds'\n";
+    assert_eq!(claims(text)[0].evidence.holds, ["at the images of all states"], "X = Y = Z there");
+}
+
+#[test]
+fn witnesses_are_as_exact_as_what_they_show() {
+    let text = "title = 'x'\n[state]\nx = '-0.9..0.9'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[level]\n\
+                equations = ['x²+y² = 1']\n[level.chart]\ninputs = { u = '-0.9..0.9' }\nx = 'u'\ny = '√(1−u²)'\n\
+                [[claim]]\nname = 'a'\nidentity = 'x²+y² = 1+1e-25'\n\
+                [[claim]]\nname = 'b'\nidentity = 'x²+y² = 1+1e-70'\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let report = judge(&case, &Options::default()).expect("it can be judged");
+    for (index, claim) in report.claims.iter().enumerate() {
+        let witness = claim.evidence.witness.as_ref().expect("a witness");
+        let state = read_state(&case, &witness.state).expect("its state is read");
+        let point = evaluate_digits(&case, Some(&state), 1, 0, 3).expect("it can be evaluated");
+        let again: f64 =
+            point.claims[index].2[0].as_ref().expect("a value").parse().expect("digits");
+        let found = witness.residual;
+        assert!((again / found - 1.0).abs() < 1e-2, "{}: {again:e} against {found:e}", claim.name);
+    }
+}
+
+#[test]
+fn a_witness_beyond_f64_shows_its_residual() {
+    let text = "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n[[claim]]\nintegral = '1e-400*x'\n\
+                [[claim]]\nintegral = 'x^1e9'\n";
+    for (claim, exponent) in claims(text).iter().zip(["e-400", "e146"]) {
+        let digits = claim.evidence.witness.as_ref().and_then(|witness| witness.digits.clone());
+        assert!(
+            digits.as_ref().is_some_and(|d| d.contains(exponent)),
+            "{}: {digits:?}",
+            claim.name
+        );
+    }
 }

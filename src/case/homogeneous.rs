@@ -7,6 +7,7 @@ use crate::mechanics::calculus::{Jet, dot};
 use crate::mechanics::{Chart, Draws, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;
+use crate::proof::{Outcome, Prover};
 
 /// States at which Euler's relation is looked at.
 const STATES: u64 = 4;
@@ -14,7 +15,7 @@ const STATES: u64 = 4;
 /// The shape to use in place of `shape`: its extension off the sphere, unless h is homogeneous.
 ///
 /// Euler's relation (γ,∇h) = h is evaluated at a few states on the unit sphere and off it. Where a
-/// ball excludes 0, or h is not defined off the sphere, the body's support function is
+/// ball excludes 0, or a prime field, or h is not defined off the sphere, the body's support function is
 /// |γ| h(γ/|γ|); for a homogeneous h that would be the same function.
 pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let Shape::Support(formula) = shape else { return None };
@@ -42,5 +43,9 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
         evaluator.run(&inputs);
         evaluator.outputs().all(|ball| ball.is_defined(0) && !ball.excludes_zero(0))
     });
+    // What is off by less than rounding is seen in a prime field.
+    let prover = Prover { sources: &[], extents: &[], seed: 0 };
+    let homogeneous = homogeneous
+        && !matches!(prover.prove(&graph, &[defects.to_vec()]).as_deref(), Ok([Outcome::NonZero]));
     (!homogeneous).then(|| Shape::SupportOnSphere(formula.clone()))
 }

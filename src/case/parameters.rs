@@ -7,7 +7,7 @@ use super::error::{CaseError, Problem};
 use super::section::{Section, Text, numbers};
 use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name};
 use crate::graph;
-use crate::mechanics::{Draw, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
+use crate::mechanics::{Draw, Line, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
 use crate::number::rational::{Rational, RationalError};
 
 /// A value given on the command line in place of the file's.
@@ -287,7 +287,7 @@ pub fn coefficients(
     for [i, j, k] in exponents {
         let name = format!("{prefix}[{i},{j},{k}]");
         let origin = match settings.iter().find(|setting| setting.name == name) {
-            None => Origin::Free(Recipe::Scalar(Draw::Within(range.clone()))),
+            None => Origin::Free(Recipe::Scalar(Draw::Of(Line::All, range.clone()))),
             Some(setting) => match setting.value.trim().parse() {
                 Ok(value) => Origin::Fixed(vec![value]),
                 Err(error) => {

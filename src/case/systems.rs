@@ -10,7 +10,7 @@ use super::section::{Section, Text};
 use super::{ball, body, lagrangian, shadows};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Chart, Draw, Entry, LevelEquation, LevelFunction, Meaning, Model, Parameter, Potential,
+    Chart, Draw, Entry, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Potential,
     Quantity, Range, Reach, Shape, Surface, System, Variable, Vocabulary, of_ball, of_flat_base,
     of_lagrangian, of_rubber,
 };
@@ -130,7 +130,7 @@ impl Reading<'_, '_> {
     fn flat_base(&mut self, name: &Text) -> Result<(System, Chart), CaseError> {
         let nothing = DeTable::new();
         let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
-        let near = Draw::Within(Range::between((-3, 2), (3, 2)));
+        let near = Draw::Of(Line::All, Range::between((-3, 2), (3, 2)));
         let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
         self.declare(
             &own,
@@ -152,7 +152,7 @@ impl Reading<'_, '_> {
         let by_support = section.value("surface").is_none();
         let second = if by_support { "γ" } else { "r" };
         let own = [("M", Type::Vector), (second, Type::Vector)];
-        let near = Draw::Within(Range::between((-2, 1), (2, 1)));
+        let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
         let draws = if by_support { Vec::new() } else { vec![near; 6] };
         self.declare(&own, &draws, of_ball(by_support), name)?;
         if section.value("potential").is_some() {

@@ -9,7 +9,7 @@
 use num_traits::One;
 
 use super::{Context, Objection, Reader, Statement};
-use crate::graph::{Expr, Graph, record};
+use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
 use crate::proof::{Outcome, Prover};
@@ -145,11 +145,10 @@ fn is_surface(model: &Model) -> bool {
         point.resize(model.dimension(), Expr::one());
         model.system.contact_twist(&Phase::new(model, &free, &point).configuration)
     });
-    let unsigned = |_: &Graph, values: &[Expr]| vec![None; values.len()];
     match recorded {
         Ok((_, None)) => true,
         Ok((graph, Some(twist))) => {
-            let prover = Prover { sources: &[], signs: &unsigned, seed: 1 };
+            let prover = Prover { sources: &[], extents: &[], seed: 1 };
             let outcomes = prover.prove(&graph, &[vec![twist]]).unwrap_or_default();
             matches!(outcomes.as_slice(), [Outcome::Zero(_)])
         }

@@ -105,6 +105,7 @@ impl Statement for Hamiltonian {
 
 impl Statement for Casimir {
     const NAME: &'static str = "casimir";
+    const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         bracket_is_given(from, Self::NAME)?;
@@ -127,6 +128,7 @@ impl Statement for Casimir {
 
 impl Statement for JacobiIdentity {
     const NAME: &'static str = "jacobi-identity";
+    const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         bracket_is_given(from, Self::NAME)?;

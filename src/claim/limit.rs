@@ -1,7 +1,11 @@
 //! Limits with a rate: A = B + ε C + O(ε²).
 
-use super::{Reader, Statement, difference};
+use num_dual::Dual;
+use num_traits::{One, Zero};
+
+use super::{Context, Reader, Statement, difference};
 use crate::formula::{Formula, Type, Value};
+use crate::graph::Expr;
 use crate::mechanics::Meaning;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
@@ -19,8 +23,8 @@ pub struct Limit {
 impl Statement for Limit {
     const NAME: &'static str = "limit";
     const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
-    const UNDEFINED: &'static str =
-        ": the parameter is set to 0, so the formula must be written without dividing by it";
+    const UNDEFINED: &'static str = ": the parameter is set to 0, so the formula must be written without dividing by it, \
+         and with a slope have a second derivative there";
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let function = from.required(Self::NAME, None)?;
@@ -55,6 +59,19 @@ impl Statement for Limit {
 
     fn about(&self, value: Formula) -> Option<Self> {
         Some(Self { value, ..self.clone() })
+    }
+
+    /// With a slope, A'' at 0: ε^(3/2) has a slope there too, and is not O(ε²).
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        if self.slope.is_none() {
+            return Context::default();
+        }
+        let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
+        let at = jet.phase.with(&zero, &jet.phase.state());
+        let near = at.lift_parameter(self.parameter, Expr::one());
+        let nearer = near.lift_parameter(self.parameter, Dual::from_re(Expr::one()));
+        let values = nearer.evaluate(&self.function).components();
+        Context { value: values.iter().map(|x| x.eps.eps).collect(), ..Context::default() }
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {

@@ -91,6 +91,11 @@ macro_rules! kinds {
                 match self { $(Kind::$kind(_) => $kind::NEGATED,)* }
             }
 
+            /// Is a place of the claim the image of one in new variables?
+            pub fn is_at_images(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
+            }
+
             /// What it may mean that the residual has no value anywhere.
             pub fn hint_when_undefined(&self) -> &'static str {
                 match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }

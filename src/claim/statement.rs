@@ -42,6 +42,9 @@ pub trait Statement: Clone {
     /// Which derivatives of the formulas that it is about the residual contains.
     const JETS: Jets = Jets::Once;
 
+    /// Is it about functions of new variables, and looked at where the states of a place have them?
+    const AT_IMAGES: bool = false;
+
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";
 

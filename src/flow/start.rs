@@ -32,7 +32,7 @@ pub struct Start {
 fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
     let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
     let mut values: Vec<Rational> = sampler
-        .printed(index)
+        .printed(index, f64::MANTISSA_DIGITS)
         .iter()
         .map(|text| text.parse().map_err(|_| FlowError::NoStart))
         .collect::<Result<_, _>>()?;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::model::Model;
 use super::phase::Phase;
-use super::recipe::{Draw, Range};
+use super::recipe::{Draw, Line, Range};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
@@ -54,12 +54,14 @@ impl Chart {
     pub fn draws(&self, free: &[Draw], kept: &[bool]) -> Vec<Draw> {
         match self {
             Chart::Rolling | Chart::Sphere => {
-                let within =
-                    |low, high, count| vec![Draw::Within(Range::between(low, high)); count];
-                let mut draws = within((-8, 5), (8, 5), 2);
-                draws.extend(within((-2, 1), (2, 1), 3));
-                let off_level = kept.iter().filter(|kept| !**kept).count();
-                draws.extend(within((1, 2), (3, 2), off_level));
+                let of =
+                    |line, low, high, count| vec![Draw::Of(line, Range::between(low, high)); count];
+                let mut draws = of(Line::All, (-8, 5), (8, 5), 2);
+                draws.extend(of(Line::All, (-2, 1), (2, 1), 3));
+                // The length of γ, then the spin.
+                for (kept, line) in kept.iter().zip([Line::Positive, Line::All]) {
+                    draws.extend(of(line, (1, 2), (3, 2), usize::from(!kept)));
+                }
                 draws.extend(free.iter().cloned());
                 draws
             }

@@ -61,7 +61,7 @@ impl Source {
     fn new(draw: &Draw) -> Self {
         match draw {
             Draw::OneOf(values) => Source::List(values.clone()),
-            Draw::Within(range) => {
+            Draw::Within(range) | Draw::Of(_, range) => {
                 let width = &range.high - &range.low;
                 let (step, count) = grid(&width);
                 let low = range.low.clone();

@@ -28,7 +28,7 @@ pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{LevelEquation, LevelFunction, Model, Origin, Parameter, Variable, components};
 pub use phase::{Configuration, Phase};
 pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
-pub use recipe::{Draw, Range, Recipe};
+pub use recipe::{Draw, Line, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use variables::{Block, Variables};
 pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};

@@ -35,6 +35,17 @@ pub enum Draw {
     Within(Range),
     /// One of a list.
     OneOf(Vec<Rational>),
+    /// From the inside of a range that stands for more: nobody asked for this one.
+    Of(Line, Range),
+}
+
+/// What a range stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// All numbers.
+    All,
+    /// All positive numbers.
+    Positive,
 }
 
 /// How a parameter's components come from draws.
@@ -107,7 +118,7 @@ impl Recipe {
 }
 
 fn rotation_draws() -> Vec<Draw> {
-    vec![Draw::Within(Range::between((-9, 10), (9, 10))); 3]
+    vec![Draw::Of(Line::All, Range::between((-9, 10), (9, 10))); 3]
 }
 
 fn diagonal<T: Scalar>(entries: [T; 3]) -> Matrix3<T> {

@@ -88,4 +88,9 @@ pub trait Enclosing: Domain {
 
     /// Is 0 outside the enclosure? Never where the lane is undefined.
     fn excludes_zero(block: &Self::Block, lane: usize) -> bool;
+
+    /// A number away from 0 in a few digits, where the enclosure in f64 does not tell it from 0.
+    fn beyond_f64(_: &Self::Block, _: usize) -> Option<String> {
+        None
+    }
 }

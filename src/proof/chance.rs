@@ -3,6 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::digest::Digest;
 use crate::number::prime::{Modulus, is_prime};
 
 /// Random numbers for field tests; no stream of states has these numbers.
@@ -15,7 +16,15 @@ const LEAST: u64 = 1 << 60;
 impl Chance {
     /// The random numbers of a seed; `purpose` keeps apart what should not share them.
     pub fn new(seed: u64, purpose: u64) -> Self {
-        let mut stream = ChaCha8Rng::seed_from_u64(seed);
+        Self::in_stream(ChaCha8Rng::seed_from_u64(seed), purpose)
+    }
+
+    /// The same for what is to be proved: nobody can choose it with regard to these numbers.
+    pub fn of(digest: Digest, purpose: u64) -> Self {
+        Self::in_stream(ChaCha8Rng::from_seed(digest.0), purpose)
+    }
+
+    fn in_stream(mut stream: ChaCha8Rng, purpose: u64) -> Self {
         stream.set_stream((1 << 63) | purpose);
         Self(stream)
     }

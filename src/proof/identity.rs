@@ -18,6 +18,7 @@ use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use super::algebraic::{Algebraic, Root};
 use super::bounds::{Bounds, Source};
 use super::chance::Chance;
+use super::digest::Digest;
 
 /// Points that are tried at once.
 pub const LANES: usize = 8;
@@ -29,6 +30,9 @@ const POINTS: usize = LANES / PRIMES;
 const DRAWS: u64 = 64;
 /// More roots reject too many draws.
 pub const MOST_ROOTS: usize = 8;
+/// What primes are drawn for.
+const TESTS: u64 = 0;
+const SEARCHES: u64 = 7;
 /// Log₂ of the number of primes p = 3 mod 4 between 2^60 and 2^61, rounded down.
 const POOL: f64 = 53.0;
 /// Log₂ of the error that a proof stays below.
@@ -85,14 +89,14 @@ pub struct Trial<'a> {
     algebraic: &'a Algebraic,
     bounds: OnceCell<Bounds>,
     moduli: [Modulus; LANES],
-    seed: u64,
+    digest: Digest,
 }
 
 impl<'a> Trial<'a> {
     /// Draws primes; values are bounded when that is first asked for.
-    pub fn new(algebraic: &'a Algebraic, seed: u64) -> Self {
-        let moduli = suitable_moduli(seed, algebraic.odd_indices(), &algebraic.squares);
-        Self { algebraic, bounds: OnceCell::new(), moduli, seed }
+    pub fn new(algebraic: &'a Algebraic, digest: Digest) -> Self {
+        let moduli = suitable_moduli(digest, TESTS, algebraic);
+        Self { algebraic, bounds: OnceCell::new(), moduli, digest }
     }
 
     fn bounds(&self) -> &Bounds {
@@ -105,6 +109,12 @@ impl<'a> Trial<'a> {
     /// The moduli of the lanes.
     pub fn moduli(&self) -> &[Modulus; LANES] {
         &self.moduli
+    }
+
+    /// Other moduli, to look for an identity: it has to be tested modulo primes that had no part in
+    /// finding it.
+    pub fn moduli_for_search(&self) -> [Modulus; LANES] {
+        suitable_moduli(self.digest, SEARCHES, self.algebraic)
     }
 
     /// Are all outputs identically zero?
@@ -127,7 +137,7 @@ impl<'a> Trial<'a> {
         }
         let tape = Tape::new(&self.algebraic.graph, outputs);
         let mut evaluator = Evaluator::new(&tape, Prime::new(self.moduli));
-        let mut chance = Chance::new(self.seed, 1);
+        let mut chance = Chance::of(self.digest, 1);
         let mut accepted = [0usize; PRIMES];
         let mut draws = 0;
         while draws < most && accepted.iter().any(|count| *count < POINTS) {
@@ -161,7 +171,7 @@ impl<'a> Trial<'a> {
     pub fn is_nonzero_for_all(&self, outputs: &[Expr], choices: &[Vec<(usize, bool)>]) -> bool {
         let tape = Tape::new(&self.algebraic.graph, outputs);
         let mut evaluator = Evaluator::new(&tape, Prime::new(self.moduli));
-        let mut before = Chance::new(self.seed, 1);
+        let mut before = Chance::of(self.digest, 1);
         (0..DRAWS as usize / POINTS).any(|_| {
             let mut nonzero = [true; LANES];
             let mut after = before.clone();
@@ -224,24 +234,25 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// The primes of a seed with unique roots of these indices and with these squares, lane by lane.
+/// Primes with unique odd roots and square roots of constants where a graph has them, lane by lane.
 ///
 /// The last ones are kept: one claim after the other asks for the same.
-fn suitable_moduli(seed: u64, odd: Vec<u64>, squares: &[u64]) -> [Modulus; LANES] {
-    type Known = (u64, Vec<u64>, Vec<u64>, [Modulus; LANES]);
+fn suitable_moduli(digest: Digest, purpose: u64, algebraic: &Algebraic) -> [Modulus; LANES] {
+    type Known = (Digest, u64, Vec<u64>, Vec<u64>, [Modulus; LANES]);
     thread_local! {
         static LAST: RefCell<Option<Known>> = const { RefCell::new(None) };
     }
+    let (odd, squares) = (algebraic.odd_indices(), &*algebraic.squares);
     LAST.with_borrow_mut(|last| {
-        if let Some((s, o, q, moduli)) = last
-            && (*s, &*o, &**q) == (seed, &odd, squares)
+        if let Some((d, p, o, s, moduli)) = last
+            && (*d, *p, &*o, &**s) == (digest, purpose, &odd, squares)
         {
             return *moduli;
         }
-        let mut chance = Chance::new(seed, 0);
+        let mut chance = Chance::of(digest, purpose);
         let primes: [Modulus; PRIMES] = std::array::from_fn(|_| chance.prime(&odd, squares));
         let moduli = std::array::from_fn(|lane| primes[lane * PRIMES / LANES]);
-        *last = Some((seed, odd, squares.to_vec(), moduli));
+        *last = Some((digest, purpose, odd, squares.to_vec(), moduli));
         moduli
     })
 }

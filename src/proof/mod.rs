@@ -9,16 +9,19 @@
 //! | `algebraic` | functions that no field has are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
 //! | `bounds` | degree and height on the graph, denominators kept in factors |
-//! | `chance` | random primes and points |
+//! | `chance`, `digest` | random primes and points, drawn from the seed and what is to be proved |
 //! | `identity` | Theorem 1: the test itself |
 //! | `elimination`, `rank` | linear algebra modulo a prime |
 //! | `standing` | independent roots certified |
 //! | `squares`, `roots` | dependent roots found out and eliminated |
+//! | `extent` | signs of values wherever the inputs can be |
 
 mod algebraic;
 mod bounds;
 mod chance;
+mod digest;
 mod elimination;
+mod extent;
 mod identity;
 mod rank;
 mod relations;
@@ -32,13 +35,14 @@ mod tests;
 
 pub use bounds::Source;
 pub(crate) use chance::Chance;
+pub use extent::Extent;
 pub use identity::{Certificate, Outcome};
 pub(crate) use relations::reconstruct;
-pub use roots::Signs;
 
 use crate::graph::{Expr, Fault, Graph};
 
 use algebraic::Algebraic;
+use digest::Digest;
 use identity::Trial;
 use relations::Relations;
 use roots::{Eliminated, Lowered};
@@ -52,9 +56,9 @@ const MOST_CHOICES: usize = 4;
 pub struct Prover<'a> {
     /// The inputs of the graph in order; those beyond are uniform.
     pub sources: &'a [Source],
-    /// The signs of values at real states.
-    pub signs: Signs<'a>,
-    /// The seed of primes and points.
+    /// Where the inputs are at real states, in order; those beyond are anywhere.
+    pub extents: &'a [Extent],
+    /// The seed of primes and points; what is to be proved enters them too.
     pub seed: u64,
 }
 
@@ -64,7 +68,8 @@ impl Prover<'_> {
         let sources = self.sources_of(graph);
         let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
         let mut open: Vec<usize> = (0..groups.len()).collect();
-        let mut work = Work { replaced: None, groups: groups.to_vec(), certificate: None };
+        let digest = Digest::of(self.seed, graph, groups);
+        let mut work = Work { digest, replaced: None, groups: groups.to_vec(), certificate: None };
         let mut fresh = true;
         while let Some(first) = open.first().copied() {
             // Once some roots are gone, many groups have none left.
@@ -94,8 +99,8 @@ impl Prover<'_> {
         outcomes: &mut [Option<Outcome>],
     ) -> Result<(), Fault> {
         let all: Vec<Expr> = open.iter().flat_map(|group| work.groups[*group].clone()).collect();
-        let algebraic = self.lower(graph, &all, &self.sources_of(graph))?;
-        let trial = Trial::new(&algebraic, self.seed);
+        let algebraic = self.lower(graph, &all, &self.sources_of(graph), work.digest)?;
+        let trial = Trial::new(&algebraic, work.digest);
         open.retain(|group| {
             let outputs =
                 work.groups[*group].iter().map(|output| algebraic.values[graph.place(*output)]);
@@ -121,6 +126,7 @@ impl Prover<'_> {
         graph: &Graph,
         outputs: &[Expr],
         sources: &[Source],
+        digest: Digest,
     ) -> Result<Algebraic, Fault> {
         let reached = graph.reached(outputs.iter().copied());
         let opaque = Symbols::opaque(graph, &reached);
@@ -128,7 +134,7 @@ impl Prover<'_> {
         if !symbols::any(graph, &reached) {
             return Ok(algebraic);
         }
-        let mut relations = Relations::new(graph, sources, algebraic, self.seed);
+        let mut relations = Relations::new(graph, sources, algebraic, digest);
         let symbols = Symbols::by_basis(graph, &reached, &mut relations);
         Algebraic::of(graph, &reached, sources, &symbols)
     }
@@ -145,20 +151,20 @@ impl Prover<'_> {
     ) -> Result<Option<Outcome>, Fault> {
         let graph = work.graph(original);
         let group = &work.groups[group];
-        let algebraic = self.lower(graph, group, sources)?;
+        let digest = work.digest;
+        let algebraic = self.lower(graph, group, sources, digest)?;
         let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
         let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
             return Ok(Some(no_value()));
         };
-        let trial = Trial::new(&algebraic, self.seed);
+        let trial = Trial::new(&algebraic, digest);
         let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
-        let standing = standing(&trial, &algebraic, &roots, self.seed);
+        let standing = standing(&trial, &algebraic, &roots, digest);
         let roots: Vec<_> = roots.into_iter().zip(standing).collect();
         if roots.iter().any(|(_, s)| *s == Standing::Dependent) {
             let lowered = Lowered { algebraic: &algebraic, trial: &trial, roots: &roots };
-            let all: Vec<Expr> =
-                open.iter().flat_map(|group| work.groups[*group].clone()).collect();
-            let found = roots::eliminate(graph, group, &all, &lowered, self.signs, self.seed)?;
+            let all: Vec<&[Expr]> = open.iter().map(|group| &*work.groups[*group]).collect();
+            let found = roots::eliminate(graph, group, &all, &lowered, self.extents, digest)?;
             if let Some(found) = found {
                 work.replace(found, open);
                 return Ok(None);
@@ -221,6 +227,8 @@ impl Prover<'_> {
 
 /// What is left to prove, after some roots have been eliminated.
 struct Work {
+    /// Of what was to be proved at first.
+    digest: Digest,
     /// The graph without them, if there were any.
     replaced: Option<Graph>,
     groups: Vec<Vec<Expr>>,

@@ -6,6 +6,7 @@ use crate::number::prime::{Prime, UNDEFINED};
 use super::Prover;
 use super::algebraic::Algebraic;
 use super::chance::Chance;
+use super::digest::Digest;
 use super::elimination::reduce;
 use super::identity::{LANES, Trial, points};
 use super::symbols::Symbols;
@@ -25,6 +26,7 @@ impl Prover<'_> {
         rows: &[Vec<Expr>],
         heights: &[usize],
     ) -> Result<Option<Vec<usize>>, Fault> {
+        let digest = Digest::of(self.seed, graph, rows);
         let entries = rows.concat();
         let reached = graph.reached(entries.iter().copied());
         let sources = self.sources_of(graph);
@@ -32,10 +34,10 @@ impl Prover<'_> {
         let algebraic = Algebraic::of(graph, &reached, &sources, &symbols)?;
         let outputs = entries.iter().map(|entry| algebraic.values[graph.place(*entry)]);
         let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else { return Ok(None) };
-        let trial = Trial::new(&algebraic, self.seed);
+        let trial = Trial::new(&algebraic, digest);
         let tape = Tape::new(&algebraic.graph, &outputs);
         let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::new(self.seed, 5);
+        let mut chance = Chance::of(digest, 5);
         let width = rows.first().map_or(0, Vec::len);
         let mut ranks: Option<Vec<usize>> = None;
         for _ in 0..MOST_BLOCKS {

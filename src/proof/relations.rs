@@ -8,6 +8,7 @@ use crate::scalar::Scalar;
 use super::algebraic::{Algebraic, Root};
 use super::bounds::Source;
 use super::chance::Chance;
+use super::digest::Digest;
 use super::elimination::reduce;
 use super::identity::{LANES, Outcome, Trial, points};
 use super::standing::{Standing, standing};
@@ -37,13 +38,18 @@ pub struct Relations<'g> {
     graph: &'g Graph,
     sources: &'g [Source],
     algebraic: Algebraic,
-    seed: u64,
+    digest: Digest,
 }
 
 impl<'g> Relations<'g> {
     /// Prepares to relate values of `graph`.
-    pub fn new(graph: &'g Graph, sources: &'g [Source], algebraic: Algebraic, seed: u64) -> Self {
-        Self { graph, sources, algebraic, seed }
+    pub fn new(
+        graph: &'g Graph,
+        sources: &'g [Source],
+        algebraic: Algebraic,
+        digest: Digest,
+    ) -> Self {
+        Self { graph, sources, algebraic, digest }
     }
 
     /// Each place's value through a basis chosen among them, and the number 1 if `with_one`; `None`
@@ -52,7 +58,7 @@ impl<'g> Relations<'g> {
         if places.is_empty() || places.len() > MOST {
             return None;
         }
-        let mut chance = Chance::new(self.seed, 2);
+        let mut chance = Chance::of(self.digest, 2);
         let modulus = chance.prime(&self.algebraic.odd_indices(), &self.algebraic.squares);
         let columns = places.len() + usize::from(with_one);
         let rows = self.rows(places, with_one, columns + SPARE, &modulus, &mut chance)?;
@@ -81,7 +87,7 @@ impl<'g> Relations<'g> {
 
     /// Are two values reciprocal (`true`), or equal (`false`)? `None` where neither is proved.
     pub fn is_reciprocal(&mut self, a: usize, b: usize) -> Option<bool> {
-        let mut chance = Chance::new(self.seed, 6);
+        let mut chance = Chance::of(self.digest, 6);
         let modulus = chance.prime(&self.algebraic.odd_indices(), &self.algebraic.squares);
         let rows = self.rows(&[a, b], false, 2, &modulus, &mut chance)?;
         let one = modulus.one();
@@ -160,9 +166,9 @@ impl<'g> Relations<'g> {
         let lowered_defects: Option<Vec<Expr>> =
             defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
         let Some(lowered_defects) = lowered_defects else { return false };
-        let trial = Trial::new(&lowered, self.seed);
+        let trial = Trial::new(&lowered, self.digest);
         let roots: Vec<Root> = lowered.roots_of(&lowered_defects).collect();
-        let standing = standing(&trial, &lowered, &roots, self.seed);
+        let standing = standing(&trial, &lowered, &roots, self.digest);
         standing.iter().all(|standing| *standing == Standing::Independent)
             && matches!(trial.test(&lowered_defects, &roots, &[]), Outcome::Zero(_))
     }

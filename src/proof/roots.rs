@@ -1,31 +1,58 @@
 //! Dependent roots and moduli are replaced by what they are.
 //!
 //! A root that is no square in the field of those before it is independent (see `standing`). Otherwise
-//! A = b² for some b there, and √A = ±b with the sign that b has at real states. Such a b is looked for
-//! among the values computed before (see `squares`), and the identity is proved.
+//! A = b² for some b there, and √A = |b|, which is ±b where b has one sign (see `extent`). Such a b
+//! is looked for among the values computed before (see `squares`), and the identity is proved.
 
 use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::number::Function;
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 use super::algebraic::{Algebraic, Root};
+use super::digest::Digest;
+use super::extent::{Extent, Setting};
 use super::identity::{Certificate, Outcome, Trial};
 use super::squares::{Base, Samples};
 use super::standing::Standing;
 
-/// Signs of values of a graph at real states, where all states agree on them.
-pub type Signs<'s> = &'s dyn Fn(&Graph, &[Expr]) -> Vec<Option<bool>>;
-
-/// A root's new value: ±c b / Π √A_i.
+/// A root's new value: c |b| / Π √A_i.
 struct Replacement {
     place: usize,
     base: Base,
-    /// c, negative where b is.
+    /// c
     factor: Rational,
-    /// Is it |b|, because the sign of b is not known?
-    modulus: bool,
+    /// The sign of b wherever the inputs can be, if it is known.
+    sign: Option<bool>,
+    /// The same where all roots of the group are real.
+    sign_where_real: Option<bool>,
+    /// The places of the roots √A_i.
     over: Vec<usize>,
+    /// Is it |X| that is replaced?
+    is_modulus: bool,
+}
+
+impl Replacement {
+    /// The new value, where the values at places are known; `None` where the old one has to stay.
+    fn value(&self, where_real: bool, values: &[Option<Expr>]) -> Option<Expr> {
+        if !where_real && !self.over.is_empty() {
+            return None;
+        }
+        let sign = if where_real { self.sign_where_real } else { self.sign };
+        let base = self.base.from(|at| values[at])?;
+        let size = match sign {
+            Some(true) => base,
+            Some(false) => -base,
+            None if self.is_modulus => return None,
+            None => base.modulus(),
+        };
+        let mut value = size * Expr::rational(&self.factor);
+        for root in &self.over {
+            value /= values[*root]?;
+        }
+        Some(value)
+    }
 }
 
 /// A graph without some of its roots.
@@ -49,21 +76,39 @@ pub struct Lowered<'l> {
 }
 
 /// The original graph with those of a group's dependent roots and moduli replaced that could be, if
-/// any.
+/// any; in the other groups too, as far as that is right for them.
 ///
-/// `group` and `outputs` are values of `graph`; the latter are wanted in the new graph.
+/// Where the other roots of the group are real decides signs, and √(xy) = √x √y needs x > 0. A group
+/// that lacks one of these roots has a value at other states too, and keeps its own.
 pub fn eliminate(
     graph: &Graph,
     group: &[Expr],
-    outputs: &[Expr],
+    groups: &[&[Expr]],
     lowered: &Lowered<'_>,
-    signs: Signs<'_>,
-    seed: u64,
+    extents: &[Extent],
+    digest: Digest,
 ) -> Result<Option<Eliminated>, Fault> {
     let Lowered { algebraic, trial, roots } = *lowered;
     let reached = graph.reached(group.iter().copied());
-    let mut replacements = moduli(graph, &reached, roots, signs)?;
-    let samples = Samples::of(algebraic, trial, roots, seed);
+    let (real, positive) = radicands(graph, &reached);
+    let anywhere = Setting { inputs: extents, positive: &[] };
+    let where_real = Setting { inputs: extents, positive: &positive };
+    let signs = |base: Base| {
+        // An even number of negative factors.
+        let sign = |setting: Setting<'_>| {
+            base.places().try_fold(true, |sign, place| Some(sign == setting.sign(graph, place)?))
+        };
+        let sign_anywhere = sign(anywhere);
+        (sign_anywhere, sign_anywhere.or_else(|| sign(where_real)))
+    };
+    let mut replacements = moduli(graph, roots, signs);
+    let is_dependent =
+        |(root, standing): &(Root, Standing)| *standing == Standing::Dependent && !root.is_modulus;
+    let samples = match roots.iter().any(is_dependent) {
+        true => Samples::of(algebraic, trial, roots, digest),
+        false => None,
+    };
+    let known = where_real.at_sight(graph, &reached);
     let mut found_certificate = None;
     for (index, (root, standing)) in roots.iter().enumerate() {
         let (Some(place), Standing::Dependent, false) = (root.place, standing, root.is_modulus)
@@ -75,46 +120,69 @@ pub fn eliminate(
             .filter(|(root, standing)| *standing == Standing::Independent && root.place.is_some())
             .map(|(root, _)| root)
             .collect();
-        if let Some(found) = samples.as_ref().and_then(|s| s.square(place, root, &earlier)) {
-            let (base, square, over) = found;
-            let places: Vec<usize> = base.places().collect();
-            let signs = real_signs(graph, &reached, &places, signs)?;
-            // An even number of negative factors.
-            let sign = signs.into_iter().try_fold(true, |sign, next| Some(sign == next?));
-            let proved = square_is(algebraic, root, base, &square, &over, roots, seed)?;
-            if let (Some(factor), Some(certificate)) = (square_root(&square), proved) {
-                found_certificate = Some(
-                    found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)),
-                );
-                // √(b²) = |b| whatever the sign; where it is known no modulus is left.
-                let factor = if sign == Some(false) { -&factor } else { factor };
-                let modulus = sign.is_none();
-                replacements.push(Replacement { place, base, factor, modulus, over });
-            }
+        let found = samples.as_ref().and_then(|s| s.square(place, root, &earlier, &known));
+        let Some((base, square, over)) = found else { continue };
+        let proved = square_is(algebraic, root, base, &square, &over, roots, digest)?;
+        if let (Some(factor), Some(certificate)) = (square_root(&square), proved) {
+            found_certificate =
+                Some(found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)));
+            let (sign, sign_where_real) = signs(base);
+            let is_modulus = false;
+            replacements.push(Replacement {
+                place,
+                base,
+                factor,
+                sign,
+                sign_where_real,
+                over,
+                is_modulus,
+            });
         }
     }
     if replacements.is_empty() {
         return Ok(None);
     }
-    let reached = graph.reached(outputs.iter().copied());
-    let (replaced, values) = record(graph.inputs(), |inputs| {
-        let values = graph.replay(&reached, inputs, |place, _, values| {
-            let replacement = replacements.iter().find(|r| r.place == place)?;
-            let base = replacement.base.from(|at| values[at])?;
-            let base = if replacement.modulus { base.modulus() } else { base };
-            let mut value = base * Expr::rational(&replacement.factor);
-            for root in &replacement.over {
-                value /= values[*root]?;
-            }
-            Some(value)
-        });
-        outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<Expr>>>()
+    let (replaced, outputs) = record(graph.inputs(), |inputs| {
+        let replayed = |where_real: bool, group: &[Expr]| {
+            let reached = graph.reached(group.iter().copied());
+            graph.replay(&reached, inputs, |place, _, values| {
+                replacements.iter().find(|r| r.place == place)?.value(where_real, values)
+            })
+        };
+        let is_as_real = |group: &&&[Expr]| {
+            let reached = graph.reached(group.iter().copied());
+            real.iter().all(|place| reached[*place])
+        };
+        let (alike, others): (Vec<&&[Expr]>, Vec<&&[Expr]>) = groups.iter().partition(is_as_real);
+        let alike: Vec<Expr> = alike.into_iter().flat_map(|group| group.iter().copied()).collect();
+        let others: Vec<Expr> =
+            others.into_iter().flat_map(|group| group.iter().copied()).collect();
+        let (in_alike, in_others) = (replayed(true, &alike), replayed(false, &others));
+        groups
+            .iter()
+            .flat_map(|group| {
+                let values = if is_as_real(&group) { &in_alike } else { &in_others };
+                group.iter().map(|output| values[graph.place(*output)])
+            })
+            .collect::<Option<Vec<Expr>>>()
     })?;
-    Ok(values.map(|outputs| Eliminated {
+    Ok(outputs.map(|outputs| Eliminated {
         graph: replaced,
         outputs,
         certificate: found_certificate,
     }))
+}
+
+/// The places of the roots among the reached steps, and of what they are taken of.
+fn radicands(graph: &Graph, reached: &[bool]) -> (Vec<usize>, Vec<usize>) {
+    graph
+        .steps()
+        .enumerate()
+        .filter_map(|(place, step)| match step {
+            Step::Unary(Function::Sqrt, a) if reached[place] => Some((place, a)),
+            _ => None,
+        })
+        .unzip()
 }
 
 /// Proves A Π A_i = c² b² for a root of A, the value b and other roots A_i.
@@ -125,7 +193,7 @@ fn square_is(
     square: &Rational,
     over: &[usize],
     roots: &[(Root, Standing)],
-    seed: u64,
+    digest: Digest,
 ) -> Result<Option<Certificate>, Fault> {
     let factors =
         || roots.iter().filter(|(r, _)| r.place.is_some_and(|place| over.contains(&place)));
@@ -159,55 +227,27 @@ fn square_is(
     if contained.iter().any(|root| standing(root) != Some(Standing::Independent)) {
         return Ok(None);
     }
-    Ok(match Trial::new(&claim, seed).test(&[difference], &contained, &[]) {
+    Ok(match Trial::new(&claim, digest).test(&[difference], &contained, &[]) {
         Outcome::Zero(certificate) => Some(certificate),
         _ => None,
     })
 }
 
-/// |X| becomes ±X where X has one sign at all real states.
+/// |X| becomes ±X where X has one sign.
 fn moduli(
     graph: &Graph,
-    reached: &[bool],
     roots: &[(Root, Standing)],
-    signs: Signs<'_>,
-) -> Result<Vec<Replacement>, Fault> {
-    let found: Vec<(usize, usize)> = roots
-        .iter()
-        .filter(|(root, _)| root.is_modulus)
-        .filter_map(|(root, _)| {
-            let place = root.place?;
-            Some((place, graph.step(place).arguments().next()?))
-        })
-        .collect();
-    let arguments: Vec<usize> = found.iter().map(|(_, argument)| *argument).collect();
-    let signs = real_signs(graph, reached, &arguments, signs)?;
-    let replacements = found.into_iter().zip(signs).filter_map(|((place, value), sign)| {
-        let factor = Rational::from(if sign? { 1 } else { -1 });
-        let base = Base { value, beside: None };
-        Some(Replacement { place, base, factor, modulus: false, over: Vec::new() })
-    });
-    Ok(replacements.collect())
-}
-
-/// The signs of the values at these places.
-fn real_signs(
-    graph: &Graph,
-    reached: &[bool],
-    places: &[usize],
-    signs: Signs<'_>,
-) -> Result<Vec<Option<bool>>, Fault> {
-    if places.is_empty() {
-        return Ok(Vec::new());
-    }
-    let (copy, values) = record(graph.inputs(), |inputs| {
-        let values = graph.replay(reached, inputs, |_, _, _| None);
-        places.iter().map(|place| values[*place]).collect::<Option<Vec<Expr>>>()
-    })?;
-    let found = values.map_or(vec![None; places.len()], |values| signs(&copy, &values));
-    let constant = |place: &usize| match graph.step(*place) {
-        Step::Constant(value) => Some(!value.is_negative()),
-        _ => None,
+    signs: impl Fn(Base) -> (Option<bool>, Option<bool>),
+) -> Vec<Replacement> {
+    let replacement = |root: &Root| {
+        let place = root.place?;
+        let base = Base { value: graph.step(place).arguments().next()?, beside: None };
+        let (sign, sign_where_real) = signs(base);
+        sign_where_real?;
+        let (factor, over) = (Rational::from(1), Vec::new());
+        let is_modulus = true;
+        Some(Replacement { place, base, factor, sign, sign_where_real, over, is_modulus })
     };
-    Ok(places.iter().zip(found).map(|(place, sign)| constant(place).or(sign)).collect())
+    let moduli = roots.iter().filter(|(root, _)| root.is_modulus);
+    moduli.filter_map(|(root, _)| replacement(root)).collect()
 }

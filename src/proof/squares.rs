@@ -8,6 +8,7 @@ use crate::number::rational::Rational;
 
 use super::algebraic::{Algebraic, Root};
 use super::chance::Chance;
+use super::digest::Digest;
 use super::identity::{LANES, MOST_ROOTS, Trial, points};
 use super::standing::Standing;
 
@@ -60,7 +61,7 @@ impl Samples {
         algebraic: &Algebraic,
         trial: &Trial<'_>,
         roots: &[(Root, Standing)],
-        seed: u64,
+        digest: Digest,
     ) -> Option<Self> {
         let kept: Vec<usize> =
             (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
@@ -69,16 +70,17 @@ impl Samples {
         let count = outputs.len();
         outputs.extend(roots.iter().map(|(root, _)| root.radicand));
         let tape = Tape::new(&algebraic.graph, &outputs);
-        let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::new(seed, 4);
+        let moduli = trial.moduli_for_search();
+        let mut evaluator = Evaluator::new(&tape, Prime::new(moduli));
+        let mut chance = Chance::of(digest, 4);
         let mut samples = Self {
             moduli: Vec::new(),
             values: algebraic.values.iter().map(|value| value.map(|_| Vec::new())).collect(),
             radicands: roots.iter().map(|(root, _)| (root.sign, Vec::new())).collect(),
         };
         for _ in 0..MOST_BLOCKS {
-            evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));
-            for (lane, modulus) in trial.moduli().iter().enumerate() {
+            evaluator.run(&points(&moduli, &algebraic.sources, &[], &mut chance));
+            for (lane, modulus) in moduli.iter().enumerate() {
                 let exists = |index: usize| {
                     let radicand = evaluator.output(count + index)[lane];
                     roots[index].0.is_modulus
@@ -109,18 +111,31 @@ impl Samples {
     }
 
     /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
-    /// points.
+    /// points; one whose signs are `known` where there is one.
     pub fn square(
         &self,
         place: usize,
         root: &Root,
         earlier: &[&Root],
+        known: &[bool],
     ) -> Option<(Base, Rational, Vec<usize>)> {
         let radicand = self.radicand(root)?;
-        let squares = Squares::of(self, place);
+        let squares = Squares::of(self, place, known);
+        [true, false]
+            .into_iter()
+            .find_map(|only_known| self.square_among(&squares, only_known, radicand, earlier))
+    }
+
+    fn square_among(
+        &self,
+        squares: &Squares,
+        only_known: bool,
+        radicand: &[u64],
+        earlier: &[&Root],
+    ) -> Option<(Base, Rational, Vec<usize>)> {
         for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
             let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
-            let mut target = radicand.clone();
+            let mut target = radicand.to_vec();
             for (_, root) in chosen() {
                 for ((entry, factor), m) in
                     target.iter_mut().zip(self.radicand(root)?).zip(&self.moduli)
@@ -135,7 +150,7 @@ impl Samples {
                     .zip(&self.moduli)
                     .map(|(x, m)| Some(m.mul(*x, m.rational(&square.recip()?)?)))
                     .collect();
-                if let Some(base) = squares.find(&self.moduli, &scaled?) {
+                if let Some(base) = squares.find(&self.moduli, &scaled?, only_known) {
                     let over = chosen().filter_map(|(_, root)| root.place).collect();
                     return Some((base, square, over));
                 }
@@ -147,49 +162,62 @@ impl Samples {
 
 /// The squares of all values before a place, by what they are at the first point.
 struct Squares {
-    squares: Vec<(usize, Vec<u64>)>,
+    squares: Vec<Square>,
     at_first: FxHashMap<u64, usize>,
 }
 
+/// The square of the value at a place, at all points.
+struct Square {
+    place: usize,
+    values: Vec<u64>,
+    /// Is the sign of the value known?
+    is_known: bool,
+}
+
 impl Squares {
-    fn of(samples: &Samples, before: usize) -> Self {
+    fn of(samples: &Samples, before: usize, known: &[bool]) -> Self {
         let mut all = Self { squares: Vec::new(), at_first: FxHashMap::default() };
         for (place, values) in samples.values.iter().enumerate().take(before) {
             let Some(values) = values else { continue };
             // 0 has no inverse, and is the square of nothing that is asked for.
-            if values.iter().all(|value| *value != UNDEFINED && *value != 0) {
-                let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
-                let square: Vec<u64> = square.collect();
-                if let Some(first) = square.first() {
-                    all.at_first.entry(*first).or_insert(all.squares.len());
-                    all.squares.push((place, square));
-                }
+            if values.iter().any(|value| *value == UNDEFINED || *value == 0) {
+                continue;
             }
+            let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
+            let values: Vec<u64> = square.collect();
+            let Some(first) = values.first() else { continue };
+            let (next, is_known) = (all.squares.len(), known.get(place) == Some(&true));
+            let index = all.at_first.entry(*first).or_insert(next);
+            if is_known && all.squares.get(*index).is_some_and(|square| !square.is_known) {
+                *index = next;
+            }
+            all.squares.push(Square { place, values, is_known });
         }
         all
     }
 
     /// The place whose square this is.
-    fn place(&self, target: &[u64]) -> Option<usize> {
-        let (place, square) = &self.squares[*self.at_first.get(target.first()?)?];
-        (square == target).then_some(*place)
+    fn place(&self, target: &[u64], only_known: bool) -> Option<usize> {
+        let square = &self.squares[*self.at_first.get(target.first()?)?];
+        (square.values == target && (square.is_known || !only_known)).then_some(square.place)
     }
 
-    fn find(&self, moduli: &[Modulus], target: &[u64]) -> Option<Base> {
-        if let Some(value) = self.place(target) {
+    fn find(&self, moduli: &[Modulus], target: &[u64], only_known: bool) -> Option<Base> {
+        if let Some(value) = self.place(target, only_known) {
             return Some(Base { value, beside: None });
         }
         let combined = |square: &[u64], over: bool| -> Vec<u64> {
             let pairs = target.iter().zip(square).zip(moduli);
             pairs.map(|((t, s), m)| m.mul(*t, if over { *s } else { m.inverse(*s) })).collect()
         };
-        self.squares.iter().find_map(|(place, square)| {
+        let squares = self.squares.iter().filter(|square| square.is_known || !only_known);
+        squares.into_iter().find_map(|square| {
             [false, true].into_iter().find_map(|over| {
                 // The first point decides almost always.
-                let first = combined(&square[..1], over);
+                let first = combined(&square.values[..1], over);
                 self.at_first.get(first.first()?)?;
-                let value = self.place(&combined(square, over))?;
-                Some(Base { value, beside: Some((*place, over)) })
+                let value = self.place(&combined(&square.values, over), only_known)?;
+                Some(Base { value, beside: Some((square.place, over)) })
             })
         })
     }

@@ -5,6 +5,7 @@ use crate::number::prime::{Prime, UNDEFINED};
 
 use super::algebraic::{Algebraic, Root};
 use super::chance::Chance;
+use super::digest::Digest;
 use super::identity::{LANES, MOST_ROOTS, Trial, points};
 
 /// Draws without a rejection after which a root is taken to depend on those before it.
@@ -26,7 +27,7 @@ pub fn standing(
     trial: &Trial<'_>,
     algebraic: &Algebraic,
     roots: &[Root],
-    seed: u64,
+    digest: Digest,
 ) -> Vec<Standing> {
     let mut standing = vec![Standing::Unknown; roots.len()];
     let mut accepted = vec![0usize; roots.len()];
@@ -38,7 +39,7 @@ pub fn standing(
     let radicands: Vec<Expr> = roots.iter().map(|root| root.radicand).collect();
     let tape = Tape::new(&algebraic.graph, &radicands);
     let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-    let mut chance = Chance::new(seed, 3);
+    let mut chance = Chance::of(digest, 3);
     let most = (PATIENCE << roots.len().min(MOST_ROOTS)) / LANES + 1;
     for _ in 0..most {
         evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));

@@ -3,36 +3,20 @@
 use num_dual::DualNum;
 
 use super::*;
-use crate::graph::{Evaluator, Tape, record};
-use crate::number::Domain;
-use crate::number::ball::Ball;
+use crate::graph::record;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 /// Inputs in 1..2, or in -2..-1 for those that are negative.
 fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
     let (graph, value) = record(negative.len(), build).expect("records");
-    let signs = |graph: &Graph, values: &[Expr]| {
-        let tape = Tape::new(graph, values);
-        let mut evaluator = Evaluator::new(&tape, Ball::<4>);
-        let states = [[1.1, 1.7, 1.3, 1.9], [1.6, 1.2, 1.4, 1.5], [1.05, 1.95, 1.45, 1.25]];
-        let inputs: Vec<_> = negative
-            .iter()
-            .zip(states.iter().cycle())
-            .map(|(negative, states)| {
-                let sign = if *negative { -1.0 } else { 1.0 };
-                Ball::<4>.values(&states.map(|x| Rational::from_f64(sign * x).expect("finite")))
-            })
-            .collect();
-        evaluator.run(&inputs);
-        let sign_of = |ball: &crate::number::ball::Balls<4>| {
-            let known = (0..4).all(|lane| ball.excludes_zero(lane));
-            let same = (0..4).all(|lane| (ball.mid[lane] > 0.0) == (ball.mid[0] > 0.0));
-            (known && same).then_some(ball.mid[0] > 0.0)
-        };
-        evaluator.outputs().map(sign_of).collect()
+    let [one, two] = [1, 2].map(Rational::from);
+    let extent = |negative: &bool| match negative {
+        true => Extent::between(&-&two, &-&one),
+        false => Extent::between(&one, &two),
     };
-    let prover = Prover { sources: &[], signs: &signs, seed: 1 };
+    let extents: Vec<Extent> = negative.iter().map(extent).collect();
+    let prover = Prover { sources: &[], extents: &extents, seed: 1 };
     prover.prove(&graph, &[vec![value]]).expect("records").remove(0)
 }
 
@@ -88,7 +72,7 @@ fn independent_roots_are_certified() {
 }
 
 #[test]
-fn roots_of_squares_have_the_sign_of_real_states() {
+fn roots_of_squares_have_the_sign_of_the_base() {
     let binomial = |x: &[Expr]| {
         let sum = x[0] + x[1];
         (sum * sum).sqrt() - sum
@@ -194,4 +178,24 @@ fn a_value_that_never_exists_is_not_zero() {
         root - root * x[0] / x[0]
     });
     assert!(matches!(outcome, Outcome::Silent(_)), "√(-x²): {outcome:?}");
+}
+
+#[test]
+fn a_root_is_only_replaced_where_its_factors_are_real() {
+    let build = |x: &[Expr]| {
+        let [a, b, c] = [x[0] * x[1], x[1] * x[2], x[2] * x[0]].map(|product| product.sqrt());
+        let roots = x[0].sqrt() + x[1].sqrt() + x[2].sqrt();
+        // Both are true for positive x, and the second is false for negative ones.
+        let product = a * b * c - x[0] * x[1] * x[2];
+        vec![vec![product * roots], vec![product]]
+    };
+    let (graph, groups) = record(3, build).expect("records");
+    let number = |n: i64| Rational::from(n);
+    for (low, is_true) in [(0, true), (-1, false)] {
+        let extents = [Extent::between(&number(low), &number(1)); 3];
+        let prover = Prover { sources: &[], extents: &extents, seed: 1 };
+        let outcomes = prover.prove(&graph, &groups).expect("records");
+        assert!(is_proved(&outcomes[0]), "√(xy) = √x √y where √x is real: {:?}", outcomes[0]);
+        assert_eq!(is_proved(&outcomes[1]), is_true, "from {low} on: {:?}", outcomes[1]);
+    }
 }

@@ -69,6 +69,9 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
     if let Some(energy) = &report.energy {
         root.insert("energy".into(), number(energy));
     }
+    if !report.antiderivatives.is_empty() {
+        root.insert("antiderivatives".into(), json!(report.antiderivatives));
+    }
     root.insert("claims".into(), Value::Object(claims));
     serde_json::to_string_pretty(&Value::Object(root))
 }
@@ -101,6 +104,10 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
     }
     if let Some(energy) = &report.energy {
         line("energy", shown(energy));
+    }
+    if !report.antiderivatives.is_empty() {
+        let values = report.antiderivatives.join(", ");
+        line("∫", format!("{values}, put in: the constant is free, and values below contain it"));
     }
     for (name, value, residual) in &report.claims {
         let all = |values: &[N]| values.iter().map(|x| shown(x)).collect::<Vec<_>>().join(", ");

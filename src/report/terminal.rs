@@ -122,7 +122,9 @@ fn remark(claim: &ClaimReport) -> String {
         }
         Verdict::Refuted => {
             if let Some(witness) = &evidence.witness {
-                words.push(format!("{:.2e} at state {}", witness.residual, witness.index));
+                let shown = witness.digits.clone();
+                let shown = shown.unwrap_or_else(|| format!("{:.2e}", witness.residual));
+                words.push(format!("{shown} at state {}", witness.index));
                 if evidence.method != "ball" {
                     words.push(evidence.method.to_string());
                 }
@@ -155,14 +157,23 @@ fn details(report: &CaseReport) -> String {
         if let Some(scaled) = evidence.max_scaled_residual {
             out.push_str(&format!("      rounding  {scaled:.3} of its error bound at most\n"));
         }
+        if let Some(sign) = evidence.sign {
+            let sign = match sign {
+                Sign::Positive => "positive",
+                Sign::Negative => "negative",
+                Sign::Changes => "of both signs",
+            };
+            out.push_str(&format!("      sign      {sign} at the states that were tried\n"));
+        }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));
         }
         if let Some(witness) = &evidence.witness {
-            out.push_str(&format!(
-                "      witness   residual {:e} ± {:.1e}\n",
-                witness.residual, witness.error_bound
-            ));
+            let shown = witness
+                .digits
+                .clone()
+                .unwrap_or_else(|| format!("{:e} ± {:.1e}", witness.residual, witness.error_bound));
+            out.push_str(&format!("      witness   residual {shown}\n"));
             let set =
                 witness.parameters.iter().map(|(name, value)| format!(" --set '{name}={value}'"));
             out.push_str(&format!(

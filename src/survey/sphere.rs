@@ -146,7 +146,8 @@ impl<'c> Body<'c> {
         if !matches!(model.system, System::Rubber(_)) || !model.extension.is_empty() {
             return Ok(None);
         }
-        let printed = Sampler::new(case, &Place::level(model), options.seed)?.printed(0);
+        let printed = Sampler::new(case, &Place::level(model), options.seed)?
+            .printed(0, f64::MANTISSA_DIGITS);
         let numbers = printed[..model.free_components()].iter();
         let parameters: Vec<f64> = numbers
             .map(|text| text.parse::<Rational>().map_or(f64::NAN, |value| value.to_f64().0))

@@ -59,7 +59,7 @@ impl Bench<'_> {
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| off.excludes_zero(*lane)) {
-                let (equation, by) = (equation.text.clone(), off.mid[lane]);
+                let (equation, by) = (equation.text.clone(), format!("{:e}", off.mid[lane]));
                 return Err(JudgeError::OffLevel { equation, by });
             }
         }
@@ -70,7 +70,7 @@ impl Bench<'_> {
         for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
-                let (equation, rate) = (equation.text.clone(), rate.mid[lane]);
+                let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }

@@ -69,6 +69,16 @@ pub fn report(
     if holds && claim.only_there && elsewhere {
         evidence.reason = Some("it was claimed to hold there only".to_string());
     }
+    if claim.kind.is_at_images() {
+        for name in &mut evidence.holds {
+            let states = match name.as_str() {
+                "everywhere" => "all states",
+                "level" => "the level",
+                equation => equation,
+            };
+            *name = format!("at the images of {states}");
+        }
+    }
     ClaimReport {
         name: claim.name.clone(),
         formula: claim.kind.text(),

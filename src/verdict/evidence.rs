@@ -44,8 +44,11 @@ pub struct Witness {
     pub state: String,
     /// The residual there.
     pub residual: f64,
-    /// A bound on the residual's error; less than its magnitude.
+    /// A bound on the residual's error; less than its magnitude, unless that is beyond f64.
     pub error_bound: f64,
+    /// The residual to a few digits, where f64 cannot tell it from 0 or from infinity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digits: Option<String>,
 }
 
 /// How an integral relates to what every case conserves.

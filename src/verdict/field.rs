@@ -1,17 +1,16 @@
 //! Residuals in prime fields: the claim's graph, from the draws on, handed to the prover.
 
-use super::antiderivative_value;
 use super::bench::Bench;
-use super::sampler::{LANES, Sampler};
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
+use super::sampler::Sampler;
+use crate::graph::{Expr, Fault};
 use crate::mechanics::Draw;
-use crate::number::Domain;
-use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 use crate::proof::{Outcome, Prover};
 
 /// Combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
+/// Why nothing is proved where there are more.
+pub const TOO_MANY_COMBINATIONS: &str = "the lists of parameter values have too many combinations";
 
 /// The states of one place, as elements of prime fields.
 pub struct Field<'a> {
@@ -35,13 +34,13 @@ impl<'a> Field<'a> {
             return silent("the level set has no parametrisation");
         }
         let Some(combinations) = combinations(self.sampler.recipes()) else {
-            return silent("the lists of parameter values have too many combinations");
+            return silent(TOO_MANY_COMBINATIONS);
         };
+        let extents = self.sampler.extents();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
         for fixed in combinations {
             let (graph, values) = self.sampler.compose(self.bench.graph, groups, &fixed)?;
-            let signs = |graph: &Graph, values: &[Expr]| self.signs(graph, values);
-            let prover = Prover { sources: &[], signs: &signs, seed: self.bench.options.seed };
+            let prover = Prover { sources: &[], extents: &extents, seed: self.bench.options.seed };
             for (all, one) in outcomes.iter_mut().zip(prover.prove(&graph, &values)?) {
                 *all = Some(match all.take() {
                     None => one,
@@ -63,10 +62,10 @@ impl<'a> Field<'a> {
         if self.sampler.is_numerical() {
             return Ok(None);
         }
+        let extents = self.sampler.extents();
         for fixed in combinations(self.sampler.recipes()).unwrap_or_default() {
             let (graph, rows) = self.sampler.compose(self.bench.graph, rows, &fixed)?;
-            let signs = |graph: &Graph, values: &[Expr]| self.signs(graph, values);
-            let prover = Prover { sources: &[], signs: &signs, seed: self.bench.options.seed };
+            let prover = Prover { sources: &[], extents: &extents, seed: self.bench.options.seed };
             let Some(found) = prover.ranks(&graph, &rows, heights)? else { return Ok(None) };
             least = Some(match least {
                 None => found,
@@ -75,27 +74,6 @@ impl<'a> Field<'a> {
         }
         Ok(least)
     }
-
-    /// The signs of values of a composed graph at the states that balls have, where all agree.
-    fn signs(&self, graph: &Graph, values: &[Expr]) -> Vec<Option<bool>> {
-        let tape = Tape::new(graph, values);
-        let domain = Ball::<LANES>;
-        let mut inputs = self.sampler.drawn();
-        let free = graph.inputs().saturating_sub(inputs.len());
-        inputs.extend((0..free).map(|k| domain.constant(&antiderivative_value(k))));
-        let mut evaluator = Evaluator::new(&tape, domain);
-        evaluator.run(&inputs);
-        evaluator.outputs().map(common_sign).collect()
-    }
-}
-
-/// The sign at all lanes that have a value; `None` where one of them is not known or differs.
-fn common_sign(ball: &Balls<LANES>) -> Option<bool> {
-    let defined = || (0..LANES).filter(|lane| ball.is_defined(*lane));
-    let first = ball.mid[defined().next()?] > 0.0;
-    defined()
-        .all(|lane| ball.excludes_zero(lane) && (ball.mid[lane] > 0.0) == first)
-        .then_some(first)
 }
 
 /// What holds of two cases together.
@@ -108,11 +86,11 @@ fn both(a: Outcome, b: Outcome) -> Outcome {
 }
 
 /// Every choice of listed values: a proof speaks of one choice at a time.
-fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
+pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
     for recipe in recipes {
         let values: Vec<Option<Rational>> = match recipe {
-            Draw::Within(_) => vec![None],
+            Draw::Within(_) | Draw::Of(..) => vec![None],
             Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
         };
         all = all

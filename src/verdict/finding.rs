@@ -87,8 +87,9 @@ pub fn weigh<D: Enclosing>(
     let (kind, none) = (item.claim.kind.name(), 0..0);
     finding.undefined = None;
     if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
+        let hint = item.claim.kind.hint_when_undefined();
         finding.undefined =
-            Some(format!("the formula of this {kind} has no value at {LANES} states"));
+            Some(format!("the formula of this {kind} has no value at {LANES} states{hint}"));
     }
     if !span.defects.is_empty() {
         let defects = look(&span.defects, &none);

@@ -68,12 +68,12 @@ pub enum JudgeError {
     #[error("none of {0} states could be drawn: their numbers are beyond the range of f64")]
     Overflow(u64),
     /// A parametrisation that makes states off the level.
-    #[error("the chart is not on the level set: `{equation}` is off by {by:e}")]
+    #[error("the chart is not on the level set: `{equation}` is off by {by}")]
     OffLevel {
         /// The equation that does not hold.
         equation: String,
-        /// Left minus right.
-        by: f64,
+        /// Left minus right, at a state.
+        by: String,
     },
     /// A parametrisation that leaves out directions of the level.
     #[error("the chart covers {found} of the {dimension} dimensions of the level set")]
@@ -96,14 +96,12 @@ pub enum JudgeError {
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
     /// The level set is left by the motion.
-    #[error(
-        "the level set is not invariant: along the motion `{equation}` changes at rate {rate:e}"
-    )]
+    #[error("the level set is not invariant: along the motion `{equation}` changes at rate {rate}")]
     NotInvariant {
         /// The equation that is left.
         equation: String,
         /// Its rate at a state.
-        rate: f64,
+        rate: String,
     },
 }
 

@@ -10,8 +10,8 @@
 //! ```
 
 use super::bench::Bench;
-use super::evidence::{Proof, Verdict};
-use super::field::Field;
+use super::evidence::{Proof, Verdict, Witness};
+use super::field::{Field, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
@@ -31,7 +31,7 @@ const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
 /// States that are tried with each of them.
 const PRECISE_STATES: u64 = 4;
 
-type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
+pub type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
 
 impl Bench<'_> {
     /// Settles the claims made at one place.
@@ -41,24 +41,78 @@ impl Bench<'_> {
         mut open: Open<'f, 'r>,
     ) -> Result<(), JudgeError> {
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
-        for (item, finding) in &mut open {
+        self.check_motion(place, &sampler)?;
+        if sampler.has_lists() {
+            let (negated, others): (Open<'_, '_>, Open<'_, '_>) =
+                open.into_iter().partition(|(item, _)| item.claim.kind.is_negated());
+            open = others;
+            self.climb_each(place, &sampler, negated)?;
+        }
+        self.settle(place, &sampler, &mut open)?;
+        let mut holding: Open<'_, '_> =
+            open.into_iter().filter(|(_, finding)| finding.holds()).collect();
+        self.settle_novelty(&sampler, &mut holding)?;
+        self.settle_signs(&sampler, holding.into_iter());
+        Ok(())
+    }
+
+    /// Climbs until each claim is settled.
+    fn settle(
+        &self,
+        place: &Place,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), JudgeError> {
+        for (item, finding) in open.iter_mut() {
             fold(self.graph, item, finding);
             finding.evidence.operations = self.graph.operations(&item.residual);
         }
-        self.check_motion(place, &sampler)?;
-        self.first_states(&sampler, &mut open);
+        self.first_states(sampler, open);
         if self.options.trust != Trust::Float {
-            self.fields(place, &sampler, &mut open)?;
+            self.fields(place, sampler, open)?;
         }
-        self.further_states(&sampler, &mut open);
+        self.further_states(sampler, open);
         if self.options.trust != Trust::Float && !sampler.is_numerical() {
-            self.more_digits(&sampler, &mut open);
+            self.more_digits(sampler, open);
         }
         for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.settled.is_none()) {
             conclude(item, finding);
         }
-        let holding = open.into_iter().filter(|(_, finding)| finding.holds());
-        self.settle_signs(&sampler, holding);
+        Ok(())
+    }
+
+    /// Claims that something does *not* vanish, for each choice of listed values by itself: one at
+    /// which it does is enough to be wrong.
+    fn climb_each(
+        &self,
+        place: &Place,
+        sampler: &Sampler,
+        open: Open<'_, '_>,
+    ) -> Result<(), JudgeError> {
+        let Some(choices) = combinations(sampler.recipes()) else {
+            for (_, finding) in open {
+                undecide(finding, TOO_MANY_COMBINATIONS.to_string());
+            }
+            return Ok(());
+        };
+        for (item, finding) in open {
+            for fixed in &choices {
+                let mut one = Finding::default();
+                let chosen = sampler.with(fixed);
+                self.settle(place, &chosen, &mut vec![(item, &mut one)])?;
+                let refuted = one.settled == Some(Verdict::Refuted);
+                if !refuted || finding.settled.is_none() {
+                    *finding = one;
+                }
+                if !refuted {
+                    let listed = chosen.listed(self.case);
+                    let reason = finding.evidence.reason.get_or_insert_default();
+                    let separator = if reason.is_empty() { "" } else { ": " };
+                    *reason = format!("for {listed}{separator}{reason}");
+                    break;
+                }
+            }
+        }
         Ok(())
     }
 
@@ -73,7 +127,7 @@ impl Bench<'_> {
         for (index, (equation, _)) in kept.enumerate() {
             let rate = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
-                let (equation, rate) = (equation.text.clone(), rate.mid[lane]);
+                let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }
@@ -87,7 +141,7 @@ impl Bench<'_> {
         for ((item, finding), span) in open.iter_mut().zip(&spans) {
             weigh(item, span, &values, finding);
             if finding.settled.is_none() && finding.undefined.is_none() {
-                self.examine(sampler, 0, span, &values, finding);
+                self.examine(sampler, 0, span, &values, f64::MANTISSA_DIGITS, finding);
             }
         }
     }
@@ -101,10 +155,11 @@ impl Bench<'_> {
     ) -> Result<(), JudgeError> {
         let mut unsettled: Vec<_> =
             open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
-        if unsettled.is_empty() {
+        let ground = self.ground(place);
+        if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
         }
-        let mut groups = vec![self.ground(place)];
+        let mut groups = vec![ground];
         groups.extend(
             unsettled
                 .iter()
@@ -113,6 +168,9 @@ impl Bench<'_> {
         let field = Field::new(self, sampler);
         let mut outcomes = field.test(&groups)?.into_iter();
         let ground = outcomes.next();
+        if ground == Some(Outcome::NonZero) {
+            self.name_the_error(place, sampler)?;
+        }
         for ((item, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
             let defects = &item.context.quadrature_defects;
             if outcome == Outcome::NonZero
@@ -154,6 +212,43 @@ impl Bench<'_> {
         Ok(())
     }
 
+    /// Tells which equation does not hold, or is left, where the ground is known not to be zero.
+    fn name_the_error(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
+        let kept = || (0..place.kept.len()).filter(|index| place.kept[*index]);
+        let text = |index: usize| self.case.model.level[index].text.clone();
+        let single = |values: &[Expr]| kept().map(|index| vec![values[index]]).collect::<Vec<_>>();
+        let (level, rates) = (single(&self.common.level), single(&self.common.level_rates));
+        let field = Field::new(self, sampler);
+        for (index, outcome) in kept().zip(field.test(&level)?) {
+            if outcome == Outcome::NonZero {
+                let by = self.magnitude(sampler, self.common.level[index]);
+                return Err(JudgeError::OffLevel { equation: text(index), by });
+            }
+        }
+        for (index, outcome) in kept().zip(field.test(&rates)?) {
+            if outcome == Outcome::NonZero {
+                let rate = self.magnitude(sampler, self.common.level_rates[index]);
+                return Err(JudgeError::NotInvariant { equation: text(index), rate });
+            }
+        }
+        Ok(())
+    }
+
+    /// A value that is not identically zero, at a state where it is seen not to be.
+    fn magnitude(&self, sampler: &Sampler, value: Expr) -> String {
+        let run = self.run(&[value]);
+        for bits in BITS {
+            let domain = Precise::new(bits);
+            for index in 0..PRECISE_STATES {
+                let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
+                    return found.rough();
+                }
+            }
+        }
+        format!("less than {} bits tell from 0", BITS[BITS.len() - 1])
+    }
+
     /// What must vanish for states to be on the level and to stay there.
     fn ground(&self, place: &Place) -> Vec<Expr> {
         let kept = |all: &[Expr]| -> Vec<Expr> {
@@ -184,7 +279,7 @@ impl Bench<'_> {
             let start = block * LANES as u64;
             let values = run.at(&Ball::<LANES>, &sampler.balls(start));
             for ((_, finding), span) in left.iter_mut().zip(spans) {
-                self.examine(sampler, start, span, &values, finding);
+                self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
             }
         }
     }
@@ -207,24 +302,30 @@ impl Bench<'_> {
                 finding.undefined = None;
             }
             if finding.settled.is_none() && finding.undefined.is_none() {
-                self.examine(sampler, 0, span, &values, finding);
+                self.examine(sampler, 0, span, &values, 2 * f64::MANTISSA_DIGITS, finding);
             }
         }
         let deserves = |finding: &Finding| {
-            finding.settled.is_none() && finding.is_nonzero && finding.undefined.is_none()
+            finding.settled.is_none() && !finding.is_zero && finding.undefined.is_none()
         };
         for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
             let run = self.run(&item.residual);
             let all = 0..item.residual.len();
-            for bits in BITS {
-                let domain = Precise::new(bits);
+            let before = finding.evidence.method;
+            // Where the fields are silent there may be nothing to find.
+            let precisions = if finding.is_nonzero { &BITS[..] } else { &BITS[..1] };
+            for bits in precisions {
+                let domain = Precise::new(*bits);
                 finding.evidence.method = "ball of many bits";
                 for index in 0..PRECISE_STATES {
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
                     if finding.settled.is_none() {
-                        self.seek_witness(sampler, index, all.clone(), &values, finding);
+                        self.seek_witness(sampler, index, all.clone(), &values, *bits, finding);
                     }
                 }
+            }
+            if finding.settled.is_none() && !finding.is_nonzero {
+                finding.evidence.method = before;
             }
         }
     }
@@ -258,13 +359,14 @@ impl Bench<'_> {
         start: u64,
         span: &Span,
         values: &Values<D>,
+        bits: u32,
         finding: &mut Finding,
     ) {
         if finding.evidence.method.is_empty() {
             let numerical = sampler.is_numerical();
             finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
         }
-        if self.seek_witness(sampler, start, span.residual.clone(), values, finding) {
+        if self.seek_witness(sampler, start, span.residual.clone(), values, bits, finding) {
             return;
         }
         let residuals = values.range(span.residual.clone());
@@ -300,6 +402,7 @@ impl Bench<'_> {
         start: u64,
         residual: std::ops::Range<usize>,
         values: &Values<D>,
+        bits: u32,
         finding: &mut Finding,
     ) -> bool {
         let residuals = values.range(residual);
@@ -308,16 +411,22 @@ impl Bench<'_> {
                 continue;
             }
             let away = residuals.iter().find(|block| D::excludes_zero(block, lane));
+            let digits = away.and_then(|block| D::beyond_f64(block, lane));
             if let Some((mid, rad)) = away.and_then(|block| D::enclosure(block, lane)) {
                 let index = start + lane as u64;
                 let evidence = &mut finding.evidence;
                 evidence.samples = evidence.samples.max(lane + 1);
-                evidence.witness = Some(witness(self.case, sampler, index, mid, rad));
+                let found = match &digits {
+                    Some(digits) => format!("{digits} at state {index}"),
+                    None => format!("{mid:.3e} ± {rad:.1e} at state {index}"),
+                };
+                let witness = witness(self.case, sampler, index, bits, (mid, rad));
+                evidence.witness = Some(Witness { digits, ..witness });
                 evidence.max_residual = None;
                 evidence.max_scaled_residual = None;
                 finding.settled = Some(Verdict::Refuted);
                 let method = finding.evidence.method;
-                finding.rung(method, format!("{mid:.3e} ± {rad:.1e} at state {index}"));
+                finding.rung(method, found);
                 return true;
             }
         }

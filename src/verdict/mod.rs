@@ -15,6 +15,7 @@ mod judge;
 mod ladder;
 mod mutants;
 mod newton;
+mod novelty;
 mod physics;
 mod point;
 mod recorded;

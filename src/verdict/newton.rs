@@ -18,6 +18,7 @@ const MAX_STEPS: usize = 60;
 const SAFETY: f64 = 4.0;
 
 /// The level functions and their gradients on a tape.
+#[derive(Clone)]
 pub struct Newton {
     tape: Tape,
     parameters: usize,

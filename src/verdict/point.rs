@@ -41,6 +41,8 @@ pub struct PointReport<N = Enclosed> {
     pub criterion: Option<N>,
     /// ½(ω,Ĩω) + U, for bodies.
     pub energy: Option<N>,
+    /// What was put in for antiderivatives, whose constants are free.
+    pub antiderivatives: Vec<String>,
     /// Name, value and residual of each claim, by components; a claim may be about no formula.
     pub claims: Vec<(String, Vec<N>, Vec<N>)>,
 }
@@ -125,7 +127,7 @@ impl<'c> Scene<'c> {
         let level = Place::level(model);
         let sampler = Sampler::new(case, &level, seed)?;
         let free = model.free_components();
-        let drawn = sampler.printed(index);
+        let drawn = sampler.printed(index, f64::MANTISSA_DIGITS);
         let mut point: Vec<Rational> = drawn
             .iter()
             .map(|text| text.parse().map_err(|_| JudgeError::Unreachable(1)))
@@ -188,6 +190,9 @@ impl<'c> Scene<'c> {
         let (criterion, energy) = (next().first().cloned(), next().first().cloned());
         let claims =
             self.case.claims.iter().map(|claim| (claim.name.clone(), next(), next())).collect();
+        let antiderivatives = (0..self.inputs - self.point.len())
+            .map(|number| antiderivative_value(number).to_string())
+            .collect();
         let shown: Vec<String> = self.point.iter().map(|value| value.to_string()).collect();
         let (parameters, state) = named(model, &shown);
         PointReport {
@@ -200,6 +205,7 @@ impl<'c> Scene<'c> {
             chi: <[N; 3]>::try_from(chi).ok(),
             criterion,
             energy,
+            antiderivatives,
             claims,
         }
     }

@@ -1,28 +1,36 @@
 //! States at a place: random draws, turned into parameters and a state inside the number domain.
 
+use std::rc::Rc;
+
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
-use crate::mechanics::{Chart, Draw, Draws};
+use crate::mechanics::{Chart, Draw, Draws, Line, Origin};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
+use crate::number::precise::Precise;
 use crate::number::rational::Rational;
+use crate::proof::Extent;
 use crate::scalar::Scalar;
 
 use super::newton::Newton;
 use super::{JudgeError, coverage};
 
+/// What is granted beside the bits and digits of a printed state.
+const SPARE_BITS: u32 = 64;
+const SPARE_DIGITS: usize = 8;
 /// States a run of a tape treats at once.
 pub const LANES: usize = 64;
 
 /// Makes the inputs of a case's tapes at one place.
+#[derive(Clone)]
 pub struct Sampler {
     seed: u64,
     draws: Draws,
     recipes: Vec<Draw>,
     /// From draws to parameters and state.
-    graph: Graph,
+    graph: Rc<Graph>,
     made: Vec<Expr>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
@@ -56,6 +64,7 @@ impl Sampler {
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
         let made = outputs;
+        let graph = Rc::new(graph);
         Ok(Self { seed, draws, recipes, graph, made, parameter_draws, dimension, tape, newton })
     }
 
@@ -78,11 +87,53 @@ impl Sampler {
         self.made_in(domain, &numbers)
     }
 
-    /// The numbers that are drawn, as balls, for the first states.
-    pub fn drawn(&self) -> Vec<Balls<LANES>> {
-        let lanes: Vec<Vec<Rational>> =
-            (0..LANES).map(|lane| self.draws.state(self.seed, lane as u64)).collect();
-        self.columns(&Ball::<LANES>, &lanes)
+    /// Where each of the numbers that are drawn can be.
+    pub fn extents(&self) -> Vec<Extent> {
+        let extent = |draw: &Draw| match draw {
+            Draw::Within(range) => Extent::between(&range.low, &range.high),
+            Draw::Of(Line::All, _) => Extent::ALL,
+            Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+            // Each value is put in before anything is proved.
+            Draw::OneOf(_) => Extent::ALL,
+        };
+        self.recipes.iter().map(extent).collect()
+    }
+
+    /// Is a number drawn from a list of several?
+    pub fn has_lists(&self) -> bool {
+        self.recipes.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
+    }
+
+    /// The same states with the listed numbers fixed.
+    pub fn with(&self, fixed: &[Option<Rational>]) -> Self {
+        let one = |(draw, fixed): (&Draw, &Option<Rational>)| match fixed {
+            Some(value) => Draw::OneOf(vec![value.clone()]),
+            None => draw.clone(),
+        };
+        let recipes: Vec<Draw> = self.recipes.iter().zip(fixed).map(one).collect();
+        Self { draws: Draws::new(&recipes), recipes, ..self.clone() }
+    }
+
+    /// The parameters that are drawn from lists, with the values they have at every state.
+    pub fn listed(&self, case: &Case) -> String {
+        let mut draws = self.recipes.iter();
+        let mut listed = Vec::new();
+        for parameter in case.model.free_parameters() {
+            let Origin::Free(recipe) = &parameter.origin else { continue };
+            let own = draws.by_ref().take(recipe.draws().len());
+            let values: Vec<String> = own
+                .filter_map(|draw| match draw {
+                    Draw::OneOf(values) => Some(values.first()?.to_string()),
+                    _ => None,
+                })
+                .collect();
+            match &values[..] {
+                [] => {}
+                [one] => listed.push(format!("{} = {one}", parameter.name)),
+                all => listed.push(format!("{} from {}", parameter.name, all.join(", "))),
+            }
+        }
+        listed.join(", ")
     }
 
     /// How each of the numbers is drawn.
@@ -196,8 +247,20 @@ impl Sampler {
             .collect()
     }
 
-    /// The same as text, the nearest f64 standing for what is not rational.
-    pub fn printed(&self, index: u64) -> Vec<String> {
+    /// The same as text, for what is not rational so many digits that states of `bits` bits are
+    /// told apart: with them a residual that was computed from as many bits is found again.
+    pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
+        if bits > f64::MANTISSA_DIGITS {
+            let domain = Precise::new(bits + SPARE_BITS);
+            let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
+            let precise = std::cell::LazyCell::new(|| self.states(&domain, 1, index));
+            let written = |k: usize| precise[k].as_ref()?.decimal(digits);
+            let text = |(k, value): (usize, Option<Rational>)| match value {
+                Some(exact) => exact.to_string(),
+                None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
+            };
+            return self.exact(index).into_iter().enumerate().map(text).collect();
+        }
         let start = index - index % LANES as u64;
         let lane = (index % LANES as u64) as usize;
         let balls = std::cell::LazyCell::new(|| self.balls(start));

@@ -1,6 +1,11 @@
 //! Where else a claim holds that holds at its own place.
+//!
+//! A proof goes no further than a proof does: beside `proved` only places stand where the residual is
+//! a constant 0, or zero in prime fields. What enclosures show adds places to what is confirmed by
+//! them, and never contradicts that a claim holds in one place only.
 
 use super::bench::Bench;
+use super::evidence::Verdict;
 use super::field::Field;
 use super::finding::{Finding, Look};
 use super::judge::{JudgeError, Trust};
@@ -41,7 +46,7 @@ impl Bench<'_> {
                 if let (Some(wider), true, false) = (wider, finding.holds(), covered) {
                     let residual = extend(&wider.residual);
                     let scale = extend(item.context.scale.as_slice());
-                    asked.push((finding, residual, scale, extend(&wider.defects)));
+                    asked.push((item.claim, finding, residual, scale, extend(&wider.defects)));
                 }
             }
             if asked.is_empty() {
@@ -53,26 +58,37 @@ impl Bench<'_> {
                 continue;
             }
             let mut open = Vec::new();
-            for (finding, residual, scale, defects) in asked {
+            for (claim, finding, residual, scale, defects) in asked {
                 let scale = values.range(scale).first().copied();
                 let sound = defects.is_empty()
                     || Look::at::<Doubles>(&values.range(defects.clone()), None).is_zero();
                 let look = Look::at::<Doubles>(&values.range(residual.clone()), scale);
                 if sound && !look.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
-                    open.push((finding, group, look.is_zero()));
+                    open.push((claim, finding, group, look.is_zero()));
                 }
             }
-            let groups: Vec<Vec<Expr>> = open.iter().map(|(_, group, _)| group.clone()).collect();
+            let groups: Vec<Vec<Expr>> =
+                open.iter().map(|(_, _, group, _)| group.clone()).collect();
             let outcomes = match self.options.trust {
                 Trust::Float => vec![None; groups.len()],
                 _ => Field::new(self, &sampler).test(&groups)?.into_iter().map(Some).collect(),
             };
-            for ((finding, _, is_zero), outcome) in open.into_iter().zip(outcomes) {
+            for ((claim, finding, group, is_zero), outcome) in open.into_iter().zip(outcomes) {
                 let holds = match outcome {
                     Some(Outcome::Zero(_)) => true,
                     Some(Outcome::NonZero) => false,
-                    Some(Outcome::Silent(_)) | None => is_zero,
+                    Some(Outcome::Silent(_)) | None => {
+                        let constant = |expr: &Expr| self.graph.constant_value(*expr);
+                        let folded = group.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
+                        let confirmed = finding.settled == Some(Verdict::Confirmed);
+                        if is_zero && claim.only_there && !folded {
+                            let place = place.name(model);
+                            let reason = format!("whether it holds {place} too is not known");
+                            finding.evidence.reason = Some(reason);
+                        }
+                        folded || (is_zero && confirmed && !claim.only_there)
+                    }
                 };
                 if holds {
                     finding.evidence.holds.push(place.name(model));

@@ -5,20 +5,20 @@ use super::point::named;
 use super::sampler::Sampler;
 use crate::case::Case;
 
-/// State `index` with the residual there and a bound on its error.
+/// State `index` with the residual that was found there in `bits` bits, and a bound on its error.
 pub fn witness(
     case: &Case,
     sampler: &Sampler,
     index: u64,
-    residual: f64,
-    error_bound: f64,
+    bits: u32,
+    (residual, error_bound): (f64, f64),
 ) -> Witness {
-    let (parameters, state) = named(&case.model, &sampler.printed(index));
+    let (parameters, state) = named(&case.model, &sampler.printed(index, bits));
     let parameters = parameters.into_iter().map(|(name, value)| (name, listed(&value)));
     let state: Vec<String> =
         state.iter().map(|(name, value)| format!("{name}={}", listed(value))).collect();
     let parameters = parameters.collect();
-    Witness { index, parameters, state: state.join(" "), residual, error_bound }
+    Witness { index, parameters, state: state.join(" "), residual, error_bound, digits: None }
 }
 
 /// A value as `--set` and `--state` take it: a number, a list, rows of lists.

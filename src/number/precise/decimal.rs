@@ -1,7 +1,7 @@
 //! Decimal digits that the ball proves.
 
 use num_bigint::BigInt;
-use num_traits::Signed;
+use num_traits::{Signed, ToPrimitive};
 
 use super::Approximation;
 
@@ -37,6 +37,27 @@ impl Approximation {
             let sign = if low.is_negative() { "-" } else { "" };
             return Some(format!("{sign}{}", placed(&written, leading)));
         }
+    }
+}
+
+impl Approximation {
+    /// The midpoint to three digits or so, however large or small, for people to read.
+    pub fn rough(&self) -> String {
+        let middle = self.midpoint();
+        if let Some(digits) = middle.decimal(3) {
+            return digits;
+        }
+        let (mantissa, exponent, _) = middle.parts();
+        let cut = mantissa.bits().saturating_sub(64);
+        let head = (mantissa.abs() >> cut).to_f64().unwrap_or(f64::MAX);
+        let leading = (exponent + cut as i64) as f64 * std::f64::consts::LOG10_2 + head.log10();
+        let sign = if mantissa.is_negative() { "-" } else { "" };
+        // What rounding leaves of the fraction is worth no digit any more.
+        if leading.abs() * f64::EPSILON * 1000.0 > 1.0 {
+            return format!("{sign}10^{leading:.0}");
+        }
+        let whole = leading.floor();
+        format!("{sign}{:.2}e{whole:.0}", 10f64.powf(leading - whole))
     }
 }
 
@@ -95,6 +116,16 @@ mod tests {
         let zero = third.add(&third.neg(), 64);
         assert_eq!(zero.decimal(1), None, "0 within the radius has no leading digit");
         assert!(!zero.mantissa_is_known(), "and its radius is not 0");
+    }
+
+    #[test]
+    fn numbers_of_any_size_are_shown() {
+        let rough =
+            |text: &str| Precise::new(256).rational(&text.parse().expect("a number")).rough();
+        assert_eq!(rough("-1.25e-400"), "-1.25e-400");
+        let (large, half) = (Precise::new(64), "1/2".parse().expect("a number"));
+        let power = (0..40).fold(large.rational(&half), |x, _| x.mul(&x, 64));
+        assert_eq!(power.rough(), "1.18e-330985980542", "2^(-2^40)");
     }
 
     impl Approximation {

@@ -143,4 +143,10 @@ impl Enclosing for Precise {
     fn excludes_zero(block: &Option<Approximation>, _: usize) -> bool {
         block.as_ref().is_some_and(Approximation::excludes_zero)
     }
+
+    fn beyond_f64(block: &Option<Approximation>, _: usize) -> Option<String> {
+        let value = block.as_ref().filter(|value| value.excludes_zero())?;
+        let (mid, rad) = value.enclosure();
+        (mid.abs() <= rad).then(|| value.rough())
+    }
 }

@@ -31,7 +31,7 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
     let mut found = Vec::new();
     for parameter in &case.model.parameters {
         let Origin::Free(recipe) = &parameter.origin else { continue };
-        if matches!(recipe, Recipe::Scalar(Draw::Within(_))) {
+        if matches!(recipe, Recipe::Scalar(Draw::Within(_) | Draw::Of(..))) {
             found.push((parameter.name.clone(), draw));
         }
         draw += recipe.draws().len();
@@ -122,7 +122,7 @@ impl<'l> Minors<'l> {
             .zip(&local.draws)
             .map(|(listed, draw)| match draw {
                 Draw::OneOf(_) => listed,
-                Draw::Within(_) => modulus.integer(small(&mut chance)),
+                Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut chance)),
             })
             .collect();
         let taylor = Taylor::new(local, modulus, 2 * degree + 2);

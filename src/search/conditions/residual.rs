@@ -106,7 +106,7 @@ impl Residual {
 
     /// For each draw of the parameters: is it more than one of a list?
     pub fn free(&self) -> impl Iterator<Item = bool> {
-        self.parameters.iter().map(|draw| matches!(draw, Draw::Within(_)))
+        self.parameters.iter().map(|draw| !matches!(draw, Draw::OneOf(_)))
     }
 
     /// Random draws of the state.

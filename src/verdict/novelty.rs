@@ -1,0 +1,62 @@
+//! Is an integral more than a function of what every case conserves?
+//!
+//! An enclosure that excludes 0 shows that it is; that it is *not* takes a proof, as any identity.
+
+use super::bench::Bench;
+use super::evidence::{Independence, Verdict};
+use super::field::Field;
+use super::judge::{JudgeError, Trust};
+use super::ladder::Open;
+use super::recorded::Recorded;
+use super::sampler::Sampler;
+use crate::graph::Expr;
+use crate::proof::Outcome;
+
+impl Bench<'_> {
+    /// For proved integrals whose gradient no enclosure shows to be independent of those of the
+    /// level functions and the energy: is it a combination of them, or is that not known?
+    pub(super) fn settle_novelty(
+        &self,
+        sampler: &Sampler,
+        holding: &mut Open<'_, '_>,
+    ) -> Result<(), JudgeError> {
+        let mut open: Vec<_> = holding
+            .iter_mut()
+            .filter(|(item, finding)| {
+                let seen = finding.evidence.independence == Some(Independence::Independent);
+                finding.settled == Some(Verdict::Proved)
+                    && !item.novelty.off_level.is_empty()
+                    && !seen
+            })
+            .collect();
+        // An enclosure may have shown already that it is not constant on the level.
+        let asked = |item: &Recorded<'_>, known: Option<Independence>| {
+            let level = (known != Some(Independence::General)).then_some(&item.novelty.off_level);
+            let general = Some(&item.novelty.off_general).filter(|group| !group.is_empty());
+            [level.cloned(), general.cloned()]
+        };
+        let groups: Vec<Vec<Expr>> = open
+            .iter()
+            .flat_map(|(item, finding)| asked(item, finding.evidence.independence))
+            .flatten()
+            .collect();
+        let mut outcomes = match self.options.trust {
+            Trust::Float => Vec::new(),
+            _ => Field::new(self, sampler).test(&groups)?,
+        }
+        .into_iter();
+        for (item, finding) in &mut open {
+            let [level, general] = asked(item, finding.evidence.independence)
+                .map(|group| group.and_then(|_| outcomes.next()));
+            finding.evidence.independence = match (level, general) {
+                (Some(Outcome::Zero(_)), _) => Some(Independence::Constant),
+                (_, Some(Outcome::Zero(_))) => Some(Independence::General),
+                (_, Some(Outcome::NonZero)) | (Some(Outcome::NonZero), None) => {
+                    Some(Independence::Independent)
+                }
+                _ => None,
+            };
+        }
+        Ok(())
+    }
+}
