@@ -31,7 +31,7 @@ impl<'a> Arbitrary<'a> {
     /// Looks at what the file is going to claim.
     pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Result<Self, CaseError> {
         let claims = root.sections("claim")?;
-        let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(**key).is_some());
+        let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(key).is_some());
         let needed = STATEMENTS.iter().filter(is_made).map(|key| jets(key)).max();
         Ok(Self { settings, jets: needed.unwrap_or_default() })
     }
