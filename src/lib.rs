@@ -75,4 +75,6 @@ pub mod report;
 pub mod scalar;
 pub mod search;
 pub mod stress;
+#[cfg(feature = "testing")]
+pub mod testing;
 pub mod verdict;
