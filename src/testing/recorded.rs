@@ -191,15 +191,12 @@ fn exact(coordinates: &[f64]) -> Option<Vec<Rational>> {
 }
 
 /// Balls around values at a state, each with whether it excludes 0.
-fn enclosures<D: Enclosing>(
+fn enclosures<D: Enclosing + Clone>(
     domain: &D,
     graph: &Graph,
     values: &[Expr],
     numbers: &[Rational],
-) -> Vec<(Enclosure, bool)>
-where
-    D: Clone,
-{
+) -> Vec<(Enclosure, bool)> {
     let tape = Tape::new(graph, values);
     let mut evaluator = Evaluator::new(&tape, domain.clone());
     let free = (0..graph.inputs().saturating_sub(numbers.len())).map(antiderivative_value);
