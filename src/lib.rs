@@ -77,4 +77,6 @@ pub mod scalar;
 pub mod search;
 pub mod stress;
 pub mod survey;
+#[cfg(feature = "testing")]
+pub mod testing;
 pub mod verdict;

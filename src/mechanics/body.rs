@@ -155,20 +155,7 @@ impl Shape {
                     let direction = axis::<T>(j).map(Dual::from_re);
                     self.support(&outer.lift(NORMAL, direction))
                 };
-                let zero = T::zero();
-                let mut r = Vector3::repeat(zero);
-                let mut slope = Matrix3::repeat(zero);
-                for i in 0..3 {
-                    for j in i..3 {
-                        let h = second(i, j);
-                        slope[(i, j)] = -h.eps.eps;
-                        slope[(j, i)] = -h.eps.eps;
-                        if i == j {
-                            r[i] = -h.re.eps;
-                        }
-                    }
-                }
-                (r, slope)
+                contact_of(second)
             }
         }
     }
@@ -180,6 +167,26 @@ impl Shape {
         let p = self.profile(&lifted, z);
         [p.re.re, p.re.eps, p.eps.eps]
     }
+}
+
+/// r = -∇h and ∂r/∂γ from h with derivative parts along e_i and e_j, for i ≤ j.
+pub fn contact_of<T: Scalar>(
+    support: impl Fn(usize, usize) -> Dual<Dual<T>>,
+) -> (Vector3<T>, Matrix3<T>) {
+    let zero = T::zero();
+    let mut r = Vector3::repeat(zero);
+    let mut slope = Matrix3::repeat(zero);
+    for i in 0..3 {
+        for j in i..3 {
+            let h = support(i, j);
+            slope[(i, j)] = -h.eps.eps;
+            slope[(j, i)] = -h.eps.eps;
+            if i == j {
+                r[i] = -h.re.eps;
+            }
+        }
+    }
+    (r, slope)
 }
 
 /// The unit vector e_j as a value.

@@ -89,14 +89,7 @@ impl<'m, T: Scalar> Jet<'m, T> {
         }
         let gradients = self.level_gradients(kept);
         let mut sum = T::zero();
-        for (index, function) in functions.iter().enumerate() {
-            let mut unit = vec![T::zero(); functions.len()];
-            unit[index] = T::one();
-            // n_i = Σ_l (G⁻¹)_il ∇F_l with the Gram matrix G of the gradients
-            let weights = solve_positive(gram(&gradients), unit);
-            let transversal: Vec<T> = (0..self.phase.model().dimension())
-                .map(|k| weights.iter().zip(&gradients).map(|(w, g)| *w * g[k]).sum())
-                .collect();
+        for (function, transversal) in functions.iter().zip(transversals(&gradients)) {
             let beside = self.phase.lift(&transversal);
             sum += beside.lift(beside.field()).level_function(function).eps.eps;
         }
@@ -136,6 +129,21 @@ fn kept_functions<'a>(
 ) -> impl Iterator<Item = &'a LevelFunction> + use<'a> {
     let level = model.level.iter().zip(kept);
     level.filter(|(_, kept)| **kept).map(|(equation, _)| &equation.function)
+}
+
+/// Vectors n_i in the span of some gradients with dF_i(n_j) = δ_ij.
+pub fn transversals<T: Scalar>(gradients: &[Vec<T>]) -> Vec<Vec<T>> {
+    let count = gradients.len();
+    let unit = |i: usize, j: usize| if i == j { T::one() } else { T::zero() };
+    let transversal = |i: usize| {
+        // n_i = Σ_l (G⁻¹)_il ∇F_l with the Gram matrix G of the gradients
+        let weights = solve_positive(gram(gradients), (0..count).map(|j| unit(i, j)).collect());
+        let dimension = gradients.first().map_or(0, Vec::len);
+        (0..dimension)
+            .map(|k| weights.iter().zip(gradients).map(|(w, g)| *w * g[k]).sum())
+            .collect()
+    };
+    (0..count).map(transversal).collect()
 }
 
 /// u less its part in the span of `others`: zero exactly when u depends on them.

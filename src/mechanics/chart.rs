@@ -91,6 +91,13 @@ impl Chart {
     }
 }
 
+/// (ω, γ) with γ² = 1 and (ω,γ) = 0 from (u, v, a), by the chart of the rubber systems.
+#[cfg(feature = "testing")]
+pub(crate) fn rolling_point<T: Scalar>(draws: [T; 5]) -> [T; 6] {
+    let state = on_sphere(&Chart::Rolling, &[true, true], &draws);
+    std::array::from_fn(|k| state[k])
+}
+
 fn on_sphere<T: Scalar>(chart: &Chart, kept: &[bool], draws: &[T]) -> Vec<T> {
     let [u, v, a1, a2, a3, others @ ..] = draws else { return draws.to_vec() };
     let mut others = others.iter();

@@ -13,6 +13,7 @@ mod model;
 mod phase;
 mod quantity;
 mod recipe;
+mod rolling;
 mod rubber;
 mod rubber_measure;
 mod rubber_names;
@@ -32,6 +33,17 @@ pub use recipe::{Draw, Line, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use variables::{Block, Variables};
 pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
+
+#[cfg(feature = "testing")]
+pub(crate) use across::AcrossNormal;
+#[cfg(feature = "testing")]
+pub(crate) use body::contact_of;
+#[cfg(feature = "testing")]
+pub(crate) use chart::rolling_point;
+#[cfg(feature = "testing")]
+pub(crate) use linear::point_mass;
+#[cfg(feature = "testing")]
+pub(crate) use rolling::{Motion, Pose};
 
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;

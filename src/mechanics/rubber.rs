@@ -1,24 +1,14 @@
 //! Rubber rolling of a rigid body on a plane or on a sphere: no slipping, no spinning.
 //!
-//! Body frame; γ the normal from the support towards the body, r from the mass centre to the point
-//! of contact, k the signed curvature of the support (0 for the plane), Γ = E - k ∂r/∂γ:
-//!
-//! ```text
-//! Ĩω' = K + λγ,   K = (Ĩω + S)×ω - m r×(ω×r') + M_P,   Ĩ = I + m r²E - m r⊗r
-//! γ'  = Γ⁻¹(γ×ω), r' = (∂r/∂γ)γ',   M_P = γ×Γ⁻ᵀ∂U/∂γ
-//! λ   = -[(K,Ĩ⁻¹γ) + k(ω,r')] / (γ,Ĩ⁻¹γ)                 so that (ω,γ)' = 0
-//! ```
-//!
-//! Borisov, Mamaev, Bizyaev, Rus. J. Nonlin. Dyn. 9 (2013) 141-202: (1.4), (1.6), (1.7) on the
-//! plane, (1.12), (1.13) on the sphere. The tensor in the gyroscopic term is Ĩ; with the central I
-//! in its place γ², (ω,γ) and the energy would still be conserved, and every measure lost.
+//! The numbers of a case are put into the equations of [`rolling`](super::rolling).
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::across::AcrossNormal;
 use super::body::{Polynomial, Shape, axis, matrix, scalar, vector};
-use super::linear::{adjugate, determinant_with, isotropic, point_mass};
+use super::linear::{isotropic, point_mass};
 use super::phase::{Configuration, Phase};
+use super::rolling::{Motion, Pose};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
@@ -55,17 +45,6 @@ pub enum Potential {
     Arbitrary(Polynomial),
 }
 
-/// What the equations compute on their way.
-pub struct Motion<T> {
-    pub(super) r: Vector3<T>,
-    pub(super) slope: Matrix3<T>,
-    /// Γ across γ; absent on the plane, where it is the identity.
-    pub(super) gamma_across: Option<AcrossNormal<T>>,
-    pub(super) inertia: Matrix3<T>,
-    pub(super) normal_rate: Vector3<T>,
-    pub(super) contact_rate: Vector3<T>,
-}
-
 /// γ
 pub fn normal<T: Scalar>(at: &Configuration<'_, T>) -> Vector3<T> {
     vector(at.variable(NORMAL))
@@ -87,22 +66,17 @@ impl Rubber {
     pub(super) fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p Motion<T> {
         phase.motion(|| {
             let at = &phase.configuration;
-            let (omega, gamma) = (angular_velocity(at), normal(at));
             let (r, slope) = self.shape.contact(at);
-            let gamma_across = self.gamma_across(at, &slope);
-            let free_rate = gamma.cross(&omega);
-            let normal_rate = match &gamma_across {
-                None => free_rate,
-                Some(big_gamma) => big_gamma.solve(&free_rate),
-            };
-            Motion {
+            Motion::of(Pose {
+                omega: angular_velocity(at),
+                gamma: normal(at),
+                mass: scalar(at.evaluate(&self.mass)),
+                curvature: self.curvature_at(at),
+                gamma_across: self.gamma_across(at, &slope),
+                inertia: self.inertia_at(at, &r),
                 r,
                 slope,
-                gamma_across,
-                inertia: self.inertia_at(at, &r),
-                normal_rate,
-                contact_rate: slope * normal_rate,
-            }
+            })
         })
     }
 
@@ -141,50 +115,20 @@ impl Rubber {
     /// ω' and λ.
     pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
         let at = &phase.configuration;
-        let (omega, gamma) = (angular_velocity(at), normal(at));
         let motion = self.motion(phase);
-        let mass = scalar(at.evaluate(&self.mass));
-        let mut momentum = motion.inertia * omega;
-        if let Some(gyrostat) = &self.gyrostat {
-            momentum += vector(at.evaluate(gyrostat));
-        }
-        let slide = omega.cross(&motion.contact_rate);
-        let mut torque = momentum.cross(&omega) - motion.r.cross(&slide) * mass;
-        if let Some(moment) = self.moment_of_potential(phase) {
-            torque += moment;
-        }
-        if let Some(moment) = &self.moment {
-            torque += vector(phase.evaluate(moment));
-        }
-        let adjugate = adjugate(&motion.inertia);
-        let determinant = determinant_with(&motion.inertia, &adjugate);
-        let along = adjugate * gamma;
-        let mut defect = torque.dot(&along);
-        if let Some(k) = self.curvature_at(at) {
-            defect += determinant * k * omega.dot(&motion.contact_rate);
-        }
-        let multiplier = -(defect / gamma.dot(&along));
-        let total = torque + gamma * multiplier;
-        ((adjugate * total).map(|x| x / determinant), multiplier)
-    }
-
-    /// M_P = γ × Γ⁻ᵀ ∂U/∂γ
-    fn moment_of_potential<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vector3<T>> {
-        let potential = self.potential.as_ref()?;
-        let at = &phase.configuration;
-        let slope = Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps);
-        let force = match &self.motion(phase).gamma_across {
-            None => slope,
-            Some(big_gamma) => big_gamma.solve_transposed(&slope),
+        let gyrostat = self.gyrostat.as_ref().map(|gyrostat| vector(at.evaluate(gyrostat)));
+        let slope = |potential: &Potential| {
+            Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps)
         };
-        Some(normal(at).cross(&force))
+        let of_potential = self.potential.as_ref().map(|u| motion.moment_of_potential(&slope(u)));
+        let further = self.moment.as_ref().map(|moment| vector(phase.evaluate(moment)));
+        motion.acceleration(gyrostat, of_potential.into_iter().chain(further))
     }
 
     /// ½(ω,Ĩω) + U
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let at = &phase.configuration;
-        let omega = angular_velocity(at);
-        let kinetic = omega.dot(&(self.motion(phase).inertia * omega)) / T::from(2.0);
+        let kinetic = self.motion(phase).kinetic_energy();
         match &self.potential {
             None => kinetic,
             Some(potential) => kinetic + potential.value(at),

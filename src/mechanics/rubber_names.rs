@@ -15,19 +15,21 @@ impl Rubber {
     pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let at = &phase.configuration;
         match quantity {
-            Quantity::Contact => Value::Vector(self.motion(phase).r),
+            Quantity::Contact => Value::Vector(self.motion(phase).pose.r),
             Quantity::ContactRate => Value::Vector(self.motion(phase).contact_rate),
-            Quantity::Slope => Value::Matrix(self.motion(phase).slope),
-            Quantity::InertiaAtContact => Value::Matrix(self.motion(phase).inertia),
+            Quantity::Slope => Value::Matrix(self.motion(phase).pose.slope),
+            Quantity::InertiaAtContact => Value::Matrix(self.motion(phase).pose.inertia),
             Quantity::NormalRate => Value::Vector(self.motion(phase).normal_rate),
             Quantity::Gamma => Value::Matrix(match self.curvature_at(at) {
                 None => isotropic(T::one()),
-                Some(k) => self.gamma_matrix(&self.motion(phase).slope, k),
+                Some(k) => self.gamma_matrix(&self.motion(phase).pose.slope, k),
             }),
-            Quantity::GammaDeterminant => Value::Scalar(match &self.motion(phase).gamma_across {
-                None => T::one(),
-                Some(big_gamma) => big_gamma.determinant(),
-            }),
+            Quantity::GammaDeterminant => {
+                Value::Scalar(match &self.motion(phase).pose.gamma_across {
+                    None => T::one(),
+                    Some(big_gamma) => big_gamma.determinant(),
+                })
+            }
             Quantity::Energy => Value::Scalar(self.energy(phase)),
             Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase).0),
             Quantity::Multiplier => Value::Scalar(self.acceleration(phase).1),

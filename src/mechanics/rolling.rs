@@ -1,0 +1,106 @@
+//! The equations of rubber rolling over plain numbers, wherever those come from.
+//!
+//! Body frame; γ the normal from the support towards the body, r from the mass centre to the point
+//! of contact, k the signed curvature of the support (0 for the plane), Γ = E - k ∂r/∂γ:
+//!
+//! ```text
+//! Ĩω' = K + λγ,   K = (Ĩω + S)×ω - m r×(ω×r') + M_P,   Ĩ = I + m r²E - m r⊗r
+//! γ'  = Γ⁻¹(γ×ω), r' = (∂r/∂γ)γ',   M_P = γ×Γ⁻ᵀ∂U/∂γ
+//! λ   = -[(K,Ĩ⁻¹γ) + k(ω,r')] / (γ,Ĩ⁻¹γ)                 so that (ω,γ)' = 0
+//! ```
+//!
+//! Borisov, Mamaev, Bizyaev, Rus. J. Nonlin. Dyn. 9 (2013) 141-202: (1.4), (1.6), (1.7) on the
+//! plane, (1.12), (1.13) on the sphere. The tensor in the gyroscopic term is Ĩ; with the central I
+//! in its place γ², (ω,γ) and the energy would still be conserved, and every measure lost.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::across::AcrossNormal;
+use super::linear::{adjugate, determinant_with};
+use crate::scalar::Scalar;
+
+/// A body on its support at one state.
+pub struct Pose<T> {
+    /// ω
+    pub omega: Vector3<T>,
+    /// γ
+    pub gamma: Vector3<T>,
+    /// m
+    pub mass: T,
+    /// k, absent on the plane.
+    pub curvature: Option<T>,
+    /// r
+    pub r: Vector3<T>,
+    /// ∂r/∂γ
+    pub slope: Matrix3<T>,
+    /// Γ across γ; absent on the plane, where it is the identity.
+    pub gamma_across: Option<AcrossNormal<T>>,
+    /// Ĩ
+    pub inertia: Matrix3<T>,
+}
+
+/// What the equations compute on their way.
+pub struct Motion<T> {
+    /// Where the body is.
+    pub pose: Pose<T>,
+    /// γ'
+    pub normal_rate: Vector3<T>,
+    /// r'
+    pub contact_rate: Vector3<T>,
+}
+
+impl<T: Scalar> Motion<T> {
+    /// γ' and r' that belong to a pose.
+    pub fn of(pose: Pose<T>) -> Self {
+        let free_rate = pose.gamma.cross(&pose.omega);
+        let normal_rate = match &pose.gamma_across {
+            None => free_rate,
+            Some(big_gamma) => big_gamma.solve(&free_rate),
+        };
+        let contact_rate = pose.slope * normal_rate;
+        Self { pose, normal_rate, contact_rate }
+    }
+
+    /// ω' and λ, with the angular momentum S of a rotor and with moments of forces.
+    pub fn acceleration(
+        &self,
+        gyrostat: Option<Vector3<T>>,
+        moments: impl Iterator<Item = Vector3<T>>,
+    ) -> (Vector3<T>, T) {
+        let Pose { omega, gamma, mass, curvature, r, inertia, .. } = &self.pose;
+        let mut momentum = inertia * omega;
+        if let Some(gyrostat) = gyrostat {
+            momentum += gyrostat;
+        }
+        let slide = omega.cross(&self.contact_rate);
+        let mut torque = momentum.cross(omega) - r.cross(&slide) * *mass;
+        for moment in moments {
+            torque += moment;
+        }
+        let adjugate = adjugate(inertia);
+        let determinant = determinant_with(inertia, &adjugate);
+        let along = adjugate * gamma;
+        let mut defect = torque.dot(&along);
+        if let Some(k) = curvature {
+            defect += determinant * *k * omega.dot(&self.contact_rate);
+        }
+        let multiplier = -(defect / gamma.dot(&along));
+        let total = torque + gamma * multiplier;
+        ((adjugate * total).map(|x| x / determinant), multiplier)
+    }
+
+    /// M_P = γ × Γ⁻ᵀ ∂U/∂γ for the slope ∂U/∂γ.
+    pub fn moment_of_potential(&self, slope: &Vector3<T>) -> Vector3<T> {
+        let force = match &self.pose.gamma_across {
+            None => *slope,
+            Some(big_gamma) => big_gamma.solve_transposed(slope),
+        };
+        self.pose.gamma.cross(&force)
+    }
+
+    /// ½(ω,Ĩω)
+    pub fn kinetic_energy(&self) -> T {
+        let Pose { omega, inertia, .. } = &self.pose;
+        omega.dot(&(inertia * omega)) / T::from(2.0)
+    }
+}

@@ -1,0 +1,46 @@
+//! How a claim is settled: by enclosures at a state, or by a proof on its chart.
+//!
+//! ```text
+//! state ─ chart, residual ─▶ graph ─▶ balls at the state ─▶ refuted, or 0 is enclosed
+//!                                └──▶ prime fields ───────▶ proved, refuted, or silent
+//! ```
+
+use super::claim::{Claim, Statement, premises};
+use super::failure::{Failure, Proof};
+use super::notation::{Place, VectorField};
+use super::recorded::Recorded;
+
+impl<V, S, const N: usize> Claim<'_, V, S, N>
+where
+    V: VectorField<N>,
+    S: Statement<V, N>,
+{
+    /// Asserts the claim at one state: no enclosure of its residual excludes 0, neither over f64 nor
+    /// in 256 bits. The state is a point of ℝᴺ or of a level, and taken as the exact numbers it has.
+    ///
+    /// There is no tolerance: what fails is not 0.
+    pub fn at(&self, state: &impl Place<N>) -> Result<(), Failure> {
+        self.record(state)?.look(state.coordinates())
+    }
+
+    /// Proves the claim on the whole chart, in random prime fields; docs/soundness.md says what that
+    /// means. The state is tried first, and is a state on the side of roots and moduli that is meant.
+    ///
+    /// Parameters are the numbers they have here. A proof for all values takes them as further
+    /// variables whose rates are 0.
+    pub fn prove(&self, state: &impl Place<N>) -> Result<Proof, Failure> {
+        let recorded = self.record(state)?;
+        let coordinates = state.coordinates();
+        recorded.look(coordinates)?;
+        recorded.check_chart(coordinates)?;
+        recorded.prove(coordinates)
+    }
+
+    fn record(&self, place: &impl Place<N>) -> Result<Recorded, Failure> {
+        Recorded::new(
+            place,
+            |x| self.statement.residual(self.field, place, x),
+            |x| premises(self.field, place, x),
+        )
+    }
+}
