@@ -13,7 +13,7 @@ use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::{Certificate, Outcome, Prover};
+use crate::proof::{Certificate, Extent, Outcome, Prover};
 use crate::verdict::antiderivative_value;
 
 /// Bits of the second look at a state, where balls over f64 contain 0.
@@ -103,15 +103,9 @@ impl Recorded {
     pub fn prove(&self, coordinates: &[f64]) -> Result<Proof, Failure> {
         // A connected part of the chart is meant on which no radicand and no modulus has a zero: one
         // state has the signs of all.
-        let signs = |graph: &Graph, values: &[Expr]| {
-            let sign = |(enclosure, excludes_zero): (Enclosure, bool)| {
-                enclosure.filter(|_| excludes_zero).map(|(mid, _)| mid > 0.0)
-            };
-            let Some(numbers) = exact(coordinates) else { return vec![None; values.len()] };
-            let found = enclosures(&Precise::new(BITS), graph, values, &numbers);
-            found.into_iter().map(sign).collect()
-        };
-        let prover = Prover { sources: &[], signs: &signs, seed: SEED };
+        let numbers = exact(coordinates).unwrap_or_default();
+        let extents: Vec<Extent> = numbers.iter().map(|x| Extent::between(x, x)).collect();
+        let prover = Prover { sources: &[], extents: &extents, seed: SEED };
         let groups: Vec<Vec<Expr>> = self.rows.iter().map(|row| vec![row.value]).collect();
         let outcomes = prover.prove(&self.graph, &groups)?;
         let mut proof: Option<Certificate> = None;
