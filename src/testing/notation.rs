@@ -54,7 +54,7 @@ pub trait VectorField<const N: usize> {
         Claim::new(self, LogDensity(logarithm))
     }
 
-    /// u is a symmetry field: [v,u] = 0, and u is tangent to the level.
+    /// u is a symmetry field: \[v,u\] = 0, and u is tangent to the level.
     fn commutes_with<'a, U: VectorField<N>>(
         &'a self,
         other: &'a U,
