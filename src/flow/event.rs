@@ -69,7 +69,7 @@ impl Sides {
         let begin = match self.positive {
             _ if first.abs() > rounding => first > 0.0,
             Some(positive) => positive,
-            None => value_after(polynomial, rounding, length) > 0.0,
+            None => starts_positive(polynomial, rounding, length),
         };
         let end = value(polynomial, length).0.leading() > 0.0;
         self.positive = Some(end);
@@ -110,19 +110,18 @@ fn between<T: Number<One = T>>(
     ]
 }
 
-/// The value where it first differs from 0: a little later if it vanishes at the beginning.
-fn value_after<T: Number>(polynomial: &[T], rounding: f64, length: T) -> f64 {
-    let mut after = length;
-    let mut last = value(polynomial, after).0.leading();
-    for _ in 0..64 {
-        after = after * T::float(0.5);
-        let nearer = value(polynomial, after).0.leading();
-        if nearer.abs() <= rounding {
-            break;
+/// Which sign it takes just after a beginning at which it vanishes: that of the first term that is not
+/// rounding.
+fn starts_positive<T: Number>(polynomial: &[T], rounding: f64, length: T) -> bool {
+    let mut power = 1.0;
+    for coefficient in polynomial {
+        let term = coefficient.leading() * power;
+        if term.abs() > rounding {
+            return term > 0.0;
         }
-        last = nearer;
+        power *= length.leading();
     }
-    last
+    true
 }
 
 /// The largest term of a polynomial on a piece.
