@@ -67,12 +67,14 @@ impl Functions {
     }
 
     /// How many functions there are.
+    #[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
     pub fn count(&self) -> usize {
         self.outputs.len()
     }
 
     /// The functions at states and parameters in f64, a row for each component; what rounding does not
     /// tell from 0 is 0.
+    #[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
     pub fn floats(&self, states: usize, seed: u64) -> Vec<Vec<f64>> {
         let height = self.outputs.first().map_or(0, Vec::len);
         let tape = Tape::new(&self.graph, &self.outputs.concat());

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::linear::Functions;
 
 /// States beyond the number of terms.
+#[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
 const SPARE: usize = 32;
 
 /// Singular values on both sides of the gap where the relations modulo a prime say it should be.
