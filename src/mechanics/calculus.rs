@@ -159,12 +159,22 @@ pub fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).map(|(a, b)| *a * *b).sum()
 }
 
+/// Minors are 2ⁿ; beyond this a determinant is the last coefficient of the characteristic polynomial.
+const MOST_BY_MINORS: usize = 10;
+
 /// The Gram determinant of some vectors: zero exactly when they are dependent.
 ///
 /// Expanded by minors of the first rows, since a pivot may vanish where the vectors are dependent.
 pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
+    let n = vectors.len();
+    if vectors.first().is_some_and(|vector| vector.len() < n) {
+        return T::zero();
+    }
     let matrix = gram(vectors);
-    let n = matrix.len();
+    if n > MOST_BY_MINORS {
+        let last = characteristic_polynomial(&matrix).pop().unwrap_or_else(T::one);
+        return if n.is_multiple_of(2) { last } else { -last };
+    }
     // minors[columns]: the determinant of the first rows with these columns
     let mut minors = vec![T::zero(); 1 << n];
     minors[0] = T::one();
@@ -258,6 +268,12 @@ mod tests {
         let dependent = vec![a[0].clone(), a[1].clone(), vec![3.0, 3.0, 1.0]];
         assert_eq!(gram_determinant(&dependent), 0.0, "the third is the sum of the others");
         assert_eq!(characteristic_polynomial(&a), [-6.0, 11.0, -7.0]);
+        let axes = |n: usize| -> Vec<Vec<f64>> {
+            let axis = |i: usize| (0..n).map(|j| if i == j { 2.0 } else { 0.0 }).collect();
+            (0..n).map(axis).collect()
+        };
+        assert_eq!(gram_determinant(&axes(11)), 4f64.powi(11), "beyond minors");
+        assert_eq!(gram_determinant(&[vec![1.0], vec![2.0]]), 0.0, "more vectors than dimensions");
         // B = A C with C = diag(1,2,4): tr(B A⁻¹) = tr C.
         let b: Vec<Vec<f64>> = [1.0, 2.0, 4.0]
             .iter()
