@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::question::{Finding, define};
 use crate::case::Case;
+use crate::mechanics::System;
 use crate::search::{CountReport, Effort, Excluded, Found, search};
 use crate::verdict::{ClaimReport, Options};
 
@@ -38,6 +39,9 @@ impl Unknown {
             seconds: SECONDS,
             options: *options,
         };
+        // The families have the symmetry fields of bodies.
+        let is_body = !matches!(case.model.system, System::Field(_) | System::Lagrangian(_));
+        let is_new = |one: &Found| !one.trivial && !(is_body && one.kind == "symmetry-field");
         match search(case, &effort, progress) {
             Ok(report) => Self {
                 counts: report.counts,
@@ -46,7 +50,7 @@ impl Unknown {
                 findings: report
                     .found
                     .into_iter()
-                    .filter(|one| !one.trivial)
+                    .filter(is_new)
                     .map(|one| found(case, one))
                     .collect(),
             },
