@@ -11,6 +11,7 @@ use crate::claim::Kind;
 use crate::formula::Formula;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::{LevelFunction, Model, Phase};
+use crate::number::float::Float;
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -49,10 +50,13 @@ pub struct Followed {
     pub role: Role,
     /// Its components at the start.
     pub value: Vec<Pair>,
-    /// The largest |F(t) - F(0)|/|F(0)| at the times looked at; |F(t) - F(0)| where F(0) = 0.
+    /// The largest |F(t) - F(0)|/|F(0)| at the times looked at; |F(t) - F(0)| where f64 does not tell
+    /// F(0) from 0.
     pub drift: f64,
     /// The same at the end.
     pub drift_at_end: f64,
+    /// What the drift is divided by.
+    scale: f64,
 }
 
 /// One motion.
@@ -164,13 +168,20 @@ impl Watch {
         })?;
         let tape = Tape::new(&graph, &groups.concat());
         let values = values(&tape, &start.state);
-        let mut rest = values.as_slice();
+        let mut rounded = Evaluator::new(&tape, Float::<1>);
+        rounded.run(&start.state.iter().map(|x| [x.hi]).collect::<Vec<_>>());
+        let blur: Vec<f64> = rounded.outputs().zip(&values).map(|(r, x)| r[0] - x.hi).collect();
+        let (mut rest, mut blur) = (values.as_slice(), blur.as_slice());
         let mut followed = Vec::new();
         for ((name, role, _), group) in sources.into_iter().zip(&groups) {
             let (own, others) = rest.split_at(group.len());
-            rest = others;
+            let (own_blur, other_blur) = blur.split_at(group.len());
+            (rest, blur) = (others, other_blur);
+            let size = norm(own.iter().map(|x| x.hi));
+            let is_zero = size <= norm(own_blur.iter().copied());
+            let scale = if role == Role::Level || is_zero { 1.0 } else { size };
             let value = own.to_vec();
-            followed.push(Followed { name, role, value, drift: 0.0, drift_at_end: 0.0 });
+            followed.push(Followed { name, role, value, drift: 0.0, drift_at_end: 0.0, scale });
         }
         Ok(Self { tape, followed })
     }
@@ -181,17 +192,17 @@ impl Watch {
         for followed in &mut self.followed {
             let (own, others) = rest.split_at(followed.value.len());
             rest = others;
-            let norm =
-                |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
-            let change = norm(&mut own.iter().zip(&followed.value).map(|(x, y)| (*x - *y).hi));
-            let size = norm(&mut followed.value.iter().map(|x| x.hi));
-            let at_level = followed.role == Role::Level || size == 0.0;
-            let drift = if at_level { change } else { change / size };
+            let change = norm(own.iter().zip(&followed.value).map(|(x, y)| (*x - *y).hi));
+            let drift = change / followed.scale;
             followed.drift_at_end = drift;
             // A drift that is undefined is worse than any other.
             followed.drift = if drift.is_nan() { drift } else { followed.drift.max(drift) };
         }
     }
+}
+
+fn norm(parts: impl Iterator<Item = f64>) -> f64 {
+    parts.map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
