@@ -4,10 +4,10 @@ use toml::de::DeTable;
 
 use super::body::formula;
 use super::error::{CaseError, Problem};
+use super::parameters::named;
 use super::section::Section;
 use super::{Case, Claim, claims, variables};
 use crate::claim::jets;
-use crate::formula::canonical_name;
 use crate::mechanics::{Meaning, Model, Reach};
 
 /// The tables that a question has.
@@ -86,10 +86,7 @@ impl Case {
 /// Adds abbreviations, each of which may use those before it.
 fn abbreviate(section: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
     for (key, value) in section.entries() {
-        let name = canonical_name(key.get_ref()).ok_or_else(|| {
-            let reason = "a name is letters, then digits, primes or _".to_string();
-            CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
-        })?;
+        let name = named(key)?;
         let text = section.as_text(key.get_ref(), value)?;
         let read = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
         let reach = model.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);

@@ -32,7 +32,7 @@ pub fn read(
     let mut formulas = Vec::new();
     let mut kinds = Vec::new();
     for (key, value) in section.map(Section::entries).unwrap_or_default() {
-        let name = canonical_name(key.get_ref()).ok_or_else(|| bad_name(key))?;
+        let name = named(key)?;
         if parameters.iter().any(|known| known.name == name) {
             let reason = "it is declared twice".to_string();
             return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
@@ -102,9 +102,12 @@ fn declare(parameter: &Parameter, index: usize, vocabulary: &mut Vocabulary) {
     vocabulary.add(&parameter.name, meaning, parameter.kind, Reach::Parameters);
 }
 
-fn bad_name(key: &Spanned<std::borrow::Cow<'_, str>>) -> CaseError {
-    let reason = "a name is letters, then digits, primes or _".to_string();
-    CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
+/// The name that a key of the user's is.
+pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, CaseError> {
+    canonical_name(key.get_ref()).ok_or_else(|| {
+        let reason = "a name is letters, then digits, primes or _".to_string();
+        CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
+    })
 }
 
 /// Complains about a setting whose name no parameter has.

@@ -2,6 +2,7 @@
 
 use super::body::formula;
 use super::error::{CaseError, Problem};
+use super::parameters::named;
 use super::section::Section;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
@@ -19,10 +20,7 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
     };
     let (mut state, mut images) = (Vec::new(), Vec::new());
     for (key, value) in section.entries() {
-        let name = canonical_name(key.get_ref()).ok_or_else(|| {
-            let reason = "a name is letters, then digits, primes or _".to_string();
-            CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
-        })?;
+        let name = named(key)?;
         let text = section.as_text(key.get_ref(), value)?;
         let image = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
         state.push(Variable { name, kind: image.value_type() });

@@ -13,6 +13,9 @@ use crate::number::{Function, Operation};
 use super::bounds::Source;
 use super::relations::{Combination, Relations};
 
+/// Symbols by their numbers, each with its integer multiple.
+type Multiples = Vec<(usize, i64)>;
+
 /// Multiples of a basis element beyond this are given a symbol of their own.
 const LARGEST_MULTIPLE: i64 = 64;
 
@@ -146,8 +149,7 @@ impl Symbols {
 
     /// New symbols for the basis, each for so small a part of its element that all multiples are
     /// integers; the number of the first, and the multiples of each combination.
-    #[allow(clippy::type_complexity, reason = "one use")]
-    fn allot(&mut self, combinations: &[Combination]) -> Option<(usize, Vec<Vec<(usize, i64)>>)> {
+    fn allot(&mut self, combinations: &[Combination]) -> Option<(usize, Vec<Multiples>)> {
         let width = combinations.iter().map(|c| c.multiples.len()).max().unwrap_or(0);
         let mut parts = vec![1i64; width];
         for combination in combinations {

@@ -112,14 +112,14 @@ pub struct Effort {
 /// Something that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
-    /// `integral` or `density`.
+    /// `integral`, `density` or `symmetry-field`.
     pub kind: &'static str,
     /// In the names of the case.
     pub formula: String,
     /// Abbreviations in it that are not the case's, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// Is it a function of what is known anyway?
+    /// Is it a function of the energy and the level? Such finds are not told, so it never is.
     pub trivial: bool,
     /// The claim of the case that it follows from.
     #[serde(skip_serializing_if = "Option::is_none")]
