@@ -1,5 +1,6 @@
 //! A case file becomes a [`Case`]: a model with its names, a chart, and claims.
 
+mod abbreviations;
 mod arbitrary;
 mod ask;
 mod ball;

@@ -10,26 +10,25 @@
 //! ```
 
 use super::bench::Bench;
-use super::evidence::{Proof, Verdict, Witness};
+use super::evidence::{Proof, Verdict};
+use super::examine::conclude;
 use super::field::{Field, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
-use super::run::{Run, Values};
+use super::run::Run;
 use super::sampler::{LANES, Sampler};
-use super::witness::witness;
 use crate::claim::Place;
 use crate::graph::Expr;
-use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::twofold::TwofoldBall;
 use crate::proof::Outcome;
 
 /// Precisions of the last rung.
-const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
+pub const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
 /// States that are tried with each of them.
-const PRECISE_STATES: u64 = 4;
+pub const PRECISE_STATES: u64 = 4;
 
 pub type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
 
@@ -116,24 +115,6 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Checks that the motion stays on a part of the level.
-    fn check_motion(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
-        let rates = self.rates_at(place);
-        if rates.is_empty() {
-            return Ok(());
-        }
-        let values = self.run(&rates).at(&Ball::<LANES>, &sampler.balls(0));
-        let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
-        for (index, (equation, _)) in kept.enumerate() {
-            let rate = values.output(index);
-            if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
-                let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
-                return Err(JudgeError::NotInvariant { equation, rate });
-            }
-        }
-        Ok(())
-    }
-
     /// Balls over f64 at the first block, with what tells rounding from truth.
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let (run, spans) = self.lay_out(open.iter().map(|(item, _)| *item), true);
@@ -210,52 +191,6 @@ impl Bench<'_> {
             }
         }
         Ok(())
-    }
-
-    /// Tells which equation does not hold, or is left, where the ground is known not to be zero.
-    fn name_the_error(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
-        let kept = || (0..place.kept.len()).filter(|index| place.kept[*index]);
-        let text = |index: usize| self.case.model.level[index].text.clone();
-        let single = |values: &[Expr]| kept().map(|index| vec![values[index]]).collect::<Vec<_>>();
-        let (level, rates) = (single(&self.common.level), single(&self.common.level_rates));
-        let field = Field::new(self, sampler);
-        for (index, outcome) in kept().zip(field.test(&level)?) {
-            if outcome == Outcome::NonZero {
-                let by = self.magnitude(sampler, self.common.level[index]);
-                return Err(JudgeError::OffLevel { equation: text(index), by });
-            }
-        }
-        for (index, outcome) in kept().zip(field.test(&rates)?) {
-            if outcome == Outcome::NonZero {
-                let rate = self.magnitude(sampler, self.common.level_rates[index]);
-                return Err(JudgeError::NotInvariant { equation: text(index), rate });
-            }
-        }
-        Ok(())
-    }
-
-    /// A value that is not identically zero, at a state where it is seen not to be.
-    fn magnitude(&self, sampler: &Sampler, value: Expr) -> String {
-        let run = self.run(&[value]);
-        for bits in BITS {
-            let domain = Precise::new(bits);
-            for index in 0..PRECISE_STATES {
-                let values = run.at(&domain, &sampler.states(&domain, 1, index));
-                if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
-                    return found.rough();
-                }
-            }
-        }
-        format!("less than {} bits tell from 0", BITS[BITS.len() - 1])
-    }
-
-    /// What must vanish for states to be on the level and to stay there.
-    fn ground(&self, place: &Place) -> Vec<Expr> {
-        let kept = |all: &[Expr]| -> Vec<Expr> {
-            let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
-            pairs.map(|(value, _)| *value).collect()
-        };
-        [kept(&self.common.level), kept(&self.common.level_rates)].concat()
     }
 
     /// Balls over f64 at the other blocks, for claims that the fields did not settle.
@@ -350,112 +285,5 @@ impl Bench<'_> {
         let mut outputs = Vec::new();
         let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
         (self.run(&outputs), spans)
-    }
-
-    /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
-    fn examine<D: Enclosing>(
-        &self,
-        sampler: &Sampler,
-        start: u64,
-        span: &Span,
-        values: &Values<D>,
-        bits: u32,
-        finding: &mut Finding,
-    ) {
-        if finding.evidence.method.is_empty() {
-            let numerical = sampler.is_numerical();
-            finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
-        }
-        if self.seek_witness(sampler, start, span.residual.clone(), values, bits, finding) {
-            return;
-        }
-        let residuals = values.range(span.residual.clone());
-        let mut states = 0;
-        let (mut largest, mut scaled) = (0f64, 0f64);
-        for lane in 0..D::LANES {
-            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
-            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
-                continue;
-            };
-            states += 1;
-            for (mid, rad) in enclosures {
-                largest = largest.max(mid.abs());
-                scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
-            }
-        }
-        let evidence = &mut finding.evidence;
-        if start > 0 || evidence.samples == 0 {
-            evidence.samples += states;
-        }
-        // More digits replace what fewer digits found, more states add to it.
-        let before = |old: Option<f64>| if start > 0 { old.unwrap_or(0.0) } else { 0.0 };
-        evidence.max_residual = Some(before(evidence.max_residual).max(largest));
-        evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
-        let method = evidence.method;
-        finding.rung(method, format!("0 enclosed at {states} states, at most {largest:.1e}"));
-    }
-
-    /// Settles a claim as refuted by the first state whose enclosure excludes zero, if any.
-    fn seek_witness<D: Enclosing>(
-        &self,
-        sampler: &Sampler,
-        start: u64,
-        residual: std::ops::Range<usize>,
-        values: &Values<D>,
-        bits: u32,
-        finding: &mut Finding,
-    ) -> bool {
-        let residuals = values.range(residual);
-        for lane in 0..D::LANES {
-            if residuals.iter().any(|block| D::enclosure(block, lane).is_none()) {
-                continue;
-            }
-            let away = residuals.iter().find(|block| D::excludes_zero(block, lane));
-            let digits = away.and_then(|block| D::beyond_f64(block, lane));
-            if let Some((mid, rad)) = away.and_then(|block| D::enclosure(block, lane)) {
-                let index = start + lane as u64;
-                let evidence = &mut finding.evidence;
-                evidence.samples = evidence.samples.max(lane + 1);
-                let found = match &digits {
-                    Some(digits) => format!("{digits} at state {index}"),
-                    None => format!("{mid:.3e} ± {rad:.1e} at state {index}"),
-                };
-                let witness = witness(self.case, sampler, index, bits, (mid, rad));
-                evidence.witness = Some(Witness { digits, ..witness });
-                evidence.max_residual = None;
-                evidence.max_scaled_residual = None;
-                finding.settled = Some(Verdict::Refuted);
-                let method = finding.evidence.method;
-                finding.rung(method, found);
-                return true;
-            }
-        }
-        false
-    }
-}
-
-/// The verdict on a claim that no state refuted.
-fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
-    let kind = item.claim.kind.name();
-    let mut settle = |verdict: Verdict, method: &'static str| {
-        finding.settled = Some(verdict);
-        if !method.is_empty() {
-            finding.evidence.method = method;
-        }
-    };
-    if let Some(reason) = finding.undefined.take() {
-        finding.evidence.proof = None;
-        undecide(finding, reason);
-    } else if finding.is_zero {
-        settle(Verdict::Proved, "prime field");
-    } else if finding.is_nonzero {
-        settle(Verdict::Refuted, "prime field");
-        finding.evidence.reason = Some(format!(
-            "modulo a prime the residual of this {kind} is not 0, so it is no identity"
-        ));
-    } else if let Some(reason) = finding.blurred.take() {
-        undecide(finding, reason);
-    } else {
-        settle(Verdict::Confirmed, "");
     }
 }

@@ -2,6 +2,7 @@
 
 mod errors;
 mod language;
+mod layout;
 mod logarithm;
 mod random;
 mod weights;

@@ -1,0 +1,62 @@
+//! How formulas are set.
+
+use crate::formula::{Formula, Layout, Scope, Symbol, Type};
+
+struct Letters;
+
+impl Scope for Letters {
+    fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+        let kinds =
+            [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::Vector), ("J", Type::Matrix)];
+        let place = kinds.iter().position(|(known, _)| *known == name)?;
+        Some((Symbol(place as u32), kinds[place].1))
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// A plain reading of the boxes, with every bracket that they have.
+fn plain(layout: &Layout) -> String {
+    match layout {
+        Layout::Number(text) => text.clone(),
+        Layout::Name { letter, index, primes, .. } => {
+            format!("{letter}{index}{}", "'".repeat(*primes))
+        }
+        Layout::Word(word) => word.to_string(),
+        Layout::Sign(sign) => sign.to_string(),
+        Layout::Space => " ".to_string(),
+        Layout::Row(parts) => parts.iter().map(plain).collect(),
+        Layout::Fenced(open, inner, close) => format!("{open}{}{close}", plain(inner)),
+        Layout::Fraction(above, below) => format!("{{{}/{}}}", plain(above), plain(below)),
+        Layout::Root(inner) => format!("√{{{}}}", plain(inner)),
+        Layout::Raised(base, power) => format!("{}^{{{}}}", plain(base), plain(power)),
+        Layout::Lowered(base, index) => format!("{}_{{{}}}", plain(base), plain(index)),
+        Layout::Matrix(rows) => format!("{} rows", rows.len()),
+    }
+}
+
+fn set(text: &str) -> String {
+    let formula = Formula::parse(text, &Letters).expect(text);
+    let name = |symbol: Symbol| ["m", "k", "ω", "J"][symbol.0 as usize].to_string();
+    plain(&formula.layout(&name))
+}
+
+#[test]
+fn brackets_are_those_that_the_tree_needs() {
+    assert_eq!(set("|J*ω × ω|²"), "|J ω×ω|^{2}", "a vector product is looser than a product");
+    assert_eq!(set("m*(k + 1)²"), "m (k+1)^{2}", "a sum under an exponent");
+    assert_eq!(set("m − (k − 1)"), "m−(k−1)", "a difference on the right");
+    assert_eq!(set("(m − k) − 1"), "m−k−1", "and on the left");
+    assert_eq!(set("−(1 − k)*m"), "−(1−k) m", "a minus before a product");
+    assert_eq!(set("m*(−k)"), "m (−k)", "a minus inside one");
+    assert_eq!(set("(m/k)²"), "({m/k})^{2}", "a quotient under an exponent");
+    assert_eq!(set("m^((1 + k)/2)"), "m^{(1+k)/2}", "quotients in exponents stand in line");
+    assert_eq!(set("m^(1/2)"), "m^{1/2}", "and so do numbers");
+    assert_eq!(set("m*2"), "m·2", "digits are kept apart");
+    assert_eq!(set("(ω,J⁻¹*ω)*det(J)"), "(ω,J^{−1} ω) det J", "the dot product has its own");
+    assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
+    assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
+    assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
+}

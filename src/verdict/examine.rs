@@ -1,0 +1,119 @@
+//! What the enclosures of a block of states tell about one residual.
+
+use super::bench::Bench;
+use super::evidence::{Verdict, Witness};
+use super::finding::{Finding, undecide};
+use super::recorded::{Recorded, Span};
+use super::run::Values;
+use super::sampler::Sampler;
+use super::witness::witness;
+use crate::number::Enclosing;
+
+impl Bench<'_> {
+    /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
+    pub(super) fn examine<D: Enclosing>(
+        &self,
+        sampler: &Sampler,
+        start: u64,
+        span: &Span,
+        values: &Values<D>,
+        bits: u32,
+        finding: &mut Finding,
+    ) {
+        if finding.evidence.method.is_empty() {
+            let numerical = sampler.is_numerical();
+            finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
+        }
+        if self.seek_witness(sampler, start, span.residual.clone(), values, bits, finding) {
+            return;
+        }
+        let residuals = values.range(span.residual.clone());
+        let mut states = 0;
+        let (mut largest, mut scaled) = (0f64, 0f64);
+        for lane in 0..D::LANES {
+            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
+            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
+                continue;
+            };
+            states += 1;
+            for (mid, rad) in enclosures {
+                largest = largest.max(mid.abs());
+                scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
+            }
+        }
+        let evidence = &mut finding.evidence;
+        if start > 0 || evidence.samples == 0 {
+            evidence.samples += states;
+        }
+        // More digits replace what fewer digits found, more states add to it.
+        let before = |old: Option<f64>| if start > 0 { old.unwrap_or(0.0) } else { 0.0 };
+        evidence.max_residual = Some(before(evidence.max_residual).max(largest));
+        evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
+        let method = evidence.method;
+        finding.rung(method, format!("0 enclosed at {states} states, at most {largest:.1e}"));
+    }
+
+    /// Settles a claim as refuted by the first state whose enclosure excludes zero, if any.
+    pub(super) fn seek_witness<D: Enclosing>(
+        &self,
+        sampler: &Sampler,
+        start: u64,
+        residual: std::ops::Range<usize>,
+        values: &Values<D>,
+        bits: u32,
+        finding: &mut Finding,
+    ) -> bool {
+        let residuals = values.range(residual);
+        for lane in 0..D::LANES {
+            if residuals.iter().any(|block| D::enclosure(block, lane).is_none()) {
+                continue;
+            }
+            let away = residuals.iter().find(|block| D::excludes_zero(block, lane));
+            let digits = away.and_then(|block| D::beyond_f64(block, lane));
+            if let Some((mid, rad)) = away.and_then(|block| D::enclosure(block, lane)) {
+                let index = start + lane as u64;
+                let evidence = &mut finding.evidence;
+                evidence.samples = evidence.samples.max(lane + 1);
+                let found = match &digits {
+                    Some(digits) => format!("{digits} at state {index}"),
+                    None => format!("{mid:.3e} ± {rad:.1e} at state {index}"),
+                };
+                let witness = witness(self.case, sampler, index, bits, (mid, rad));
+                evidence.witness = Some(Witness { digits, ..witness });
+                evidence.max_residual = None;
+                evidence.max_scaled_residual = None;
+                finding.settled = Some(Verdict::Refuted);
+                let method = finding.evidence.method;
+                finding.rung(method, found);
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// The verdict on a claim that no state refuted.
+pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
+    let kind = item.claim.kind.name();
+    let mut settle = |verdict: Verdict, method: &'static str| {
+        finding.settled = Some(verdict);
+        if !method.is_empty() {
+            finding.evidence.method = method;
+        }
+    };
+    if let Some(reason) = finding.undefined.take() {
+        finding.evidence.proof = None;
+        undecide(finding, reason);
+    } else if finding.is_zero {
+        settle(Verdict::Proved, "prime field");
+    } else if finding.is_nonzero {
+        settle(Verdict::Refuted, "prime field");
+        finding.evidence.reason = Some(format!(
+            "modulo a prime the residual of this {kind} is not 0, so it is no identity"
+        ));
+    } else if let Some(reason) = finding.blurred.take() {
+        undecide(finding, reason);
+    } else {
+        settle(Verdict::Confirmed, "");
+    }
+}

@@ -1,0 +1,82 @@
+//! The ground that claims stand on: states are on the level, and the motion stays there.
+
+use super::bench::Bench;
+use super::field::Field;
+use super::judge::JudgeError;
+use super::ladder::{BITS, PRECISE_STATES};
+use super::sampler::{LANES, Sampler};
+use crate::claim::Place;
+use crate::graph::Expr;
+use crate::number::ball::Ball;
+use crate::number::precise::Precise;
+use crate::proof::Outcome;
+
+impl Bench<'_> {
+    /// Checks that the motion stays on a part of the level.
+    pub(super) fn check_motion(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
+        let rates = self.rates_at(place);
+        if rates.is_empty() {
+            return Ok(());
+        }
+        let values = self.run(&rates).at(&Ball::<LANES>, &sampler.balls(0));
+        let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+        for (index, (equation, _)) in kept.enumerate() {
+            let rate = values.output(index);
+            if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
+                let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
+                return Err(JudgeError::NotInvariant { equation, rate });
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells which equation does not hold, or is left, where the ground is known not to be zero.
+    pub(super) fn name_the_error(
+        &self,
+        place: &Place,
+        sampler: &Sampler,
+    ) -> Result<(), JudgeError> {
+        let kept = || (0..place.kept.len()).filter(|index| place.kept[*index]);
+        let text = |index: usize| self.case.model.level[index].text.clone();
+        let single = |values: &[Expr]| kept().map(|index| vec![values[index]]).collect::<Vec<_>>();
+        let (level, rates) = (single(&self.common.level), single(&self.common.level_rates));
+        let field = Field::new(self, sampler);
+        for (index, outcome) in kept().zip(field.test(&level)?) {
+            if outcome == Outcome::NonZero {
+                let by = self.magnitude(sampler, self.common.level[index]);
+                return Err(JudgeError::OffLevel { equation: text(index), by });
+            }
+        }
+        for (index, outcome) in kept().zip(field.test(&rates)?) {
+            if outcome == Outcome::NonZero {
+                let rate = self.magnitude(sampler, self.common.level_rates[index]);
+                return Err(JudgeError::NotInvariant { equation: text(index), rate });
+            }
+        }
+        Ok(())
+    }
+
+    /// A value that is not identically zero, at a state where it is seen not to be.
+    fn magnitude(&self, sampler: &Sampler, value: Expr) -> String {
+        let run = self.run(&[value]);
+        for bits in BITS {
+            let domain = Precise::new(bits);
+            for index in 0..PRECISE_STATES {
+                let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
+                    return found.rough();
+                }
+            }
+        }
+        format!("less than {} bits tell from 0", BITS[BITS.len() - 1])
+    }
+
+    /// What must vanish for states to be on the level and to stay there.
+    pub(super) fn ground(&self, place: &Place) -> Vec<Expr> {
+        let kept = |all: &[Expr]| -> Vec<Expr> {
+            let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+            pairs.map(|(value, _)| *value).collect()
+        };
+        [kept(&self.common.level), kept(&self.common.level_rates)].concat()
+    }
+}
