@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use liouville::case::Case;
-use liouville::search::{Effort, Report, Wanted, search};
+use liouville::search::{Ansatz, Effort, Report, Wanted, search};
 use liouville::verdict::{Options, Verdict};
 
 fn effort(degree: u32) -> Effort {
@@ -14,6 +14,7 @@ fn effort(degree: u32) -> Effort {
         seconds: 60.0,
         terms: Vec::new(),
         conditions: None,
+        ansatz: Ansatz::default(),
         options: Options::default(),
     }
 }

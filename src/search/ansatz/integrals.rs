@@ -1,0 +1,250 @@
+//! Integrals that are polynomials in velocities and positions over a denominator of the geometry.
+
+use super::super::ask::{holds, judged, quoted};
+use super::super::integrals::tell;
+use super::super::products::Generators;
+use super::super::terms::{Term, read};
+use super::super::{Effort, Excluded, Report, SearchError, library};
+use super::characters::Characters;
+use super::coefficients::Coefficients;
+use super::monomials::Variables;
+use super::size::Size;
+use super::subspace::complement;
+use super::system::{Column, System};
+use super::{coordinates, factors};
+use crate::case::Case;
+use crate::mechanics::Model;
+use crate::verdict::Independence;
+
+/// The degree in the positions rises by so much.
+const STEP: u32 = 4;
+
+/// Looks for integrals of the degrees at which the counts leave some, or of all if it is wanted.
+pub fn integrals(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let Some(variables) = Variables::of(case) else {
+        if effort.ansatz.wanted {
+            report.remark("no global ansatz: the level has no standard monomials here".to_string());
+        }
+        return Ok(());
+    };
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
+    for degree in degrees {
+        let known = Generators::all(case, effort, report)?.products(degree, mixed);
+        let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
+        let dimension = count.map(|count| count.dimension);
+        let is_open = dimension.is_some_and(|dimension| dimension > known);
+        if !is_open && !effort.ansatz.wanted {
+            continue;
+        }
+        for below in denominators(&case.model) {
+            let mut search = Search { case, effort, variables: &variables, degree, mixed, below };
+            if search.run(dimension, report, progress)? {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What polynomials may be divided by, simple ones first.
+fn denominators(model: &Model) -> Vec<Term> {
+    let mut texts = library::denominators(model);
+    let further = ["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)", "(I1*I2 + m*(I1*r1² + I2*r2²))"];
+    texts.extend(further.map(str::to_string));
+    texts.extend(texts.clone().into_iter().skip(1).map(|text| format!("({text})²")));
+    read(texts, &model.vocabulary)
+}
+
+/// One degree in the velocities and one denominator.
+struct Search<'a> {
+    case: &'a Case,
+    effort: &'a Effort,
+    variables: &'a Variables,
+    degree: u32,
+    mixed: bool,
+    below: Term,
+}
+
+impl Search<'_> {
+    /// Looks for integrals of rising degree in the positions; are there as many as were counted?
+    fn run(
+        &mut self,
+        dimension: Option<usize>,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let highest = self.effort.ansatz.positions;
+        let mut steps: Vec<u32> = (1..).map(|k| k * STEP).take_while(|e| *e < highest).collect();
+        steps.push(highest);
+        for positions in steps {
+            if !self.step(positions, positions == highest, report, progress)? {
+                return Ok(true);
+            }
+            let all = Generators::all(self.case, self.effort, report)?;
+            if dimension.is_some_and(|dimension| all.products(self.degree, self.mixed) >= dimension)
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// One ansatz; `false` if it is too large, or has no states.
+    fn step(
+        &self,
+        positions: u32,
+        is_last: bool,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let Self { case, effort, variables, .. } = *self;
+        let seed = effort.options.seed;
+        let below = std::slice::from_ref(&self.below);
+        let over = factors(below, case);
+        let generators = Generators::all(case, effort, report)?;
+        let names: Vec<String> = generators.names().map(str::to_string).collect();
+        let known = read(names, &case.model.vocabulary);
+        let mut outputs = Vec::new();
+        let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+            recording.derive(jet.along_field(), &variables.terms, &over);
+            outputs = known
+                .iter()
+                .map(|term| recording.give(jet.phase.scalar(&term.formula)))
+                .collect();
+        })?;
+        let lowest = if self.mixed { 0 } else { self.degree };
+        let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
+            .flat_map(|degree| variables.monomials(degree, 0..=positions))
+            .collect();
+        // What stands last is free: of high degree in all, so that what is left has low degree.
+        exponents.sort_by_key(|own| own.iter().sum::<u32>());
+        let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
+        system.columns = exponents.into_iter().map(product).collect();
+        let blocks = Characters::of(case, variables, &over, seed)?.blocks(&system.columns);
+        let size = Size::of(&blocks);
+        let what = self.words(positions);
+        progress(&format!("{what}: {size}"));
+        if let Some(reason) = size.beyond(effort) {
+            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            return Ok(false);
+        }
+        let Some(at) = system.at(0, 0) else { return Ok(false) };
+        let mut found: Vec<Vec<u64>> = Vec::new();
+        for block in &blocks {
+            let Some(vectors) = system.null_space(&at, block) else { return Ok(false) };
+            found.extend(vectors.into_iter().map(|vector| {
+                let mut full = vec![0; system.columns.len()];
+                block.iter().zip(vector).for_each(|(column, entry)| full[*column] = entry);
+                full
+            }));
+        }
+        found.sort_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
+        let products: Vec<Vec<usize>> = generators
+            .exponents(self.degree, self.mixed)
+            .into_iter()
+            .map(|powers| {
+                let own = powers.iter().zip(&outputs);
+                own.flat_map(|(power, output)| vec![*output; *power as usize]).collect()
+            })
+            .collect();
+        let dimension = found.len();
+        let Some(new) = complement(&system, &at, &found, &products) else { return Ok(false) };
+        let mut told = 0;
+        for vector in &new {
+            told += usize::from(self.tell(&system, vector, report)?);
+        }
+        if is_last || told > 0 {
+            self.exclude(&what, dimension, dimension - new.len(), told, report);
+        }
+        Ok(true)
+    }
+
+    /// Writes a null vector as a formula and has it judged; was it proved, and new?
+    fn tell(
+        &self,
+        system: &System,
+        vector: &[u64],
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        let Self { case, effort, .. } = *self;
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let Some(coefficients) = Coefficients::of(system, &support) else {
+            report.remark(format!(
+                "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                self.degree, support.len(), self.below.text
+            ));
+            return Ok(false);
+        };
+        let functions: Vec<String> =
+            support.iter().map(|k| self.monomial(&system.columns[*k])).collect();
+        let all: Vec<usize> = (0..support.len()).collect();
+        let sum = coefficients.sum(&all, &functions);
+        let formula = match self.below.text.as_str() {
+            "1" => sum,
+            below => format!("({sum})/({below})"),
+        };
+        let claim = [format!("integral = {}", quoted(&formula))];
+        let Some(verdict) = judged(case, &claim, effort)?.into_iter().next() else {
+            return Ok(false);
+        };
+        if !holds(&verdict) {
+            report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
+            return Ok(false);
+        }
+        let before = report.found.len();
+        if matches!(verdict.evidence.independence, Some(Independence::Independent)) {
+            tell(case, &formula, verdict, effort, report)?;
+        }
+        Ok(report.found.len() > before)
+    }
+
+    fn monomial(&self, column: &Column) -> String {
+        match column {
+            Column::Product { exponents, .. } => self.variables.text(exponents),
+            Column::Given(_) => "1".to_string(),
+        }
+    }
+
+    fn words(&self, positions: u32) -> String {
+        let below = match self.below.text.as_str() {
+            "1" => String::new(),
+            below => format!(" over {below}"),
+        };
+        let degree = if self.mixed { "at most " } else { "" };
+        format!(
+            "polynomials of degree {degree}{} in the velocities and at most {positions} in the positions{below}",
+            self.degree
+        )
+    }
+
+    fn exclude(
+        &self,
+        what: &str,
+        dimension: usize,
+        known: usize,
+        told: usize,
+        report: &mut Report,
+    ) {
+        let new = dimension - known;
+        let rest = match (new, told) {
+            (0, _) => "all of them functions of what is known".to_string(),
+            (new, 0) => format!("{new} of them not known, and not proved"),
+            (new, told) => format!("{new} of them not known before, from which {told} follow that are told here"),
+        };
+        report.excluded.push(Excluded {
+            ansatz: what.to_string(),
+            dimension,
+            known: dimension - if told > 0 { 0 } else { new },
+            error_log2: None,
+            theorem: format!(
+                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent integrals are {what}: {rest}."
+            ),
+        });
+    }
+}
