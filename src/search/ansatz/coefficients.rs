@@ -20,7 +20,7 @@ use crate::proof::reconstruct;
 /// Primes after which rational coefficients are given up.
 const PRIMES: u64 = 8;
 /// Coefficients of a numerator and denominator together.
-const MOST: usize = 640;
+const MOST: usize = 340;
 /// Samples beyond the number of unknowns.
 const SPARE: usize = 8;
 /// Choices of parameters beyond those that are wanted, where some have no value.
@@ -81,22 +81,23 @@ impl Coefficients {
                 (true, sign) => text.push_str(sign),
                 (false, sign) => text.push_str(&format!(" {sign} ")),
             }
-            text.push_str(&match (coefficient.as_str(), function.as_str()) {
-                ("1", function) => function.to_string(),
-                (coefficient, "1") if is_sum => format!("({coefficient})"),
-                (coefficient, "1") => coefficient.to_string(),
-                (coefficient, function) if is_sum => format!("({coefficient})*{function}"),
-                (coefficient, function) => format!("{coefficient}*{function}"),
+            let coefficient = if is_sum { format!("({coefficient})") } else { coefficient };
+            text.push_str(&match (coefficient.as_str(), function.strip_prefix("1/")) {
+                (coefficient, Some(below)) => format!("{coefficient}/{below}"),
+                ("1", None) => function.to_string(),
+                (coefficient, None) if function == "1" => coefficient.to_string(),
+                (coefficient, None) => format!("{coefficient}*{function}"),
             });
         }
         if text.is_empty() { "0".to_string() } else { text }
     }
 
-    /// The same without the common divisor of all numbers, and with a positive one first.
+    /// The same without the common divisor of all numbers, and the last column positive.
     fn reduced(mut self) -> Self {
         let all = || self.polynomials.iter().flatten();
         let common = all().fold(BigInt::ZERO, |gcd, (_, a)| gcd.gcd(a));
-        let sign = all().next().is_some_and(|(_, a)| a.is_negative());
+        let last = self.polynomials.iter().rev().find_map(|own| own.first());
+        let sign = last.is_some_and(|(_, a)| a.is_negative());
         if !common.is_zero() {
             let divisor = if sign { -common } else { common };
             self.polynomials.iter_mut().flatten().for_each(|(_, a)| *a /= &divisor);
@@ -325,7 +326,7 @@ mod tests {
 
     #[test]
     fn large_fractions_come_from_several_primes() {
-        let modulus: BigInt = (BigInt::one() << 61u32) * ((BigInt::one() << 89u32) - 1u32) + 1u32;
+        let modulus: BigInt = (BigInt::one() << 127u32) - 1u32;
         let (above, below) = (BigInt::from(-123_456_789_012_345i64), BigInt::from(987_654_321_987i64));
         let inverse = below.modinv(&modulus).expect("prime to it");
         let residue = (&above * inverse).mod_floor(&modulus);
@@ -337,9 +338,11 @@ mod tests {
         let names = vec!["a".to_string(), "b".to_string()];
         let one = |a: [u32; 2], value: i64| (a.to_vec(), BigInt::from(value));
         let polynomials =
-            vec![vec![one([1, 0], -2)], Vec::new(), vec![one([0, 0], 4), one([0, 2], 6)]];
+            vec![vec![one([1, 0], 2)], Vec::new(), vec![one([0, 0], -4), one([0, 2], -6)]];
         let coefficients = Coefficients { names, polynomials }.reduced();
         let functions = ["x".to_string(), "y".to_string(), "1".to_string()];
-        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "a*x + (−2 − 3*b²)");
+        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a*x + (2 + 3*b²)");
+        let functions = ["1/x".to_string(), "y".to_string(), "1/z²".to_string()];
+        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a/x + (2 + 3*b²)/z²");
     }
 }

@@ -62,8 +62,11 @@ pub fn with_constants(case: &Case, letter: &str, count: usize) -> (Case, Vec<Str
     (extended, names)
 }
 
-/// Σ constant · part, each part in parentheses.
+/// Σ constant · part.
 pub fn combination<'t>(parts: impl Iterator<Item = (&'t String, &'t String)>) -> String {
-    let term = |(constant, part): (&String, &String)| format!("{constant}*({part})");
+    let term = |(constant, part): (&String, &String)| match part.starts_with('[') {
+        true => format!("{constant}*{part}"),
+        false => format!("{constant}*({part})"),
+    };
     parts.map(term).collect::<Vec<_>>().join(" + ")
 }

@@ -7,6 +7,8 @@
 //! (∂F/∂ω, A(S)) + L_v F₁ = 0       linear in S and F₁
 //! (∂F₁/∂ω, A(S)) + L_v F₀ = 0      linear in the products of S's components and F₀
 //! ```
+//!
+//! For an F of degree 1 the first equation is all, with F₁ of degree 0.
 
 use super::super::ask::{holds, judged, quoted};
 use super::super::products::Generators;
@@ -38,17 +40,18 @@ pub fn gyrostats(
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
-    let own: Vec<String> = generators
+    let own: Vec<(String, u32)> = generators
         .each()
         .filter(|(name, degree)| *name != "energy" && (1..=2).contains(degree))
-        .map(|(name, _)| name.to_string())
+        .map(|(name, degree)| (name.to_string(), degree))
         .collect();
     if own.is_empty() {
         report.remark("no integral of degree 1 or 2 is known that a rotor could keep".to_string());
     }
     let offered = ["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"].map(str::to_string);
     let below = read(offered.to_vec(), &case.model.vocabulary);
-    for integral in read(own, &case.model.vocabulary) {
+    for (name, degree) in own {
+        let Some(integral) = read(vec![name], &case.model.vocabulary).pop() else { continue };
         let rotors = Rotors {
             case,
             effort,
@@ -56,6 +59,7 @@ pub fn gyrostats(
             unit: &unit,
             below: &below,
             integral,
+            degree,
         };
         rotors.search(report, progress)?;
     }
@@ -71,6 +75,8 @@ struct Rotors<'a> {
     unit: &'a [Model],
     below: &'a [Term],
     integral: Term,
+    /// Of the integral in the velocities.
+    degree: u32,
 }
 
 /// A direction of the rotor, and what the integral gains.
@@ -108,8 +114,9 @@ impl Rotors<'_> {
             error_log2: None,
             theorem: format!(
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent directions of a rotor allow, to first order in it, \
-                 an integral {} + F₁ with F₁ linear in the velocities, polynomials of degree at most {highest} in the positions over {}{then}.",
+                 an integral {} + F₁ with F₁ of degree {} in the velocities and coefficients that are polynomials of degree at most {highest} in the positions over {}{then}.",
                 self.integral.text,
+                self.degree - 1,
                 self.below.iter().map(|term| term.text.as_str()).collect::<Vec<_>>().join(", ")
             ),
         });
@@ -149,7 +156,7 @@ impl Rotors<'_> {
                 given = gains.into_iter().map(|gain| recording.give(gain)).collect();
             })?;
         let rotors = given.into_iter().map(Column::Given);
-        system.columns = self.products(1, self.below).chain(rotors).collect();
+        system.columns = self.products(self.degree - 1, self.below).chain(rotors).collect();
         Ok(system)
     }
 
@@ -191,6 +198,9 @@ impl Rotors<'_> {
 
     /// Terms of second order for each product of two directions; nothing where there are none.
     fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<String>>, SearchError> {
+        if self.degree < 2 {
+            return Ok(vec![Some("0".to_string()); pairs(directions.len()).len()]);
+        }
         let vocabulary = &self.case.model.vocabulary;
         let linear = read(directions.iter().map(|own| own.linear.clone()).collect(), vocabulary);
         let units: Vec<Model> = directions

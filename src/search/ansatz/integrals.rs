@@ -13,13 +13,25 @@ use super::subspace::complement;
 use super::system::{Column, System};
 use super::{coordinates, factors};
 use crate::case::Case;
-use crate::mechanics::Model;
+use crate::mechanics::{Model, System as Motion};
 use crate::verdict::Independence;
 
 /// The degree in the positions rises by so much.
 const STEP: u32 = 4;
 
-/// Looks for integrals of the degrees at which the counts leave some, or of all if it is wanted.
+/// What became of a null vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// Proved, and told.
+    Told,
+    /// Proved, and a function of what is known.
+    Dependent,
+    /// Not written down, or not proved; a remark says why.
+    Open,
+}
+
+/// Looks for integrals of the degrees at which the counts leave some; if it is wanted, also where nothing
+/// was counted.
 pub fn integrals(
     case: &Case,
     effort: &Effort,
@@ -38,8 +50,7 @@ pub fn integrals(
         let known = Generators::all(case, effort, report)?.products(degree, mixed);
         let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
         let dimension = count.map(|count| count.dimension);
-        let is_open = dimension.is_some_and(|dimension| dimension > known);
-        if !is_open && !effort.ansatz.wanted {
+        if !dimension.map_or(effort.ansatz.wanted, |dimension| dimension > known) {
             continue;
         }
         for below in denominators(&case.model) {
@@ -55,8 +66,12 @@ pub fn integrals(
 /// What polynomials may be divided by, simple ones first.
 fn denominators(model: &Model) -> Vec<Term> {
     let mut texts = library::denominators(model);
-    let further = ["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)", "(I1*I2 + m*(I1*r1² + I2*r2²))"];
-    texts.extend(further.map(str::to_string));
+    let further: &[&str] = match &model.system {
+        Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
+        Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
+        _ => &[],
+    };
+    texts.extend(further.iter().map(|text| text.to_string()));
     texts.extend(texts.clone().into_iter().skip(1).map(|text| format!("({text})²")));
     read(texts, &model.vocabulary)
 }
@@ -155,23 +170,23 @@ impl Search<'_> {
             .collect();
         let dimension = found.len();
         let Some(new) = complement(&system, &at, &found, &products) else { return Ok(false) };
-        let mut told = 0;
+        let mut outcomes = Vec::new();
         for vector in &new {
-            told += usize::from(self.tell(&system, vector, report)?);
+            outcomes.push(self.tell(&system, vector, report)?);
         }
-        if is_last || told > 0 {
-            self.exclude(&what, dimension, dimension - new.len(), told, report);
+        if is_last || outcomes.contains(&Outcome::Told) {
+            self.exclude(&what, dimension, &outcomes, report);
         }
         Ok(true)
     }
 
-    /// Writes a null vector as a formula and has it judged; was it proved, and new?
+    /// Writes a null vector as a formula and has it judged.
     fn tell(
         &self,
         system: &System,
         vector: &[u64],
         report: &mut Report,
-    ) -> Result<bool, SearchError> {
+    ) -> Result<Outcome, SearchError> {
         let Self { case, effort, .. } = *self;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let Some(coefficients) = Coefficients::of(system, &support) else {
@@ -179,7 +194,7 @@ impl Search<'_> {
                 "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
                 self.degree, support.len(), self.below.text
             ));
-            return Ok(false);
+            return Ok(Outcome::Open);
         };
         let functions: Vec<String> =
             support.iter().map(|k| self.monomial(&system.columns[*k])).collect();
@@ -191,17 +206,17 @@ impl Search<'_> {
         };
         let claim = [format!("integral = {}", quoted(&formula))];
         let Some(verdict) = judged(case, &claim, effort)?.into_iter().next() else {
-            return Ok(false);
+            return Ok(Outcome::Open);
         };
         if !holds(&verdict) {
             report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
-            return Ok(false);
+            return Ok(Outcome::Open);
         }
         let before = report.found.len();
         if matches!(verdict.evidence.independence, Some(Independence::Independent)) {
             tell(case, &formula, verdict, effort, report)?;
         }
-        Ok(report.found.len() > before)
+        Ok(if report.found.len() > before { Outcome::Told } else { Outcome::Dependent })
     }
 
     fn monomial(&self, column: &Column) -> String {
@@ -223,28 +238,104 @@ impl Search<'_> {
         )
     }
 
-    fn exclude(
-        &self,
-        what: &str,
-        dimension: usize,
-        known: usize,
-        told: usize,
-        report: &mut Report,
-    ) {
-        let new = dimension - known;
-        let rest = match (new, told) {
-            (0, _) => "all of them functions of what is known".to_string(),
-            (new, 0) => format!("{new} of them not known, and not proved"),
-            (new, told) => format!("{new} of them not known before, from which {told} follow that are told here"),
+    /// What the ansatz holds is at most what was found: a theorem about its functions.
+    fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
+        let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
+        let open = many(Outcome::Open);
+        let generic =
+            "For generic values of the free parameters, and the given values of the fixed ones,";
+        let theorem = match (dimension, open) {
+            (0, _) => format!("{generic} no integrals are {what}, constants aside."),
+            (_, 0) => format!(
+                "{generic} all integrals that are {what} are functions of those that are told or known; {dimension} are independent over the numbers."
+            ),
+            (_, open) => format!(
+                "{generic} at most {dimension} integrals that are {what} are independent over the numbers; {open} of them are not known."
+            ),
         };
         report.excluded.push(Excluded {
             ansatz: what.to_string(),
             dimension,
-            known: dimension - if told > 0 { 0 } else { new },
+            known: dimension - open,
             error_log2: None,
-            theorem: format!(
-                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent integrals are {what}: {rest}."
-            ),
+            theorem,
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::Ansatz;
+    use crate::verdict::{Options, Verdict};
+
+    fn effort(degree: u32, positions: u32) -> Effort {
+        Effort {
+            degree,
+            blind: true,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: 60.0,
+            ansatz: Ansatz { wanted: true, positions, ..Ansatz::default() },
+            options: Options::default(),
+        }
+    }
+
+    fn searched(text: &str, effort: &Effort) -> Report {
+        let case = Case::parse(text, &[]).expect("a case");
+        let mut report = Report::default();
+        integrals(&case, effort, &mut report, &mut |_| {}).expect("it can be searched");
+        report
+    }
+
+    #[test]
+    fn integrals_are_found_without_terms() {
+        let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nR='1..3'\n\
+                    I='inertia(0.5..5)'\n";
+        let cases = [
+            (format!("{ball}[body]\nshape='ball'\n"), 4),
+            (format!("{ball}c='vector(-0.5..0.5)'\n[body]\nshape='ball'\n"), 4),
+            (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
+            (
+                "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                 \"μ\"='1..2'\nI='m*B + μ*E'\n[body]\nshape='ellipsoid'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='flat-base'\n[parameters]\nm='0.5..2'\nk='0.2..1'\nz=0\n\
+                 I='inertia(0.5..5)'\n[body]\nheight='z'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='rubber-sphere'\n[parameters]\nm=1\nR=1\nk=-2\nI=[1.37,2.91,3.73]\n\
+                 [body]\nshape='ball'\n"
+                    .to_string(),
+                8,
+            ),
+        ];
+        for (text, positions) in cases {
+            let report = searched(&text, &effort(2, positions));
+            let found: Vec<&str> = report.formulas("integral").collect();
+            println!("{found:?} {:?}", report.remarks);
+            assert_eq!(found.len(), 1, "{text}: {found:?} {:?}", report.remarks);
+            assert_eq!(report.found[0].verdict, Verdict::Proved, "{text}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_there_is_nothing_and_what_is_too_large_is_left_out() {
+        let body = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                    I='inertia(0.5..5)'\n[body]\nshape='ellipsoid'\n";
+        let report = searched(body, &effort(2, 4));
+        assert_eq!(report.found.len(), 0, "{:?}", report.found);
+        let over = |below: &str| report.excluded.iter().find(|one| one.ansatz.ends_with(below));
+        let excluded = over("over (γ,B*γ)").expect("the energy fits there");
+        assert_eq!((excluded.dimension, excluded.known), (1, 1), "{}", excluded.theorem);
+        let mut small = effort(2, 40);
+        small.ansatz.megabytes = 1;
+        let report = searched(body, &small);
+        assert!(report.remarks.iter().any(|one| one.contains("the bound is 1 MB")), "it is told");
     }
 }

@@ -33,7 +33,8 @@ pub fn potentials(
     let unit: Option<Vec<Model>> =
         (1..=3).map(|i| with_potential(&case.model, &format!("γ{i}"))).collect();
     let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
-        report.remark("no potential is looked for: the system takes none".to_string());
+        let reason = "the system takes none, or has one with free coefficients";
+        report.remark(format!("no potential is looked for: {reason}"));
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
@@ -183,10 +184,14 @@ impl Family<'_> {
         }
         let (mut extended, names) = with_constants(self.case, "ε", found.len());
         let potential = combination(names.iter().zip(found.iter().map(|(u, _)| u)));
-        let gain = combination(names.iter().zip(found.iter().map(|(_, g)| g)));
+        let gains = names.iter().zip(found.iter().map(|(_, g)| g));
+        let gain = combination(gains.filter(|(_, gain)| *gain != "0"));
         let Some(model) = with_potential(&extended.model, &potential) else { return Ok(0) };
         extended.model = model;
-        let formula = format!("{} + {gain}", self.integral.text);
+        let formula = match gain.as_str() {
+            "" => self.integral.text.clone(),
+            gain => format!("{} + {gain}", self.integral.text),
+        };
         let claim = [format!("integral = {}", quoted(&formula))];
         let Some(verdict) = judged(&extended, &claim, self.effort)?.into_iter().next() else {
             return Ok(0);
