@@ -24,7 +24,7 @@ const STEP: u32 = 4;
 enum Outcome {
     /// Proved, and told.
     Told,
-    /// Proved, and a function of what is known.
+    /// Proved, and not shown to be independent of what is known.
     Dependent,
     /// Not written down, or not proved; a remark says why.
     Open,
@@ -53,7 +53,7 @@ pub fn integrals(
         if !dimension.map_or(effort.ansatz.wanted, |dimension| dimension > known) {
             continue;
         }
-        for below in denominators(&case.model) {
+        for below in denominators(&case.model, effort.ansatz.wanted) {
             let mut search = Search { case, effort, variables: &variables, degree, mixed, below };
             if search.run(dimension, report, progress)? {
                 break;
@@ -63,9 +63,13 @@ pub fn integrals(
     Ok(())
 }
 
-/// What polynomials may be divided by, simple ones first.
-fn denominators(model: &Model) -> Vec<Term> {
+/// What polynomials may be divided by, simple ones first; `all` that a pole of the field allows, or those
+/// of low degree.
+fn denominators(model: &Model, all: bool) -> Vec<Term> {
     let mut texts = library::denominators(model);
+    if !all {
+        return read(texts, &model.vocabulary);
+    }
     let further: &[&str] = match &model.system {
         Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
         Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
@@ -221,10 +225,12 @@ impl Search<'_> {
                 tell(case, &formula, verdict, effort, report)?;
                 Ok(Outcome::Told)
             }
-            Some(Verdict::Refuted) => Ok(Outcome::Dependent),
-            _ => {
-                report.remark(format!("an integral, but it may depend on what is known: {formula}"));
-                Ok(Outcome::Open)
+            other => {
+                let word = other.map_or("undecided", |verdict| verdict.word());
+                report.remark(format!(
+                    "an integral, of which it is {word} that it is independent of what is told: {formula}"
+                ));
+                Ok(Outcome::Dependent)
             }
         }
     }
@@ -251,18 +257,28 @@ impl Search<'_> {
     /// What the ansatz holds is at most what was found: a theorem about its functions.
     fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
         let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
-        let open = many(Outcome::Open);
+        let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));
         let generic =
             "For generic values of the free parameters, and the given values of the fixed ones,";
-        let theorem = match (dimension, open) {
-            (0, _) => format!("{generic} no integrals are {what}, constants aside."),
-            (_, 0) => format!(
-                "{generic} all integrals that are {what} are functions of those that are told or known; {dimension} are independent over the numbers."
-            ),
-            (_, open) => format!(
-                "{generic} at most {dimension} integrals that are {what} are independent over the numbers; {open} of them are not known."
+        let mut theorem = match dimension {
+            0 => format!("{generic} no integrals are {what}, constants aside."),
+            _ => format!(
+                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of what was known",
+                dimension - outcomes.len()
             ),
         };
+        for (count, words) in [
+            (many(Outcome::Told), "are told here"),
+            (dependent, "are not shown to be independent functions of these"),
+            (open, "are not known"),
+        ] {
+            if count > 0 {
+                theorem.push_str(&format!(", {count} {words}"));
+            }
+        }
+        if dimension > 0 {
+            theorem.push('.');
+        }
         report.excluded.push(Excluded {
             ansatz: what.to_string(),
             dimension,
