@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use liouville::case::Case;
-use liouville::search::{Effort, Report, Wanted, search};
+use liouville::case::{Case, Setting};
+use liouville::search::{Ansatz, Effort, Report, Wanted, search};
 use liouville::verdict::{Options, Verdict};
 
 fn effort(degree: u32) -> Effort {
@@ -14,6 +14,7 @@ fn effort(degree: u32) -> Effort {
         seconds: 60.0,
         terms: Vec::new(),
         conditions: None,
+        ansatz: Ansatz::default(),
         options: Options::default(),
     }
 }
@@ -255,4 +256,56 @@ fn a_claim_that_fails_in_general_is_given_its_condition() {
     let read = Case::read(path, &[]).1.expect("a case of the catalogue");
     let error = search(&read, &wanted, &mut |_| {}).expect_err("there is none");
     assert!(error.to_string().contains("no such claim"), "{error}");
+}
+
+#[test]
+fn potentials_and_rotors_that_keep_an_integral_are_found_and_proved() {
+    // How many potentials and rotors there are in the ansatz.
+    let cases = [
+        ("plane/balanced-ball", 6, 3),
+        ("plane/ellipsoid-mb-mu", 6, 0),
+        ("sphere/borisov-mamaev-ball", 5, 0),
+        ("open/parallel-ellipsoid", 6, 0),
+    ];
+    let mut wanted = effort(2);
+    (wanted.ansatz.potentials, wanted.ansatz.gyrostats) = (true, true);
+    for (path, potentials, rotors) in cases {
+        let report = searched(path, &wanted);
+        for (what, form, count) in
+            [("potential", "potentials U", potentials), ("gyrostat", "rotors", rotors)]
+        {
+            let excluded = report.excluded.iter().find(|one| one.ansatz.starts_with(form));
+            let excluded = excluded.expect("they were looked for");
+            assert_eq!((excluded.dimension, excluded.known), (count, count), "{path}: {what}");
+            let found = report.found.iter().find(|one| one.with.iter().any(|(w, _)| *w == what));
+            assert_eq!(found.is_some(), count > 0, "{path}: {what}");
+            assert!(found.is_none_or(|one| one.verdict == Verdict::Proved), "{path}: {what}");
+        }
+    }
+}
+
+#[test]
+fn a_rotor_leaves_the_potentials_that_depend_on_its_cosine() {
+    let mut wanted = effort(2);
+    wanted.ansatz.potentials = true;
+    for (rotor, expected) in [("[0,0,1]", 1), ("[1,0,2]", 0)] {
+        let setting = Setting { name: "S".to_string(), value: rotor.to_string() };
+        let path = Path::new("cases/plane/balanced-ball-gyrostat.toml");
+        let case = Case::read(path, &[setting]).1.expect("a case of the catalogue");
+        let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
+        let with = report.found.iter().flat_map(|found| &found.with);
+        let found: Vec<&str> = with.map(|(_, formula)| formula.as_str()).collect();
+        assert_eq!(found.len(), expected, "{rotor}: {found:?}");
+        assert!(found.iter().all(|formula| *formula == "ε1*(1/γ3²)"), "{found:?}");
+    }
+}
+
+#[test]
+fn what_takes_no_forces_is_told_so() {
+    let mut wanted = effort(1);
+    (wanted.ansatz.potentials, wanted.ansatz.gyrostats) = (true, true);
+    let report = searched("surface/ellipsoid", &wanted);
+    for what in ["no potential", "no rotor"] {
+        assert!(report.remarks.iter().any(|one| one.starts_with(what)), "{:?}", report.remarks);
+    }
 }

@@ -194,7 +194,21 @@ pub struct Search {
     /// in general: --conditions, --conditions=NAME
     #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub conditions: Option<String>,
-    /// Leave out a count that may take longer than this
+    /// Look for integrals that are polynomials of at most this degree in the positions, over denominators
+    /// of the geometry, even where the counts leave none: --ansatz, --ansatz=12
+    #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
+        value_parser = clap::value_parser!(u32).range(0..=40))]
+    pub ansatz: Option<u32>,
+    /// Find the potentials under which the known integrals survive
+    #[arg(long)]
+    pub potentials: bool,
+    /// Find the rotors under which the known integrals survive
+    #[arg(long)]
+    pub gyrostats: bool,
+    /// Leave out an ansatz whose matrix takes more memory than this
+    #[arg(long, default_value_t = 500)]
+    pub megabytes: u64,
+    /// Leave out a count or an ansatz that may take longer than this
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,
     /// Seed of primes, points and states

@@ -20,6 +20,13 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             name => Wanted::Claim(name.to_string()),
         }),
         seconds: options.seconds,
+        ansatz: search::Ansatz {
+            wanted: options.ansatz.is_some(),
+            positions: options.ansatz.unwrap_or(search::Ansatz::default().positions),
+            potentials: options.potentials,
+            gyrostats: options.gyrostats,
+            megabytes: options.megabytes,
+        },
         options: liouville::verdict::Options {
             seed: options.seed,
             ..liouville::verdict::Options::default()

@@ -35,6 +35,7 @@ mod tests;
 
 pub use bounds::Source;
 pub(crate) use chance::Chance;
+pub(crate) use elimination::reduce;
 pub use extent::Extent;
 pub use identity::{Certificate, Outcome};
 pub(crate) use relations::reconstruct;

@@ -43,6 +43,9 @@ pub fn text(title: &str, report: &Report) -> String {
     }
     for found in &report.found {
         out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
+        for (what, text) in &found.with {
+            out.push_str(&format!("  with the {what} {text}\n"));
+        }
         for (name, text) in &found.abbreviations {
             out.push_str(&format!("    {name} = {text}\n"));
         }

@@ -7,6 +7,7 @@
 //! verdict    each find is a claim like any other, and climbs the same ladder
 //! ```
 
+mod ansatz;
 mod ask;
 mod conditions;
 mod counts;
@@ -31,6 +32,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
+pub use ansatz::Ansatz;
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
 pub use second_opinion::SecondOpinion;
@@ -105,6 +107,8 @@ pub struct Effort {
     pub conditions: Option<Wanted>,
     /// A count that may take longer is left out.
     pub seconds: f64,
+    /// What is looked for in a global ansatz.
+    pub ansatz: Ansatz,
     /// How finds are judged.
     pub options: Options,
 }
@@ -119,6 +123,9 @@ pub struct Found {
     /// Abbreviations in it that are not the case's, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
+    /// What it holds with that the case has not: `potential` or `gyrostat`, and which.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub with: Vec<(&'static str, String)>,
     /// Is it a function of the energy and the level? Such finds are not told, so it never is.
     pub trivial: bool,
     /// The claim of the case that it follows from.
@@ -154,6 +161,7 @@ impl Found {
             kind,
             formula: formula.to_string(),
             abbreviations,
+            with: Vec::new(),
             trivial: false,
             known,
             verdict: report.verdict,
@@ -197,9 +205,10 @@ pub struct Report {
 }
 
 impl Report {
-    /// The formulas that were found, of one kind.
+    /// The formulas that were found for the case as it is, of one kind.
     pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
-        let found = self.found.iter().filter(move |found| found.kind == kind);
+        let own = move |found: &&Found| found.kind == kind && found.with.is_empty();
+        let found = self.found.iter().filter(own);
         found.map(|found| found.formula.as_str())
     }
 
@@ -228,6 +237,7 @@ pub fn search(
     integrals::integrals(case, effort, &mut report)?;
     progress("linear symmetry fields");
     symmetries::symmetries(case, effort, &mut report)?;
+    ansatz::search(case, effort, &mut report, progress)?;
     counts::conclude(case, effort, &mut report)?;
     if let Some(wanted) = &effort.conditions {
         report.conditions = conditions::conditions(case, wanted, effort, progress)?;

@@ -62,6 +62,26 @@ impl Generators {
         self.0.iter().map(|(name, _)| name.as_str())
     }
 
+    /// The formulas with their degrees in the velocities.
+    pub fn each(&self) -> impl Iterator<Item = (&str, u32)> {
+        self.0.iter().map(|(name, degree)| (name.as_str(), *degree))
+    }
+
+    /// The products of this degree, or with `mixed` of at most it, as exponents of the formulas.
+    pub fn exponents(&self, degree: u32, mixed: bool) -> Vec<Vec<u32>> {
+        let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
+        for (_, own) in &self.0 {
+            let raised = |(total, powers): (u32, Vec<u32>)| {
+                (0..=(degree - total) / own).map(move |power| {
+                    (total + power * own, powers.iter().copied().chain([power]).collect())
+                })
+            };
+            found = found.into_iter().flat_map(raised).collect();
+        }
+        let wanted = found.into_iter().filter(|(total, _)| mixed || *total == degree);
+        wanted.map(|(_, powers)| powers).collect()
+    }
+
     /// How many products have this degree; with `mixed`, how many at most it, 1 among them.
     pub fn products(&self, degree: u32, mixed: bool) -> usize {
         // ways[d]: products of degree d of the generators so far
@@ -149,6 +169,8 @@ mod tests {
         let generators = Generators(vec![("E".into(), 2), ("F".into(), 2), ("G".into(), 1)]);
         // E², EF, F², EG², FG², G⁴
         assert_eq!(generators.products(4, false), 6);
+        assert_eq!(generators.exponents(4, false).len(), 6);
+        assert_eq!(generators.exponents(2, true).len(), 5);
         // 1, G, and E, F, G²
         assert_eq!(generators.products(2, true), 5);
     }

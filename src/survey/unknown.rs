@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::question::{Finding, define};
 use crate::case::Case;
 use crate::mechanics::System;
-use crate::search::{CountReport, Effort, Excluded, Found, search};
+use crate::search::{Ansatz, CountReport, Effort, Excluded, Found, search};
 use crate::verdict::{ClaimReport, Options};
 
 /// Integrals are counted up to this degree in the velocities: a fraction of a second.
@@ -37,6 +37,7 @@ impl Unknown {
             terms: Vec::new(),
             conditions: None,
             seconds: SECONDS,
+            ansatz: Ansatz::default(),
             options: *options,
         };
         // The families have the symmetry fields of bodies.

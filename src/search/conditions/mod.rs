@@ -23,6 +23,7 @@ use serde::Serialize;
 
 use super::{Effort, SearchError};
 use crate::case::{Case, Claim};
+pub use coordinates::components;
 use line::{Along, Lines};
 use residual::Residual;
 

@@ -1,0 +1,368 @@
+//! Integrals that are polynomials in velocities and positions over a denominator of the geometry.
+
+use super::super::ask::{holds, judged, quoted};
+use super::super::integrals::tell;
+use super::super::products::Generators;
+use super::super::terms::{Term, read};
+use super::super::{Effort, Excluded, Report, SearchError, library};
+use super::characters::Characters;
+use super::coefficients::Coefficients;
+use super::monomials::Variables;
+use super::size::Size;
+use super::subspace::complement;
+use super::system::{Column, System};
+use super::{coordinates, factors};
+use crate::case::Case;
+use crate::mechanics::{Model, System as Motion};
+use crate::verdict::Verdict;
+
+/// The degree in the positions rises by so much.
+const STEP: u32 = 4;
+
+/// What became of a null vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// Proved, and told.
+    Told,
+    /// Proved, and not shown to be independent of what is known.
+    Dependent,
+    /// Not written down, or not proved; a remark says why.
+    Open,
+}
+
+/// Looks for integrals of the degrees at which the counts leave some; if it is wanted, also where nothing
+/// was counted.
+pub fn integrals(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let Some(variables) = Variables::of(case) else {
+        if effort.ansatz.wanted {
+            report.remark("no global ansatz: the level has no standard monomials here".to_string());
+        }
+        return Ok(());
+    };
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
+    for degree in degrees {
+        let known = Generators::all(case, effort, report)?.products(degree, mixed);
+        let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
+        let dimension = count.map(|count| count.dimension);
+        if !dimension.map_or(effort.ansatz.wanted, |dimension| dimension > known) {
+            continue;
+        }
+        for below in denominators(&case.model, effort.ansatz.wanted) {
+            let mut search = Search { case, effort, variables: &variables, degree, mixed, below };
+            if search.run(dimension, report, progress)? {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What polynomials may be divided by, simple ones first; `all` that a pole of the field allows, or those
+/// of low degree.
+fn denominators(model: &Model, all: bool) -> Vec<Term> {
+    let mut texts = library::denominators(model);
+    if !all {
+        return read(texts, &model.vocabulary);
+    }
+    let further: &[&str] = match &model.system {
+        Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
+        Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
+        _ => &[],
+    };
+    texts.extend(further.iter().map(|text| text.to_string()));
+    texts.extend(texts.clone().into_iter().skip(1).map(|text| format!("({text})²")));
+    read(texts, &model.vocabulary)
+}
+
+/// One degree in the velocities and one denominator.
+struct Search<'a> {
+    case: &'a Case,
+    effort: &'a Effort,
+    variables: &'a Variables,
+    degree: u32,
+    mixed: bool,
+    below: Term,
+}
+
+impl Search<'_> {
+    /// Looks for integrals of rising degree in the positions; are there as many as were counted?
+    fn run(
+        &mut self,
+        dimension: Option<usize>,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let highest = self.effort.ansatz.positions;
+        let mut steps: Vec<u32> = (1..).map(|k| k * STEP).take_while(|e| *e < highest).collect();
+        steps.push(highest);
+        for positions in steps {
+            if !self.step(positions, positions == highest, report, progress)? {
+                return Ok(true);
+            }
+            let all = Generators::all(self.case, self.effort, report)?;
+            if dimension.is_some_and(|dimension| all.products(self.degree, self.mixed) >= dimension)
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// One ansatz; `false` if it is too large, or has no states.
+    fn step(
+        &self,
+        positions: u32,
+        is_last: bool,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let Self { case, effort, variables, .. } = *self;
+        let seed = effort.options.seed;
+        let below = std::slice::from_ref(&self.below);
+        let over = factors(below, case);
+        let generators = Generators::all(case, effort, report)?;
+        let names: Vec<String> = generators.names().map(str::to_string).collect();
+        let known = read(names, &case.model.vocabulary);
+        let mut outputs = Vec::new();
+        let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+            recording.derive(jet.along_field(), &variables.terms, &over);
+            outputs = known
+                .iter()
+                .map(|term| recording.give(jet.phase.scalar(&term.formula)))
+                .collect();
+        })?;
+        let lowest = if self.mixed { 0 } else { self.degree };
+        let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
+            .flat_map(|degree| variables.monomials(degree, 0..=positions))
+            .collect();
+        // What stands last is free: of high degree in all, so that what is left has low degree.
+        exponents.sort_by_key(|own| own.iter().sum::<u32>());
+        let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
+        system.columns = exponents.into_iter().map(product).collect();
+        let blocks = Characters::of(case, variables, &over, seed)?.blocks(&system.columns);
+        let size = Size::of(&blocks);
+        let what = self.words(positions);
+        progress(&format!("{what}: {size}"));
+        if let Some(reason) = size.beyond(effort) {
+            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            return Ok(false);
+        }
+        let Some(at) = system.at(0, 0) else { return Ok(false) };
+        let mut found: Vec<Vec<u64>> = Vec::new();
+        for block in &blocks {
+            let Some(vectors) = system.null_space(&at, block) else { return Ok(false) };
+            found.extend(vectors.into_iter().map(|vector| {
+                let mut full = vec![0; system.columns.len()];
+                block.iter().zip(vector).for_each(|(column, entry)| full[*column] = entry);
+                full
+            }));
+        }
+        found.sort_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
+        let products: Vec<Vec<usize>> = generators
+            .exponents(self.degree, self.mixed)
+            .into_iter()
+            .map(|powers| {
+                let own = powers.iter().zip(&outputs);
+                own.flat_map(|(power, output)| vec![*output; *power as usize]).collect()
+            })
+            .collect();
+        let dimension = found.len();
+        let Some(new) = complement(&system, &at, &found, &products) else { return Ok(false) };
+        let mut outcomes = Vec::new();
+        for vector in &new {
+            outcomes.push(self.tell(&system, vector, report)?);
+        }
+        if is_last || outcomes.contains(&Outcome::Told) {
+            self.exclude(&what, dimension, &outcomes, report);
+        }
+        Ok(true)
+    }
+
+    /// Writes a null vector as a formula and has it judged.
+    fn tell(
+        &self,
+        system: &System,
+        vector: &[u64],
+        report: &mut Report,
+    ) -> Result<Outcome, SearchError> {
+        let Self { case, effort, .. } = *self;
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let Some(coefficients) = Coefficients::of(system, &support) else {
+            report.remark(format!(
+                "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                self.degree, support.len(), self.below.text
+            ));
+            return Ok(Outcome::Open);
+        };
+        let functions: Vec<String> =
+            support.iter().map(|k| self.monomial(&system.columns[*k])).collect();
+        let all: Vec<usize> = (0..support.len()).collect();
+        let sum = coefficients.sum(&all, &functions);
+        let formula = match self.below.text.as_str() {
+            "1" => sum,
+            below => format!("({sum})/({below})"),
+        };
+        let claim = [format!("integral = {}", quoted(&formula))];
+        let Some(verdict) = judged(case, &claim, effort)?.into_iter().next() else {
+            return Ok(Outcome::Open);
+        };
+        if !holds(&verdict) {
+            report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
+            return Ok(Outcome::Open);
+        }
+        let known = Generators::all(case, effort, report)?;
+        let names: Vec<String> = known.names().map(quoted).chain([quoted(&formula)]).collect();
+        let claim = [format!("independent = [{}]", names.join(", "))];
+        let independence = judged(case, &claim, effort)?.into_iter().next();
+        match independence.map(|report| report.verdict) {
+            Some(Verdict::Proved) => {
+                tell(case, &formula, verdict, effort, report)?;
+                Ok(Outcome::Told)
+            }
+            other => {
+                let word = other.map_or("undecided", |verdict| verdict.word());
+                report.remark(format!(
+                    "an integral, of which it is {word} that it is independent of what is told: {formula}"
+                ));
+                Ok(Outcome::Dependent)
+            }
+        }
+    }
+
+    fn monomial(&self, column: &Column) -> String {
+        match column {
+            Column::Product { exponents, .. } => self.variables.text(exponents),
+            Column::Given(_) => "1".to_string(),
+        }
+    }
+
+    fn words(&self, positions: u32) -> String {
+        let below = match self.below.text.as_str() {
+            "1" => String::new(),
+            below => format!(" over {below}"),
+        };
+        let degree = if self.mixed { "at most " } else { "" };
+        format!(
+            "polynomials of degree {degree}{} in the velocities and at most {positions} in the positions{below}",
+            self.degree
+        )
+    }
+
+    /// What the ansatz holds is at most what was found: a theorem about its functions.
+    fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
+        let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
+        let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));
+        let generic =
+            "For generic values of the free parameters, and the given values of the fixed ones,";
+        let mut theorem = match dimension {
+            0 => format!("{generic} no integrals are {what}, constants aside."),
+            _ => format!(
+                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of what was known",
+                dimension - outcomes.len()
+            ),
+        };
+        for (count, words) in [
+            (many(Outcome::Told), "are told here"),
+            (dependent, "are not shown to be independent functions of these"),
+            (open, "are not known"),
+        ] {
+            if count > 0 {
+                theorem.push_str(&format!(", {count} {words}"));
+            }
+        }
+        if dimension > 0 {
+            theorem.push('.');
+        }
+        report.excluded.push(Excluded {
+            ansatz: what.to_string(),
+            dimension,
+            known: dimension - open,
+            error_log2: None,
+            theorem,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::Ansatz;
+    use crate::verdict::Options;
+
+    fn effort(degree: u32, positions: u32) -> Effort {
+        Effort {
+            degree,
+            blind: true,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: 60.0,
+            ansatz: Ansatz { wanted: true, positions, ..Ansatz::default() },
+            options: Options::default(),
+        }
+    }
+
+    fn searched(text: &str, effort: &Effort) -> Report {
+        let case = Case::parse(text, &[]).expect("a case");
+        let mut report = Report::default();
+        integrals(&case, effort, &mut report, &mut |_| {}).expect("it can be searched");
+        report
+    }
+
+    #[test]
+    fn integrals_are_found_without_terms() {
+        let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nR='1..3'\n\
+                    I='inertia(0.5..5)'\n";
+        let cases = [
+            (format!("{ball}[body]\nshape='ball'\n"), 4),
+            (format!("{ball}c='vector(-0.5..0.5)'\n[body]\nshape='ball'\n"), 4),
+            (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
+            (
+                "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                 \"μ\"='1..2'\nI='m*B + μ*E'\n[body]\nshape='ellipsoid'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='flat-base'\n[parameters]\nm='0.5..2'\nk='0.2..1'\nz=0\n\
+                 I='inertia(0.5..5)'\n[body]\nheight='z'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='rubber-sphere'\n[parameters]\nm=1\nR=1\nk=-2\nI=[1.37,2.91,3.73]\n\
+                 [body]\nshape='ball'\n"
+                    .to_string(),
+                8,
+            ),
+        ];
+        for (text, positions) in cases {
+            let report = searched(&text, &effort(2, positions));
+            let found: Vec<&str> = report.formulas("integral").collect();
+            assert_eq!(found.len(), 1, "{text}: {found:?} {:?} {:?}", report.remarks, report.excluded);
+            assert_eq!(report.found[0].verdict, Verdict::Proved, "{text}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_there_is_nothing_and_what_is_too_large_is_left_out() {
+        let body = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                    I='inertia(0.5..5)'\n[body]\nshape='ellipsoid'\n";
+        let report = searched(body, &effort(2, 4));
+        assert_eq!(report.found.len(), 0, "{:?}", report.found);
+        let fits = |one: &&Excluded| {
+            one.ansatz.contains("of degree 2 in") && one.ansatz.ends_with("over (γ,B*γ)")
+        };
+        let excluded = report.excluded.iter().find(fits).expect("the energy fits there");
+        assert_eq!((excluded.dimension, excluded.known), (1, 1), "{}", excluded.theorem);
+        let mut small = effort(2, 40);
+        small.ansatz.megabytes = 1;
+        let report = searched(body, &small);
+        assert!(report.remarks.iter().any(|one| one.contains("the bound is 1 MB")), "it is told");
+    }
+}

@@ -1,0 +1,50 @@
+//! How large a linear system is, and whether it may be set up.
+
+use super::super::Effort;
+
+/// Elementary steps of an elimination a second, at the least.
+const STEPS: f64 = 5e8;
+
+/// Unknowns, block by block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    unknowns: usize,
+    blocks: usize,
+    largest: usize,
+    seconds: f64,
+}
+
+impl Size {
+    /// The size of a system that falls apart into blocks.
+    pub fn of(blocks: &[Vec<usize>]) -> Self {
+        let sizes = || blocks.iter().map(Vec::len);
+        Self {
+            unknowns: sizes().sum(),
+            blocks: blocks.len(),
+            largest: sizes().max().unwrap_or(0),
+            seconds: sizes().map(|n| (n as f64).powi(3) / STEPS).sum(),
+        }
+    }
+
+    fn megabytes(&self) -> u64 {
+        let largest = self.largest as u64;
+        (largest * largest * 8).div_ceil(1_000_000)
+    }
+
+    /// Why it is not set up, if it is not.
+    pub fn beyond(&self, effort: &Effort) -> Option<String> {
+        if self.megabytes() > effort.ansatz.megabytes {
+            return Some(format!("the bound is {} MB, see --megabytes", effort.ansatz.megabytes));
+        }
+        (self.seconds > effort.seconds)
+            .then(|| format!("the bound is {} s, see --seconds", effort.seconds))
+    }
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { unknowns, blocks, largest, seconds } = self;
+        let megabytes = self.megabytes();
+        write!(f, "{unknowns} unknowns in {blocks} blocks, {largest} in the largest, at most {seconds:.1} s and {megabytes} MB")
+    }
+}
