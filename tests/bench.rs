@@ -65,7 +65,11 @@ fn errors_are_in_the_order_that_theory_gives() {
             (Method::ComplexStep, "complex f64"),
             (Method::NumDual, "f64"),
             (Method::NumDualByHand, "f64"),
+            (Method::NumDualClosedForm, "f64"),
         ] {
+            if method == Method::NumDualClosedForm && measured.row(method, domain).is_none() {
+                continue;
+            }
             let found = error(measured, method, domain);
             assert!(found <= 100.0 * tape, "{name}, {method:?}: {found:e} against {tape:e}");
         }

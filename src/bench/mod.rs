@@ -5,7 +5,8 @@
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
 //! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
-//! | num-dual by hand | the same for the work items, written out without formulas |
+//! | num-dual by hand | the same for the work items, written out plainly, without formulas |
+//! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
 //! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
 //!
@@ -51,6 +52,9 @@ pub enum Method {
     /// The residual written by hand over num-dual's numbers.
     #[serde(rename = "num-dual by hand")]
     NumDualByHand,
+    /// The same from a formula derived with pencil and paper.
+    #[serde(rename = "num-dual, closed form")]
+    NumDualClosedForm,
     /// A complex step on underived tapes.
     #[serde(rename = "complex step")]
     ComplexStep,
@@ -61,10 +65,11 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 5] = [
+    pub const ALL: [Method; 6] = [
         Method::Tape,
         Method::NumDual,
         Method::NumDualByHand,
+        Method::NumDualClosedForm,
         Method::ComplexStep,
         Method::CentralDifference,
     ];
@@ -75,6 +80,7 @@ impl Method {
             Method::Tape => "tape",
             Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
+            Method::NumDualClosedForm => "num-dual, closed form",
             Method::ComplexStep => "complex step",
             Method::CentralDifference => "central difference",
         }

@@ -94,9 +94,9 @@ impl<'i> Subject<'i> {
             let candidate = Box::new(OneByOne::new(definition, &self.states));
             at_f64(Method::NumDual, "f64", None, none, candidate);
         }
-        if let Some(by_hand) = self.item.by_hand {
+        for (method, by_hand) in &self.item.by_hand {
             let candidate = Box::new(OneByOne::new(by_hand, &self.states));
-            at_f64(Method::NumDualByHand, "f64", None, none, candidate);
+            at_f64(*method, "f64", None, none, candidate);
         }
         if let Ok((underived, time)) = &self.underived {
             let candidate = Box::new(ComplexStep::new(underived, &self.states));
