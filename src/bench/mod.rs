@@ -4,6 +4,7 @@
 //! | method | what runs |
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
+//! | merged tape | the same residual from fewer operations, in f64 |
 //! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
 //! | num-dual by hand | the same for the work items, written out plainly, without formulas |
 //! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
@@ -36,7 +37,7 @@ use serde::Serialize;
 
 pub use candidate::Candidate;
 pub use items::{Item, work_items};
-pub use subject::{Entry, Subject, record_residual};
+pub use subject::{Entry, Subject, record_merged, record_residual};
 
 use crate::graph::Fault;
 
@@ -46,6 +47,9 @@ pub enum Method {
     /// The recorded residual.
     #[serde(rename = "tape")]
     Tape,
+    /// The recorded residual, its nodes merged by value.
+    #[serde(rename = "merged tape")]
+    MergedTape,
     /// The definitions over num-dual's numbers.
     #[serde(rename = "num-dual")]
     NumDual,
@@ -65,8 +69,9 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 6] = [
+    pub const ALL: [Method; 7] = [
         Method::Tape,
+        Method::MergedTape,
         Method::NumDual,
         Method::NumDualByHand,
         Method::NumDualClosedForm,
@@ -78,6 +83,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Method::Tape => "tape",
+            Method::MergedTape => "merged tape",
             Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
             Method::NumDualClosedForm => "num-dual, closed form",
@@ -144,6 +150,12 @@ pub struct Row {
 }
 
 impl Measured {
+    /// The time of the merged tape, as a part of that of plain num-dual code.
+    pub fn ratio_to_num_dual(&self) -> Option<f64> {
+        let time = |method| Some(self.row(method, "f64")?.ns_per_state);
+        Some(time(Method::MergedTape)? / time(Method::NumDualByHand)?)
+    }
+
     /// The row of a method in a domain.
     pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
         self.rows.iter().find(|row| row.method == method && row.domain == domain)

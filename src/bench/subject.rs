@@ -26,6 +26,8 @@ pub struct Subject<'i> {
     pub claim: &'i Claim,
     states: Vec<Block>,
     residual: Tape,
+    merged: Tape,
+    merging: Duration,
     antiderivatives: usize,
     recording: Duration,
     underived: Result<(Underived, Duration), Reason>,
@@ -56,11 +58,22 @@ impl<'i> Subject<'i> {
         let case = &item.case;
         let sampler = Sampler::new(case, &claim.place, seed)?;
         let ((residual, antiderivatives), recording) = timed(|| record_residual(case, claim))?;
+        let (merged, merging) = timed(|| record_merged(case, claim))?;
         let states =
             states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
         let (underived, time) = timed(|| Underived::record(case, claim))?;
         let underived = underived.map(|underived| (underived, time));
-        Ok(Self { item, claim, states, residual, antiderivatives, recording, underived })
+        Ok(Self {
+            item,
+            claim,
+            states,
+            residual,
+            merged,
+            merging,
+            antiderivatives,
+            recording,
+            underived,
+        })
     }
 
     /// The states, block by block.
@@ -85,6 +98,16 @@ impl<'i> Subject<'i> {
                 candidate,
             })
             .collect();
+        entries.insert(
+            1,
+            Entry {
+                method: Method::MergedTape,
+                domain: "f64",
+                operations: Some(self.merged.operations()),
+                set_up: self.merging,
+                candidate: tapes::in_f64(&self.merged, &self.states),
+            },
+        );
         let mut at_f64 = |method, domain, operations, set_up, candidate| {
             entries.push(Entry { method, domain, operations, set_up, candidate });
         };
@@ -143,6 +166,18 @@ pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Faul
     let (graph, residual) = with_jet(case, |jet| claim.kind.residual(jet, &claim.place.kept))?;
     let inputs = case.model.free_components() + case.model.dimension();
     Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
+}
+
+/// A tape of the residual with fewer operations: nodes of proportional value are one, and what the
+/// system knows by shorter formulas is made by those.
+pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
+    let (graph, residual) = with_jet(case, |jet| {
+        let residual = claim.kind.residual(jet, &claim.place.kept);
+        jet.phase.model().system.shortcuts(&jet.phase);
+        residual
+    })?;
+    let (graph, residual) = graph.merged(&residual)?;
+    Ok(Tape::new(&graph, &residual))
 }
 
 fn with_jet<R>(

@@ -11,6 +11,8 @@ mod dispatch;
 mod dual_num;
 mod evaluate;
 mod expr;
+mod fingerprint;
+mod merge;
 mod simplify;
 mod steps;
 mod tape;
@@ -26,6 +28,7 @@ pub use dispatch::vector_features;
 pub(crate) use dispatch::{Work, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
+pub(crate) use merge::Member;
 pub use steps::Step;
 pub use tape::Tape;
 

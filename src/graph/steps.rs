@@ -30,6 +30,21 @@ impl Step<'_> {
         };
         first.into_iter().chain(second)
     }
+
+    /// The same step in the recording under way, from other inputs and the values of its arguments.
+    pub(super) fn repeat(
+        &self,
+        inputs: &[Expr],
+        at: impl Fn(usize) -> Option<Expr>,
+    ) -> Option<Expr> {
+        Some(match *self {
+            Step::Constant(value) => Expr::rational(value),
+            Step::Input(input) => *inputs.get(input)?,
+            Step::Unary(function, a) => at(a)?.apply(function),
+            Step::Binary(operation, a, b) => at(a)?.combine(operation, at(b)?),
+            Step::Power(a, exponent) => at(a)?.power(exponent),
+        })
+    }
 }
 
 impl Graph {
@@ -91,16 +106,8 @@ impl Graph {
                 values.push(None);
                 continue;
             }
-            let value = replace(place, step, &values).or_else(|| {
-                let at = |place: usize| values[place];
-                Some(match step {
-                    Step::Constant(value) => Expr::rational(value),
-                    Step::Input(input) => *inputs.get(input)?,
-                    Step::Unary(function, a) => at(a)?.apply(function),
-                    Step::Binary(operation, a, b) => at(a)?.combine(operation, at(b)?),
-                    Step::Power(a, exponent) => at(a)?.power(exponent),
-                })
-            });
+            let value = replace(place, step, &values)
+                .or_else(|| step.repeat(inputs, |place| values[place]));
             values.push(value);
         }
         values
