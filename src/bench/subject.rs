@@ -10,7 +10,7 @@ use super::tapes;
 use super::underived::{Reason, Underived};
 use super::{BenchError, Item, Method};
 use crate::case::{Case, Claim};
-use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
 use crate::number::float::Float;
@@ -171,23 +171,30 @@ pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Faul
 /// A tape of the residual with fewer operations: nodes of proportional value are one, and what the
 /// system knows by shorter formulas is made by those.
 pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
-    let (graph, residual) = with_jet(case, |jet| {
-        let residual = claim.kind.residual(jet, &claim.place.kept);
-        jet.phase.model().system.shortcuts(&jet.phase);
-        residual
+    let (graph, (residual, shortcuts)) = at_point(case, |phase| {
+        let jet = Jet::short(phase);
+        let residual = claim.kind.residual(&jet, &claim.place.kept);
+        (residual, jet.phase.model().system.shortcuts(&jet.phase))
     })?;
-    let (graph, residual) = graph.merged(&residual)?;
+    let (graph, residual) = graph.merged(&residual, &shortcuts)?;
     Ok(Tape::new(&graph, &residual))
 }
 
 fn with_jet<R>(
     case: &Case,
-    build: impl FnOnce(&Jet<'_, crate::graph::Expr>) -> R,
-) -> Result<(crate::graph::Graph, R), Fault> {
+    build: impl FnOnce(&Jet<'_, Expr>) -> R,
+) -> Result<(Graph, R), Fault> {
+    at_point(case, |phase| build(&Jet::new(phase)))
+}
+
+fn at_point<'c, R>(
+    case: &'c Case,
+    build: impl FnOnce(Phase<'c, Expr>) -> R,
+) -> Result<(Graph, R), Fault> {
     let free = case.model.free_components();
     record(free + case.model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
-        build(&Jet::new(Phase::new(&case.model, parameters, state)))
+        build(Phase::new(&case.model, parameters, state))
     })
 }
 

@@ -24,67 +24,114 @@ const MOST_IN_FACTOR: i64 = 1 << 29;
 
 type Values = [u64; POINTS];
 
+/// Larger graphs stay as they are: what each class needs is kept as a set.
+const MOST_NODES: usize = 1 << 13;
+
 impl Graph {
-    /// The outputs from fewer operations, in a graph of their own: nodes of proportional value are
-    /// one node. Exact, up to the probability above, wherever the outputs have values.
+    /// The outputs from fewer operations, in a graph of their own: what is proportional is made once,
+    /// in the cheapest way that is found among what outputs and `shortcuts` need. Exact, up to the
+    /// probability above, wherever the outputs have values.
     ///
-    /// An output that is constant but was not folded is left as it was recorded, with all it needs:
-    /// nothing comes out exact that is not computed.
-    pub fn merged(&self, outputs: &[Expr]) -> Result<(Graph, Vec<Expr>), Fault> {
+    /// An output that is zero without having been folded stays a sum that is computed: none of its
+    /// terms is made from the others.
+    pub fn merged(
+        &self,
+        outputs: &[Expr],
+        shortcuts: &[Expr],
+    ) -> Result<(Graph, Vec<Expr>), Fault> {
+        let reached = self.reached(outputs.iter().chain(shortcuts).copied());
+        let needed = self.reached(outputs.iter().copied());
         let moduli = moduli();
-        let Some(mut values) = self.fingerprints(&moduli, outputs) else {
-            return self.copied(outputs);
-        };
-        let is_constant = |values: &Values| {
-            values[..HALF].iter().all(|x| *x == values[0])
-                && values[HALF..].iter().all(|x| *x == values[HALF])
-        };
-        let unfolded = outputs.iter().filter(|output| {
-            let values = values[self.place(**output)].as_ref();
-            self.constant_value(**output).is_none() && values.is_some_and(is_constant)
-        });
-        for (place, kept) in self.reached(unfolded.copied()).into_iter().enumerate() {
-            if kept {
-                values[place] = None;
-            }
+        let few = reached.iter().filter(|reached| **reached).count() <= MOST_NODES;
+        let found = if few { self.fingerprints(&moduli, &reached, &needed) } else { None };
+        let Some(mut values) = found else { return self.copied(outputs) };
+        let short = self.reached(shortcuts.iter().copied());
+        for output in outputs.iter().filter(|output| self.constant_value(**output).is_none()) {
+            self.part(self.place(*output), &mut values, &moduli, &short);
         }
+        let rebuilt = self.rebuilt(outputs, &self.classes(&values, &moduli), &reached)?;
+        let is_folded = |(before, after): (&Expr, &Expr)| {
+            rebuilt.0.constant_value(*after).is_some() && self.constant_value(*before).is_none()
+        };
+        if outputs.iter().zip(&rebuilt.1).any(is_folded) {
+            return self.copied(outputs);
+        }
+        Ok(rebuilt)
+    }
+
+    /// Where a value is zero, makes the terms of its sum incomparable: one of them, by preference a
+    /// short one, is taken out of its class with all that is proportional to it on its way.
+    fn part(
+        &self,
+        output: usize,
+        values: &mut [Option<Values>],
+        moduli: &[Modulus; POINTS],
+        short: &[bool],
+    ) {
+        let mut open = vec![output];
+        while let Some(place) = open.pop() {
+            if !values[place].is_some_and(|values| vanishes(&values)) {
+                continue;
+            }
+            values[place] = None;
+            let step = self.step(place);
+            let vanishing = |place: &usize| values[*place].is_some_and(|values| vanishes(&values));
+            let zeros: Vec<usize> = step.arguments().filter(vanishing).collect();
+            if let (true, Step::Binary(_, a, b)) = (zeros.is_empty(), step) {
+                let own = if short[a] && !short[b] { a } else { b };
+                let Some(direction) = values[own] else { continue };
+                let cone = self.reached_from(&[own]);
+                for (value, _) in values.iter_mut().zip(cone).filter(|(_, needed)| *needed) {
+                    if value.is_some_and(|value| are_proportional(&value, &direction, moduli)) {
+                        *value = None;
+                    }
+                }
+            }
+            open.extend(zeros);
+        }
+    }
+
+    /// The classes of proportional values; constants are multiples of 1.
+    fn classes(&self, values: &[Option<Values>], moduli: &[Modulus; POINTS]) -> Vec<Member> {
         let inverse = |x: u64, lane: usize| (x != 0).then(|| moduli[lane].inverse(x));
         let direction = |values: &Values| -> Option<Values> {
-            if values.iter().all(|x| *x == 0) {
-                // A multiple of 1.
+            if vanishes(values) {
                 return Some(std::array::from_fn(|lane| moduli[lane].one()));
             }
             let unit = [inverse(values[0], 0)?, inverse(values[HALF], HALF)?];
             Some(std::array::from_fn(|lane| moduli[lane].mul(values[lane], unit[lane / HALF])))
         };
         let factor = |own: &Values, other: &Values| -> Option<Rational> {
-            let quotient = |lane: usize| {
-                Some(moduli[lane].mul(own[lane], inverse(other[lane], lane)?))
-            };
+            let quotient =
+                |lane: usize| Some(moduli[lane].mul(own[lane], inverse(other[lane], lane)?));
             let found = fraction(&moduli[0], quotient(0)?)?;
             (moduli[HALF].rational(&found) == Some(quotient(HALF)?)).then_some(found)
         };
-        let members: Vec<Member> = self.members(&values, direction, factor);
-        self.rebuilt(outputs, &members)
+        self.members(values, direction, factor)
     }
 
-    /// The values of all nodes at points where the outputs have values; `None` if too few were found.
+    /// The values of what is reached at points where what is needed has values; `None` if too few
+    /// points were found.
     fn fingerprints(
         &self,
         moduli: &[Modulus; POINTS],
-        outputs: &[Expr],
+        reached: &[bool],
+        needed: &[bool],
     ) -> Option<Vec<Option<Values>>> {
-        let reached = self.reached(outputs.iter().copied());
         let domain = Fingerprint(Prime::new(*moduli));
         let mut found: Vec<Values> = vec![[UNDEFINED; POINTS]; self.len()];
         let mut accepted = [0, HALF];
         for round in 0..TRIES {
-            let values = self.values_at(&domain, round);
+            let values = self.values_at(&domain, reached, round);
+            let mut defined = [true; POINTS];
+            for (values, _) in values.iter().zip(needed).filter(|(_, needed)| **needed) {
+                for (defined, value) in defined.iter_mut().zip(values) {
+                    *defined &= *value != UNDEFINED;
+                }
+            }
             for lane in 0..POINTS {
                 let place = &mut accepted[lane / HALF];
-                let is_full = *place == (lane / HALF + 1) * HALF;
-                let mut needed = values.iter().zip(&reached).filter(|(_, reached)| **reached);
-                if is_full || needed.any(|(values, _)| values[lane] == UNDEFINED) {
+                if !defined[lane] || *place == (lane / HALF + 1) * HALF {
                     continue;
                 }
                 found.iter_mut().zip(&values).for_each(|(found, new)| found[*place] = new[lane]);
@@ -98,14 +145,15 @@ impl Graph {
         None
     }
 
-    /// The values of all nodes at one block of points.
-    fn values_at(&self, domain: &Fingerprint, round: u64) -> Vec<Values> {
+    /// The values of what is reached at one block of points.
+    fn values_at(&self, domain: &Fingerprint, reached: &[bool], round: u64) -> Vec<Values> {
         let constants: Vec<Values> =
             self.constants.iter().map(|value| domain.constant(value)).collect();
         let mut values: Vec<Values> = Vec::with_capacity(self.len());
-        for node in &self.nodes {
+        for (node, reached) in self.nodes.iter().zip(reached) {
             let mut value = [UNDEFINED; POINTS];
             match *node {
+                _ if !reached => {}
                 Node::Constant(index) => value = constants[index as usize],
                 Node::Input(input) => value = domain.point(u64::from(input), round),
                 Node::Unary(function, a) => {
@@ -124,6 +172,18 @@ impl Graph {
         }
         values
     }
+}
+
+fn vanishes(values: &Values) -> bool {
+    values.iter().all(|x| *x == 0)
+}
+
+/// Is xᵢyⱼ = xⱼyᵢ modulo each prime?
+fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool {
+    moduli.iter().enumerate().all(|(lane, modulus)| {
+        let first = lane / HALF * HALF;
+        modulus.mul(x[lane], y[first]) == modulus.mul(x[first], y[lane])
+    })
 }
 
 /// Two primes p = 3 mod 4 near 2^61, one for each half of the points.

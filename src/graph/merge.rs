@@ -7,12 +7,10 @@
 use rustc_hash::FxHashMap;
 
 use super::{Expr, Fault, Graph, ONE, Step, record};
-use crate::number::Function;
+use crate::number::{Function, Operation};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// Larger graphs stay as they are: what each class needs is kept as a set.
-const MOST_NODES: usize = 1 << 13;
 /// Passes in which the costs mostly settle.
 const PASSES: usize = 16;
 /// What a reciprocal, a root or a function costs beyond an addition.
@@ -35,7 +33,7 @@ struct Way {
     /// Operations, slow ones counted more.
     cost: u32,
     /// The classes that are needed on the way, one bit each.
-    needs: Box<[u64]>,
+    needs: Set,
 }
 
 impl Graph {
@@ -69,13 +67,15 @@ impl Graph {
         places.map(|place| member(place).unwrap_or_else(|| stranger(place))).collect()
     }
 
-    /// The outputs, each class made once and in its cheapest way, in a graph of their own.
+    /// The outputs, each class made once and in its cheapest way from steps that are reached, in a
+    /// graph of their own.
     pub(crate) fn rebuilt(
         &self,
         outputs: &[Expr],
         members: &[Member],
+        reached: &[bool],
     ) -> Result<(Graph, Vec<Expr>), Fault> {
-        let ways = if self.len() <= MOST_NODES { self.ways(members) } else { Vec::new() };
+        let ways = self.ways(members, reached);
         let places: Vec<usize> = outputs.iter().map(|output| self.place(*output)).collect();
         let (graph, rebuilt) = record(self.inputs(), |inputs| {
             let order = self.order(&places, members, &ways)?;
@@ -106,42 +106,45 @@ impl Graph {
         })
     }
 
-    /// The cheapest way to make each class.
-    fn ways(&self, members: &[Member]) -> Vec<Option<Way>> {
-        let words = self.len().div_ceil(64);
-        let mut slow = vec![0u64; words];
+    /// The cheapest way to make each class from the steps that are reached.
+    fn ways(&self, members: &[Member], reached: &[bool]) -> Vec<Option<Way>> {
+        // Bits for the classes that take an operation.
+        let mut bits: Vec<Option<usize>> = vec![None; self.len()];
+        let mut count = 0;
+        for (place, step) in self.steps().enumerate().filter(|(place, _)| reached[*place]) {
+            let bit = &mut bits[members[place].class];
+            if bit.is_none() && step.is_computed() {
+                *bit = Some(count);
+                count += 1;
+            }
+        }
+        let mut slow = Set::empty(count);
         let mut ways: Vec<Option<Way>> = vec![None; self.len()];
         for _ in 0..PASSES {
             let mut settled = true;
-            for (place, step) in self.steps().enumerate() {
+            for (place, step) in self.steps().enumerate().filter(|(place, _)| reached[*place]) {
                 let Member { class, factor } = &members[place];
-                let mut needs = vec![0u64; words].into_boxed_slice();
-                let all = step.arguments().all(|argument| {
+                let mut needs = Set::empty(count);
+                let known = step.arguments().all(|argument| {
                     let way = ways[members[argument].class].as_ref();
-                    way.inspect(|way| needs.iter_mut().zip(&way.needs).for_each(|(a, b)| *a |= b))
-                        .is_some()
+                    way.inspect(|way| needs.add(&way.needs)).is_some()
                 });
-                let (word, bit) = (*class / 64, 1u64 << (*class % 64));
-                if !all || needs[word] & bit != 0 || factor.is_zero() {
+                if !known || factor.is_zero() || bits[*class].is_some_and(|bit| needs.has(bit)) {
                     continue;
                 }
-                if !matches!(step, Step::Constant(_) | Step::Input(_)) {
-                    needs[word] |= bit;
+                let mut cost = needs.len() + SLOW * needs.common(&slow);
+                if let (Some(bit), true) = (bits[*class], step.is_computed()) {
+                    needs.insert(bit);
+                    cost += 1 + if step.is_slow() { SLOW } else { 0 };
                 }
-                let own = if step.is_slow() { bit } else { 0 };
-                let others = slow[word] & !bit;
-                let count = |word: &u64| word.count_ones();
-                let few = |(a, b): (&u64, &u64)| SLOW * (a & b).count_ones();
-                let cost = needs.iter().map(count).sum::<u32>()
-                    + needs.iter().zip(&slow).map(few).sum::<u32>();
-                // The class's own operation is the one of this step.
-                let cost = cost - SLOW * (slow[word] & bit).count_ones() + SLOW * own.count_ones();
                 let better = ways[*class].as_ref().is_none_or(|way| {
                     cost < way.cost || (way.place == place && way.needs != needs)
                 });
                 if better {
                     settled = false;
-                    slow[word] = others | own;
+                    if let Some(bit) = bits[*class] {
+                        slow.set(bit, step.is_slow());
+                    }
                     ways[*class] = Some(Way { place, cost, needs });
                 }
             }
@@ -187,8 +190,50 @@ impl Graph {
 }
 
 impl Step<'_> {
+    fn is_computed(&self) -> bool {
+        !matches!(self, Step::Constant(_) | Step::Input(_))
+    }
+
     fn is_slow(&self) -> bool {
-        matches!(self, Step::Power(..))
-            || matches!(self, Step::Unary(function, _) if !matches!(function, Function::Neg | Function::Abs))
+        match self {
+            Step::Power(..) | Step::Binary(Operation::Pow, ..) => true,
+            Step::Unary(function, _) => !matches!(function, Function::Neg | Function::Abs),
+            _ => false,
+        }
+    }
+}
+
+/// A set of small numbers.
+#[derive(Clone, PartialEq)]
+struct Set(Vec<u64>);
+
+impl Set {
+    fn empty(size: usize) -> Self {
+        Self(vec![0; size.div_ceil(64)])
+    }
+
+    fn has(&self, bit: usize) -> bool {
+        self.0[bit / 64] >> (bit % 64) & 1 == 1
+    }
+
+    fn set(&mut self, bit: usize, is_in: bool) {
+        self.0[bit / 64] &= !(1 << (bit % 64));
+        self.0[bit / 64] |= u64::from(is_in) << (bit % 64);
+    }
+
+    fn insert(&mut self, bit: usize) {
+        self.set(bit, true);
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+    }
+
+    fn len(&self) -> u32 {
+        self.0.iter().map(|word| word.count_ones()).sum()
+    }
+
+    fn common(&self, other: &Self) -> u32 {
+        self.0.iter().zip(&other.0).map(|(a, b)| (a & b).count_ones()).sum()
     }
 }

@@ -146,6 +146,14 @@ impl System {
         }
     }
 
+    /// div v by a formula of the system's own, where there is one.
+    pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) if phase.model().extension.is_empty() => body.divergence(phase),
+            _ => None,
+        }
+    }
+
     /// Is there a criterion for densities of the configuration alone?
     pub fn has_criterion(&self) -> bool {
         matches!(self, System::Rubber(_) | System::FlatBase(_))

@@ -29,7 +29,7 @@ impl Rubber {
     /// Values that claims about a body are made of.
     pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let motion = self.motion(phase);
-        let Pose { omega, gamma, mass, r, curvature, .. } = &motion.pose;
+        let Pose { omega, gamma, mass, r, .. } = &motion.pose;
         let (_, multiplier) = self.acceleration(phase);
         let force = self.torque(phase) + gamma * multiplier;
         let slide = &motion.contact_rate;
@@ -38,42 +38,66 @@ impl Rubber {
         let momentum_rate = moved * *mass + force;
         let energy_rate = momentum_rate.dot(omega) + force.dot(omega);
         let mut values: Vec<T> = momentum_rate.iter().copied().chain([energy_rate]).collect();
-        if curvature.is_none() {
-            values.extend(on_the_plane(motion));
+        if self.curvature.is_none() {
+            let terms = OnPlane::of(motion);
+            values.extend([terms.divergence(), terms.logarithmic_rate(), terms.rotation]);
         }
         values
     }
+
+    /// div v, where it is known by a formula: on the plane, with no moment beside a potential.
+    pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        let known = self.curvature.is_none() && self.moment.is_none();
+        known.then(|| OnPlane::of(self.motion(phase)).divergence())
+    }
 }
 
-/// div v, v(ln ρ₀), their sum and (γ, rot b).
-fn on_the_plane<T: Scalar>(motion: &Motion<T>) -> [T; 4] {
-    let Pose { omega, gamma, mass, r, slope, inertia, .. } = &motion.pose;
-    let (slide, rate) = (&motion.contact_rate, &motion.normal_rate);
-    let adjugate = adjugate(inertia);
-    let along = adjugate * gamma;
-    let inverse = gamma.dot(&along).recip();
-    let unit: Vector3<T> = along * inverse;
-    let determinant = determinant_with(inertia, &adjugate);
-    let across = (adjugate - along * unit.transpose()).map(|x| x / determinant);
-    let image = across * r;
-    let pull = slope.transpose() * r;
-    let spread = r.dot(slide) * across.trace() - image.dot(slide);
-    let twist = turned_trace(&(across * slope), gamma);
-    let shear = pull.cross(gamma).dot(&(across * omega)) - r.dot(omega) * twist;
-    let along_rate = unit.dot(rate);
-    let rotation = {
+/// What the measure on the plane is made of.
+struct OnPlane<T> {
+    /// (b,γ')
+    along_rate: T,
+    /// mX
+    spread: T,
+    /// mY
+    shear: T,
+    /// (γ, rot b)
+    rotation: T,
+}
+
+impl<T: Scalar> OnPlane<T> {
+    fn of(motion: &Motion<T>) -> Self {
+        let Pose { omega, gamma, mass, r, slope, inertia, .. } = &motion.pose;
+        let (slide, rate) = (&motion.contact_rate, &motion.normal_rate);
+        let adjugate = adjugate(inertia);
+        let along = adjugate * gamma;
+        let inverse = gamma.dot(&along).recip();
+        let unit: Vector3<T> = along * inverse;
+        let determinant = determinant_with(inertia, &adjugate);
+        let across = (adjugate - along * unit.transpose()).map(|x| x / determinant);
+        let image = across * r;
+        let pull = slope.transpose() * r;
+        let twist = turned_trace(&(across * slope), gamma);
+        let spread = r.dot(slide) * across.trace() - image.dot(slide);
+        let shear = pull.cross(gamma).dot(&(across * omega)) - r.dot(omega) * twist;
         let first = gamma.cross(&(across * unit)).dot(&pull);
-        first + first
-            - gamma.cross(&image).dot(&(slope.transpose() * unit))
-            - r.dot(&unit) * twist
-    };
-    let logarithm = along_rate + spread * *mass;
-    [
-        -(along_rate + (spread + shear) * *mass),
-        logarithm + logarithm,
-        along_rate + (spread - shear) * *mass,
-        rotation * *mass,
-    ]
+        let second = gamma.cross(&image).dot(&(slope.transpose() * unit));
+        Self {
+            along_rate: unit.dot(rate),
+            spread: spread * *mass,
+            shear: shear * *mass,
+            rotation: (first + first - second - r.dot(&unit) * twist) * *mass,
+        }
+    }
+
+    fn divergence(&self) -> T {
+        -(self.along_rate + self.spread + self.shear)
+    }
+
+    /// v(ln ρ₀)
+    fn logarithmic_rate(&self) -> T {
+        let half = self.along_rate + self.spread;
+        half + half
+    }
 }
 
 /// tr MJ with Ju = γ×u
