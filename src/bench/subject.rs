@@ -180,10 +180,7 @@ pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
     Ok(Tape::new(&graph, &residual))
 }
 
-fn with_jet<R>(
-    case: &Case,
-    build: impl FnOnce(&Jet<'_, Expr>) -> R,
-) -> Result<(Graph, R), Fault> {
+fn with_jet<R>(case: &Case, build: impl FnOnce(&Jet<'_, Expr>) -> R) -> Result<(Graph, R), Fault> {
     at_point(case, |phase| build(&Jet::new(phase)))
 }
 

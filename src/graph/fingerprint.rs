@@ -7,8 +7,7 @@
 //!
 //! For measuring only. A proof, and whoever bounds rounding, run what was recorded.
 
-use super::merge::Member;
-use super::{Expr, Fault, Graph, Node, Step};
+use super::{Choice, Expr, Fault, Graph, Member, Node, Step};
 use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function, Operation};
@@ -49,7 +48,8 @@ impl Graph {
         for output in outputs.iter().filter(|output| self.constant_value(**output).is_none()) {
             self.part(self.place(*output), &mut values, &moduli, &short);
         }
-        let rebuilt = self.rebuilt(outputs, &self.classes(&values, &moduli), &reached)?;
+        let rebuilt =
+            self.rebuilt(outputs, &self.classes(&values, &moduli), Choice::Cheapest(&reached))?;
         let is_folded = |(before, after): (&Expr, &Expr)| {
             rebuilt.0.constant_value(*after).is_some() && self.constant_value(*before).is_none()
         };
@@ -153,8 +153,8 @@ impl Graph {
         for (node, reached) in self.nodes.iter().zip(reached) {
             let mut value = [UNDEFINED; POINTS];
             match *node {
-                _ if !reached => {}
                 Node::Constant(index) => value = constants[index as usize],
+                _ if !reached => {}
                 Node::Input(input) => value = domain.point(u64::from(input), round),
                 Node::Unary(function, a) => {
                     domain.unary(function, &values[a.0 as usize], &mut value);
@@ -207,7 +207,10 @@ fn fraction(modulus: &Modulus, x: u64) -> Option<Rational> {
     let (mut r, mut s) = ([modulus.prime() as i64, modulus.to_integer(x) as i64], [0i64, 1i64]);
     while r[1] >= MOST_IN_FACTOR {
         let quotient = r[0] / r[1];
-        (r, s) = ([r[1], r[0] - quotient * r[1]], [s[1], s[0].checked_sub(quotient.checked_mul(s[1])?)?]);
+        (r, s) = (
+            [r[1], r[0] - quotient * r[1]],
+            [s[1], s[0].checked_sub(quotient.checked_mul(s[1])?)?],
+        );
     }
     (s[1] != 0 && s[1].abs() < MOST_IN_FACTOR).then(|| Rational::new(r[1], s[1]))
 }

@@ -7,8 +7,8 @@
 use rustc_hash::FxHashMap;
 
 use super::{Expr, Fault, Graph, ONE, Step, record};
-use crate::number::{Function, Operation};
 use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
 /// Passes in which the costs mostly settle.
@@ -23,6 +23,15 @@ pub(crate) struct Member {
     pub class: usize,
     /// What that is to be multiplied by.
     pub factor: Rational,
+}
+
+/// Which member of a class is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Choice<'r> {
+    /// The first.
+    First,
+    /// The one that takes the fewest operations, made from steps that are reached.
+    Cheapest(&'r [bool]),
 }
 
 /// How a class is made.
@@ -52,7 +61,7 @@ impl Graph {
         if let Some(direction) = values[one].as_ref().and_then(&direction) {
             first.insert(direction, one);
         }
-        let member = |place: usize| {
+        let mut member = |place: usize| {
             if let Step::Constant(value) = self.step(place) {
                 return Some(Member { class: one, factor: value.clone() });
             }
@@ -63,30 +72,38 @@ impl Graph {
         };
         let stranger = |place: usize| Member { class: place, factor: Rational::from(1) };
         let places = 0..self.len();
-        let mut member = member;
         places.map(|place| member(place).unwrap_or_else(|| stranger(place))).collect()
     }
 
-    /// The outputs, each class made once and in its cheapest way from steps that are reached, in a
-    /// graph of their own.
+    /// The outputs, each class made once, in a graph of their own; as they are, where a class would
+    /// need itself.
     pub(crate) fn rebuilt(
         &self,
         outputs: &[Expr],
         members: &[Member],
-        reached: &[bool],
+        choice: Choice<'_>,
     ) -> Result<(Graph, Vec<Expr>), Fault> {
-        let ways = self.ways(members, reached);
+        let made_by: Vec<Option<usize>> = match choice {
+            Choice::First => (0..self.len()).map(Some).collect(),
+            Choice::Cheapest(reached) => {
+                let ways = self.ways(members, reached).into_iter();
+                ways.map(|way| way.map(|way| way.place)).collect()
+            }
+        };
         let places: Vec<usize> = outputs.iter().map(|output| self.place(*output)).collect();
         let (graph, rebuilt) = record(self.inputs(), |inputs| {
-            let order = self.order(&places, members, &ways)?;
+            let mut order = self.order(&places, members, &made_by)?;
+            if matches!(choice, Choice::First) {
+                order.sort_unstable();
+            }
             let mut made: Vec<Option<Expr>> = vec![None; self.len()];
             let value = |place: usize, made: &[Option<Expr>]| {
                 let Member { class, factor } = &members[place];
-                let unit = members[ways[*class].as_ref()?.place].factor.recip()?;
+                let unit = members[made_by[*class]?].factor.recip()?;
                 Some(Expr::rational(&(factor * &unit)) * made[*class]?)
             };
             for class in order {
-                let step = self.step(ways[class].as_ref()?.place);
+                let step = self.step(made_by[class]?);
                 made[class] = Some(step.repeat(inputs, |place| value(place, &made))?);
             }
             places.iter().map(|place| value(*place, &made)).collect::<Option<Vec<Expr>>>()
@@ -160,7 +177,7 @@ impl Graph {
         &self,
         places: &[usize],
         members: &[Member],
-        ways: &[Option<Way>],
+        made_by: &[Option<usize>],
     ) -> Option<Vec<usize>> {
         let mut order = Vec::new();
         // Not seen, on the way, done.
@@ -176,7 +193,7 @@ impl Graph {
                 continue;
             }
             state[class] = 1;
-            for argument in self.step(ways.get(class)?.as_ref()?.place).arguments() {
+            for argument in self.step(made_by[class]?).arguments() {
                 let needed = members[argument].class;
                 match state[needed] {
                     0 => open.push(needed),

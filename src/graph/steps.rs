@@ -22,6 +22,7 @@ pub enum Step<'g> {
 
 impl Step<'_> {
     /// The places of the arguments.
+    #[inline]
     pub fn arguments(&self) -> impl Iterator<Item = usize> {
         let [first, second] = match *self {
             Step::Constant(_) | Step::Input(_) => [None, None],
@@ -49,11 +50,13 @@ impl Step<'_> {
 
 impl Graph {
     /// All steps; the place of a step is its number.
+    #[inline]
     pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
         (0..self.nodes.len()).map(|place| self.step(place))
     }
 
     /// The step at a place.
+    #[inline]
     pub fn step(&self, place: usize) -> Step<'_> {
         match self.nodes[place] {
             Node::Constant(index) => Step::Constant(&self.constants[index as usize]),
@@ -67,6 +70,7 @@ impl Graph {
     }
 
     /// The place of the step that makes `expr`; 0, a constant, for a handle of no recording.
+    #[inline]
     pub fn place(&self, expr: Expr) -> usize {
         expr.id().map_or(0, |id| id.0 as usize)
     }
