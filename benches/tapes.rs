@@ -2,7 +2,7 @@
 //! states; only ratios within one run mean anything.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use liouville::bench::{Subject, record_residual, work_items};
+use liouville::bench::{Options as Amount, Subject, measure_item, record_residual, work_items};
 use liouville::verdict::{Options, judge};
 
 fn tapes(criterion: &mut Criterion) {
@@ -11,6 +11,12 @@ fn tapes(criterion: &mut Criterion) {
         let subject = Subject::new(&item, claim, 1, 1).expect("it records, and has states");
         let mut group = criterion.benchmark_group(&item.name);
         println!("{}: {} operations a state", item.name, subject.residual().operations());
+        let measured = measure_item(&item, &Amount::default()).expect("it is measured");
+        if let [Some(ratio)] =
+            measured.iter().map(|m| m.ratio_to_num_dual()).collect::<Vec<_>>()[..]
+        {
+            println!("{}: merged tape / num-dual by hand: {ratio:.4}", item.name);
+        }
         for mut entry in subject.entries() {
             let name = format!("{}, {}", entry.method.name(), entry.domain);
             group.bench_function(name, |bench| bench.iter(|| entry.candidate.run(0)));

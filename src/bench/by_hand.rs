@@ -1,5 +1,6 @@
 //! The work items as one would write them by hand with num-dual, without formulas or graphs: the
-//! yardstick for what the generic code costs.
+//! yardstick for what the generic code costs. Plain code, not tuned; W3 has a second form, derived
+//! with pencil and paper.
 //!
 //! ```text
 //! Ĩω' = K + λγ,  K = Ĩω×ω - m r×(ω×r'),  γ' = γ×ω,  Ĩ = I + m r²E - m r⊗r
@@ -7,7 +8,7 @@
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
-use num_dual::{Dual64, DualNum};
+use num_dual::{Dual, Dual64, DualNum};
 
 /// The numbers this is written over: f64 and its duals.
 trait Number: DualNum<Primitive = f64> + Copy {}
@@ -32,27 +33,35 @@ pub fn second_integral_along_field(state: &[f64]) -> f64 {
     second_integral(&lift(&omega, &acceleration), &lift(&gamma, &rate)).eps
 }
 
-/// W2: ρ at `Dual64` along v, and v at `Dual64` along each axis; γ' has no divergence.
+/// W2: ρ at `Dual64` along v, and v at `Dual64` along each axis of ω.
 pub fn liouville_residual(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
     let rate = gamma.cross(&omega);
     let along = gamma.zip_map(&rate, Dual64::new);
     let inertia = inertia_at(&ellipsoid(&along), &INERTIA_MB_MU);
     let density = along.dot(&(adjugate(&inertia) * along));
-    let divergence: f64 = (0..3)
-        .map(|axis| {
-            let mut omega = omega.map(Dual64::from_re);
-            omega[axis].eps = 1.0;
-            let gamma = gamma.map(Dual64::from_re);
-            let slide = ellipsoid_slide(&gamma, &gamma.cross(&omega));
-            acceleration(&omega, &gamma, &ellipsoid(&gamma), &slide, &INERTIA_MB_MU)[axis].eps
-        })
-        .sum();
-    density.eps / density.re + divergence
+    density.eps / density.re + divergence(&omega, &gamma, &INERTIA_MB_MU)
 }
 
-/// W3: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis.
+/// W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω; then
+/// (γ, rot(γ×χ)) by all that at duals along each axis of γ.
 pub fn criterion(state: &[f64]) -> f64 {
+    let (_, gamma) = split(state);
+    let slopes = [0, 1, 2].map(|axis| {
+        let mut gamma = gamma.map(Dual64::from_re);
+        gamma[axis].eps = 1.0;
+        let chi = Vector3::from_fn(|k, _| {
+            let mut omega = Vector3::repeat(Dual64::from_re(0.0));
+            omega[k].re = 1.0;
+            divergence(&omega, &gamma, &INERTIA)
+        });
+        gamma.cross(&chi).map(|x| x.eps)
+    });
+    rotation_about(&gamma, &slopes)
+}
+
+/// W3 from a formula: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis, and (γ, rot a).
+pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {
         let mut gamma = gamma.map(Dual64::from_re);
@@ -60,10 +69,29 @@ pub fn criterion(state: &[f64]) -> f64 {
         let along = adjugate(&inertia_at(&ellipsoid(&gamma), &INERTIA)) * gamma;
         along.map(|x| (x / gamma.dot(&along)).eps)
     });
+    rotation_about(&gamma, &slopes)
+}
+
+/// (γ, rot w) from ∂w/∂γ₁, ∂w/∂γ₂, ∂w/∂γ₃
+#[inline]
+fn rotation_about(gamma: &Vector3<f64>, slopes: &[Vector3<f64>; 3]) -> f64 {
     [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
         .into_iter()
         .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
         .sum()
+}
+
+/// Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
+#[inline]
+fn divergence<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>, central: &[f64; 3]) -> T {
+    let along = |axis: usize| {
+        let mut omega = omega.map(Dual::from_re);
+        omega[axis].eps = T::one();
+        let gamma = gamma.map(Dual::from_re);
+        let slide = ellipsoid_slide(&gamma, &gamma.cross(&omega));
+        acceleration(&omega, &gamma, &ellipsoid(&gamma), &slide, central)[axis].eps
+    };
+    (0..3).map(along).sum()
 }
 
 #[inline]

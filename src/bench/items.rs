@@ -1,6 +1,6 @@
 //! What is measured: three work items of fixed size, or the cases of a user.
 
-use super::by_hand;
+use super::{Method, by_hand};
 use crate::case::{Case, CaseError};
 
 /// A case to be measured.
@@ -9,14 +9,15 @@ pub struct Item {
     pub name: String,
     /// The case; each of its claims is measured.
     pub case: Case,
-    /// The residual as one would write it by hand with num-dual, from the state's components.
-    pub by_hand: Option<fn(&[f64]) -> f64>,
+    /// The residual as one would write it by hand with num-dual, from the state's components: plain
+    /// code first, then from a formula for the residual, where there is one.
+    pub by_hand: Vec<(Method, fn(&[f64]) -> f64)>,
 }
 
 impl Item {
     /// A case of a user.
     pub fn new(name: String, case: Case) -> Self {
-        Self { name, case, by_hand: None }
+        Self { name, case, by_hand: Vec::new() }
     }
 }
 
@@ -24,7 +25,8 @@ impl Item {
 struct WorkItem {
     name: &'static str,
     text: &'static str,
-    by_hand: fn(&[f64]) -> f64,
+    plain: fn(&[f64]) -> f64,
+    closed: Option<fn(&[f64]) -> f64>,
 }
 
 const WORK_ITEMS: [WorkItem; 3] = [
@@ -33,21 +35,24 @@ const WORK_ITEMS: [WorkItem; 3] = [
         text: "title = 'W1'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nR = 3\n\
                c = [0.7, -0.4, 1.1]\nI = [2.6, 1.2, 1.8]\n[body]\nshape = 'ball'\n[[claim]]\n\
                integral = '|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)'\n",
-        by_hand: by_hand::second_integral_along_field,
+        plain: by_hand::second_integral_along_field,
+        closed: None,
     },
     WorkItem {
         name: "W2",
         text: "title = 'W2'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nmu = 2\n\
                B = [1, 2, 3.5]\nI = 'm*B + mu*E'\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
                density = '(γ,adj(Ĩ)*γ)'\n",
-        by_hand: by_hand::liouville_residual,
+        plain: by_hand::liouville_residual,
+        closed: None,
     },
     WorkItem {
         name: "W3",
         text: "title = 'W3'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nB = [1, 2, 3.5]\n\
                I = [2.6, 1.2, 1.8]\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
                analytic-density = 'exists'\nexpect = 'fails'\n",
-        by_hand: by_hand::criterion,
+        plain: by_hand::criterion,
+        closed: Some(by_hand::criterion_in_closed_form),
     },
 ];
 
@@ -59,7 +64,9 @@ pub fn work_items() -> Result<Vec<Item>, CaseError> {
         .iter()
         .map(|item| {
             let case = Case::parse(item.text, &[])?;
-            Ok(Item { name: item.name.to_string(), case, by_hand: Some(item.by_hand) })
+            let closed = item.closed.map(|closed| (Method::NumDualClosedForm, closed));
+            let by_hand = [(Method::NumDualByHand, item.plain)].into_iter().chain(closed).collect();
+            Ok(Item { name: item.name.to_string(), case, by_hand })
         })
         .collect()
 }

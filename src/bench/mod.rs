@@ -4,8 +4,10 @@
 //! | method | what runs |
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
+//! | merged tape | the same residual from fewer operations, in f64 |
 //! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
-//! | num-dual by hand | the same for the work items, written out without formulas |
+//! | num-dual by hand | the same for the work items, written out plainly, without formulas |
+//! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
 //! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
 //!
@@ -35,7 +37,7 @@ use serde::Serialize;
 
 pub use candidate::Candidate;
 pub use items::{Item, work_items};
-pub use subject::{Entry, Subject, record_residual};
+pub use subject::{Entry, Subject, record_merged, record_residual};
 
 use crate::graph::Fault;
 
@@ -45,12 +47,18 @@ pub enum Method {
     /// The recorded residual.
     #[serde(rename = "tape")]
     Tape,
+    /// The recorded residual, its nodes merged by value.
+    #[serde(rename = "merged tape")]
+    MergedTape,
     /// The definitions over num-dual's numbers.
     #[serde(rename = "num-dual")]
     NumDual,
     /// The residual written by hand over num-dual's numbers.
     #[serde(rename = "num-dual by hand")]
     NumDualByHand,
+    /// The same from a formula derived with pencil and paper.
+    #[serde(rename = "num-dual, closed form")]
+    NumDualClosedForm,
     /// A complex step on underived tapes.
     #[serde(rename = "complex step")]
     ComplexStep,
@@ -61,10 +69,12 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 5] = [
+    pub const ALL: [Method; 7] = [
         Method::Tape,
+        Method::MergedTape,
         Method::NumDual,
         Method::NumDualByHand,
+        Method::NumDualClosedForm,
         Method::ComplexStep,
         Method::CentralDifference,
     ];
@@ -73,8 +83,10 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Method::Tape => "tape",
+            Method::MergedTape => "merged tape",
             Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
+            Method::NumDualClosedForm => "num-dual, closed form",
             Method::ComplexStep => "complex step",
             Method::CentralDifference => "central difference",
         }
@@ -138,6 +150,12 @@ pub struct Row {
 }
 
 impl Measured {
+    /// The time of the merged tape, as a part of that of plain num-dual code.
+    pub fn ratio_to_num_dual(&self) -> Option<f64> {
+        let time = |method| Some(self.row(method, "f64")?.ns_per_state);
+        Some(time(Method::MergedTape)? / time(Method::NumDualByHand)?)
+    }
+
     /// The row of a method in a domain.
     pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
         self.rows.iter().find(|row| row.method == method && row.domain == domain)

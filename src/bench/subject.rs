@@ -10,7 +10,7 @@ use super::tapes;
 use super::underived::{Reason, Underived};
 use super::{BenchError, Item, Method};
 use crate::case::{Case, Claim};
-use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
 use crate::number::float::Float;
@@ -26,6 +26,8 @@ pub struct Subject<'i> {
     pub claim: &'i Claim,
     states: Vec<Block>,
     residual: Tape,
+    merged: Tape,
+    merging: Duration,
     antiderivatives: usize,
     recording: Duration,
     underived: Result<(Underived, Duration), Reason>,
@@ -56,11 +58,22 @@ impl<'i> Subject<'i> {
         let case = &item.case;
         let sampler = Sampler::new(case, &claim.place, seed)?;
         let ((residual, antiderivatives), recording) = timed(|| record_residual(case, claim))?;
+        let (merged, merging) = timed(|| record_merged(case, claim))?;
         let states =
             states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
         let (underived, time) = timed(|| Underived::record(case, claim))?;
         let underived = underived.map(|underived| (underived, time));
-        Ok(Self { item, claim, states, residual, antiderivatives, recording, underived })
+        Ok(Self {
+            item,
+            claim,
+            states,
+            residual,
+            merged,
+            merging,
+            antiderivatives,
+            recording,
+            underived,
+        })
     }
 
     /// The states, block by block.
@@ -85,6 +98,16 @@ impl<'i> Subject<'i> {
                 candidate,
             })
             .collect();
+        entries.insert(
+            1,
+            Entry {
+                method: Method::MergedTape,
+                domain: "f64",
+                operations: Some(self.merged.operations()),
+                set_up: self.merging,
+                candidate: tapes::in_f64(&self.merged, &self.states),
+            },
+        );
         let mut at_f64 = |method, domain, operations, set_up, candidate| {
             entries.push(Entry { method, domain, operations, set_up, candidate });
         };
@@ -94,9 +117,9 @@ impl<'i> Subject<'i> {
             let candidate = Box::new(OneByOne::new(definition, &self.states));
             at_f64(Method::NumDual, "f64", None, none, candidate);
         }
-        if let Some(by_hand) = self.item.by_hand {
+        for (method, by_hand) in &self.item.by_hand {
             let candidate = Box::new(OneByOne::new(by_hand, &self.states));
-            at_f64(Method::NumDualByHand, "f64", None, none, candidate);
+            at_f64(*method, "f64", None, none, candidate);
         }
         if let Ok((underived, time)) = &self.underived {
             let candidate = Box::new(ComplexStep::new(underived, &self.states));
@@ -145,14 +168,30 @@ pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Faul
     Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
 }
 
-fn with_jet<R>(
-    case: &Case,
-    build: impl FnOnce(&Jet<'_, crate::graph::Expr>) -> R,
-) -> Result<(crate::graph::Graph, R), Fault> {
+/// A tape of the residual with fewer operations: nodes of proportional value are one, and what the
+/// system knows by shorter formulas is made by those.
+pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
+    let (graph, (residual, shortcuts)) = at_point(case, |phase| {
+        let jet = Jet::short(phase);
+        let residual = claim.kind.residual(&jet, &claim.place.kept);
+        (residual, jet.phase.model().system.shortcuts(&jet.phase))
+    })?;
+    let (graph, residual) = graph.merged(&residual, &shortcuts)?;
+    Ok(Tape::new(&graph, &residual))
+}
+
+fn with_jet<R>(case: &Case, build: impl FnOnce(&Jet<'_, Expr>) -> R) -> Result<(Graph, R), Fault> {
+    at_point(case, |phase| build(&Jet::new(phase)))
+}
+
+fn at_point<'c, R>(
+    case: &'c Case,
+    build: impl FnOnce(Phase<'c, Expr>) -> R,
+) -> Result<(Graph, R), Fault> {
     let free = case.model.free_components();
     record(free + case.model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
-        build(&Jet::new(Phase::new(&case.model, parameters, state)))
+        build(Phase::new(&case.model, parameters, state))
     })
 }
 

@@ -78,12 +78,17 @@ pub type Named<'t> = (&'static str, Box<dyn Candidate + 't>);
 /// The tape in all domains.
 pub fn all<'t>(tape: &'t Tape, states: &[Block]) -> Vec<Named<'t>> {
     vec![
-        ("f64", run(tape, Float::<LANES>, states)),
+        ("f64", in_f64(tape, states)),
         ("ball, f64", run(tape, Ball::<LANES>, states)),
         ("ball, double-double", run(tape, TwofoldBall::<LANES>, states)),
         ("ball, 128 bits", run(tape, Precise::new(128), states)),
         ("ball, 256 bits", run(tape, Precise::new(256), states)),
     ]
+}
+
+/// A tape in f64.
+pub fn in_f64<'t>(tape: &'t Tape, states: &[Block]) -> Box<dyn Candidate + 't> {
+    run(tape, Float::<LANES>, states)
 }
 
 fn run<'t, D: Probe + 't>(tape: &'t Tape, domain: D, states: &[Block]) -> Box<dyn Candidate + 't> {

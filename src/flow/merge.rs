@@ -4,15 +4,12 @@
 //! a few states of the level. The level itself stays an integral near it, whatever is put for
 //! r, Ĩ and the torques: γ' is across γ, and the multiplier keeps (ω,γ).
 
-use rustc_hash::FxHashMap;
-
 use super::error::FlowError;
-use crate::graph::{Evaluator, Expr, Graph, Step, Tape, record};
+use crate::graph::{Choice, Evaluator, Expr, Graph, Step, Tape, record};
 use crate::mechanics::{Chart, Model};
 use crate::number::exact::Exact;
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function};
-use crate::scalar::Scalar;
 
 /// At how many states relations are seen.
 const STATES: usize = 5;
@@ -32,47 +29,20 @@ pub fn merged(
 ) -> Result<(Graph, Vec<Expr>), FlowError> {
     let reached = graph.reached(wanted.iter().copied());
     let values = values(model, graph, &reached)?;
-    let mut first: FxHashMap<Vec<Rational>, usize> = FxHashMap::default();
-    // What each step is replaced by: a factor, and another step unless it is constant.
-    let mut replacement: Vec<Option<(Rational, Option<usize>)>> = vec![None; graph.len()];
-    for (place, own) in values.iter().enumerate() {
-        let Some(own) = own.as_ref().filter(|_| reached[place]) else { continue };
-        if matches!(graph.step(place), Step::Constant(_)) {
-            continue;
+    let direction = |own: &Vec<Rational>| -> Option<Vec<Rational>> {
+        if own.iter().all(Rational::is_zero) {
+            // A multiple of 1.
+            return Some(vec![Rational::from(1); own.len() - 1]);
         }
-        if own.iter().all(|value| *value == own[0]) {
-            replacement[place] = Some((own[0].clone(), None));
-            continue;
-        }
-        let Some(unit) = own[0].recip() else { continue };
-        let direction: Vec<Rational> = own[1..].iter().map(|value| value * &unit).collect();
-        let earlier = *first.entry(direction).or_insert(place);
-        if let Some(other) = &values[earlier]
-            && earlier != place
-        {
-            let factor = &own[0] * &other[0].recip().unwrap_or(Rational::from(0));
-            replacement[place] = Some((factor, Some(earlier)));
-        }
-    }
-    let inputs = graph.inputs();
-    let (simpler, values) = record(inputs, |inputs| {
-        let values = graph.replay(&reached, inputs, |place, step, values| {
-            if matches!(step, Step::Input(_)) {
-                return None;
-            }
-            let (factor, other) = replacement[place].as_ref()?;
-            if factor.bits() > MAX_FACTOR_BITS {
-                return None;
-            }
-            let factor = Expr::rational(factor);
-            Some(match other {
-                Some(other) => factor * values[*other]?,
-                None => factor,
-            })
-        });
-        wanted.iter().map(|expr| values[graph.place(*expr)]).collect::<Option<Vec<Expr>>>()
-    })?;
-    Ok((simpler, values.ok_or(FlowError::Antiderivative)?))
+        let unit = own[0].recip()?;
+        Some(own[1..].iter().map(|value| value * &unit).collect())
+    };
+    let factor = |own: &Vec<Rational>, other: &Vec<Rational>| {
+        let factor = &own[0] * &other[0].recip()?;
+        (factor.bits() <= MAX_FACTOR_BITS).then_some(factor)
+    };
+    let members = graph.members(&values, direction, factor);
+    Ok(graph.rebuilt(wanted, &members, Choice::First)?)
 }
 
 fn values(model: &Model, graph: &Graph, reached: &[bool]) -> Result<Vec<Values>, FlowError> {
@@ -98,7 +68,8 @@ fn values(model: &Model, graph: &Graph, reached: &[bool]) -> Result<Vec<Values>,
             }
             out.filter(|value| value.bits() <= MAX_BITS)
         };
-        let all = if reached[place] { (0..STATES).map(at).collect() } else { None };
+        let is_looked_at = reached[place] || matches!(step, Step::Constant(_));
+        let all = if is_looked_at { (0..STATES).map(at).collect() } else { None };
         values.push(all);
     }
     Ok(values)

@@ -11,6 +11,9 @@ mod dispatch;
 mod dual_num;
 mod evaluate;
 mod expr;
+mod fingerprint;
+mod index;
+mod merge;
 mod simplify;
 mod steps;
 mod tape;
@@ -26,6 +29,8 @@ pub use dispatch::vector_features;
 pub(crate) use dispatch::{Work, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
+use index::Index;
+pub(crate) use merge::{Choice, Member};
 pub use steps::Step;
 pub use tape::Tape;
 
@@ -72,7 +77,7 @@ pub struct Graph {
     /// Which nodes have no value, whatever the inputs: 1/0 and what follows from it.
     undefined: Vec<bool>,
     constants: Vec<Rational>,
-    node_ids: FxHashMap<Node, NodeId>,
+    index: Index,
     constant_ids: FxHashMap<Rational, u32>,
     inputs: u32,
     antiderivatives: FxHashMap<(NodeId, NodeId), u32>,
@@ -87,7 +92,7 @@ impl Graph {
             nodes: Vec::new(),
             undefined: Vec::new(),
             constants: Vec::new(),
-            node_ids: FxHashMap::default(),
+            index: Index::new(),
             constant_ids: FxHashMap::default(),
             inputs: 0,
             antiderivatives: FxHashMap::default(),
@@ -141,6 +146,7 @@ impl Graph {
         self.nodes.iter().zip(reached).filter(computed).count()
     }
 
+    #[inline]
     fn constant_at(&self, id: NodeId) -> Option<&Rational> {
         match self.nodes[id.0 as usize] {
             Node::Constant(index) => Some(&self.constants[index as usize]),
@@ -148,20 +154,23 @@ impl Graph {
         }
     }
 
+    #[inline]
     fn node(&self, id: NodeId) -> Node {
         self.nodes[id.0 as usize]
     }
 
+    #[inline]
     fn intern(&mut self, node: Node) -> NodeId {
-        let next = NodeId(self.nodes.len() as u32);
-        let id = *self.node_ids.entry(node).or_insert(next);
-        if id == next {
-            self.undefined.push(self.has_no_value(node));
-            self.nodes.push(node);
+        if let Some(id) = self.index.find_or_note(node, &self.nodes) {
+            return id;
         }
+        let id = NodeId(self.nodes.len() as u32);
+        self.undefined.push(self.has_no_value(node));
+        self.nodes.push(node);
         id
     }
 
+    #[inline]
     fn is_undefined(&self, id: NodeId) -> bool {
         self.undefined[id.0 as usize]
     }
@@ -243,6 +252,7 @@ impl Drop for Restore {
     }
 }
 
+#[inline]
 fn with_graph<R>(action: impl FnOnce(&mut Graph) -> R) -> R {
     RECORDING.with_borrow_mut(action)
 }

@@ -22,6 +22,7 @@ pub enum Step<'g> {
 
 impl Step<'_> {
     /// The places of the arguments.
+    #[inline]
     pub fn arguments(&self) -> impl Iterator<Item = usize> {
         let [first, second] = match *self {
             Step::Constant(_) | Step::Input(_) => [None, None],
@@ -30,15 +31,32 @@ impl Step<'_> {
         };
         first.into_iter().chain(second)
     }
+
+    /// The same step in the recording under way, from other inputs and the values of its arguments.
+    pub(super) fn repeat(
+        &self,
+        inputs: &[Expr],
+        at: impl Fn(usize) -> Option<Expr>,
+    ) -> Option<Expr> {
+        Some(match *self {
+            Step::Constant(value) => Expr::rational(value),
+            Step::Input(input) => *inputs.get(input)?,
+            Step::Unary(function, a) => at(a)?.apply(function),
+            Step::Binary(operation, a, b) => at(a)?.combine(operation, at(b)?),
+            Step::Power(a, exponent) => at(a)?.power(exponent),
+        })
+    }
 }
 
 impl Graph {
     /// All steps; the place of a step is its number.
+    #[inline]
     pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
         (0..self.nodes.len()).map(|place| self.step(place))
     }
 
     /// The step at a place.
+    #[inline]
     pub fn step(&self, place: usize) -> Step<'_> {
         match self.nodes[place] {
             Node::Constant(index) => Step::Constant(&self.constants[index as usize]),
@@ -52,6 +70,7 @@ impl Graph {
     }
 
     /// The place of the step that makes `expr`; 0, a constant, for a handle of no recording.
+    #[inline]
     pub fn place(&self, expr: Expr) -> usize {
         expr.id().map_or(0, |id| id.0 as usize)
     }
@@ -91,16 +110,8 @@ impl Graph {
                 values.push(None);
                 continue;
             }
-            let value = replace(place, step, &values).or_else(|| {
-                let at = |place: usize| values[place];
-                Some(match step {
-                    Step::Constant(value) => Expr::rational(value),
-                    Step::Input(input) => *inputs.get(input)?,
-                    Step::Unary(function, a) => at(a)?.apply(function),
-                    Step::Binary(operation, a, b) => at(a)?.combine(operation, at(b)?),
-                    Step::Power(a, exponent) => at(a)?.power(exponent),
-                })
-            });
+            let value = replace(place, step, &values)
+                .or_else(|| step.repeat(inputs, |place| values[place]));
             values.push(value);
         }
         values

@@ -34,6 +34,16 @@ impl<'m, T: Scalar> Jet<'m, T> {
         }
     }
 
+    /// The jet at a point whose divergence is made by the system's own formula, where there is one.
+    pub fn short(phase: Phase<'m, T>) -> Self {
+        let divergence = phase.model().system.divergence(&phase);
+        let jet = Self::new(phase);
+        if let Some(divergence) = divergence {
+            jet.divergence.get_or_init(|| divergence);
+        }
+        jet
+    }
+
     /// The point with the field as its derivative part.
     pub fn along_field(&self) -> &Phase<'m, Dual<T>> {
         self.along_field.get_or_init(|| self.phase.lift(self.phase.field()))

@@ -17,6 +17,7 @@ mod rolling;
 mod rubber;
 mod rubber_measure;
 mod rubber_names;
+mod shortcuts;
 mod variables;
 mod vocabulary;
 
@@ -134,6 +135,22 @@ impl System {
             System::Ball(ball) => Some(ball.energy(phase)),
             System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
             System::Field(_) => None,
+        }
+    }
+
+    /// Short formulas for values that claims are made of, where some are known.
+    pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        match self {
+            System::Rubber(body) => body.shortcuts(phase),
+            _ => Vec::new(),
+        }
+    }
+
+    /// div v by a formula of the system's own, where there is one.
+    pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        match self {
+            System::Rubber(body) if phase.model().extension.is_empty() => body.divergence(phase),
+            _ => None,
         }
     }
 

@@ -61,13 +61,13 @@ impl<T: Scalar> Motion<T> {
         Self { pose, normal_rate, contact_rate }
     }
 
-    /// ω' and λ, with the angular momentum S of a rotor and with moments of forces.
-    pub fn acceleration(
+    /// K, with the angular momentum S of a rotor and with moments of forces.
+    pub fn torque(
         &self,
         gyrostat: Option<Vector3<T>>,
         moments: impl Iterator<Item = Vector3<T>>,
-    ) -> (Vector3<T>, T) {
-        let Pose { omega, gamma, mass, curvature, r, inertia, .. } = &self.pose;
+    ) -> Vector3<T> {
+        let Pose { omega, mass, r, inertia, .. } = &self.pose;
         let mut momentum = inertia * omega;
         if let Some(gyrostat) = gyrostat {
             momentum += gyrostat;
@@ -77,6 +77,12 @@ impl<T: Scalar> Motion<T> {
         for moment in moments {
             torque += moment;
         }
+        torque
+    }
+
+    /// ω' and λ for K.
+    pub fn acceleration(&self, torque: Vector3<T>) -> (Vector3<T>, T) {
+        let Pose { omega, gamma, curvature, inertia, .. } = &self.pose;
         let adjugate = adjugate(inertia);
         let determinant = determinant_with(inertia, &adjugate);
         let along = adjugate * gamma;

@@ -112,8 +112,8 @@ impl Rubber {
         matrix(at.evaluate(&self.inertia)) + point_mass(mass, r)
     }
 
-    /// ω' and λ.
-    pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
+    /// K
+    pub(super) fn torque<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vector3<T> {
         let at = &phase.configuration;
         let motion = self.motion(phase);
         let gyrostat = self.gyrostat.as_ref().map(|gyrostat| vector(at.evaluate(gyrostat)));
@@ -122,7 +122,12 @@ impl Rubber {
         };
         let of_potential = self.potential.as_ref().map(|u| motion.moment_of_potential(&slope(u)));
         let further = self.moment.as_ref().map(|moment| vector(phase.evaluate(moment)));
-        motion.acceleration(gyrostat, of_potential.into_iter().chain(further))
+        motion.torque(gyrostat, of_potential.into_iter().chain(further))
+    }
+
+    /// ω' and λ.
+    pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
+        self.motion(phase).acceleration(self.torque(phase))
     }
 
     /// ½(ω,Ĩω) + U

@@ -58,8 +58,11 @@ struct ItemEntry<'a> {
     ns_per_state: Option<f64>,
     /// By hand where there is such code, else by the generic definitions.
     num_dual_ns_per_state: Option<f64>,
+    /// The merged tape over num-dual by hand.
+    ratio_to_num_dual: Option<f64>,
     num_dual_generic_ns_per_state: Option<f64>,
     operations: Option<usize>,
+    merged_operations: Option<usize>,
     max_error: Option<f64>,
 }
 
@@ -124,6 +127,7 @@ pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
 
 fn item(measured: &Measured) -> ItemEntry<'_> {
     let tape = measured.row(Method::Tape, "f64");
+    let merged = measured.row(Method::MergedTape, "f64");
     let time = |method| measured.row(method, "f64").map(|row| row.ns_per_state);
     ItemEntry {
         name: &measured.item,
@@ -131,8 +135,10 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
         kind: measured.kind,
         ns_per_state: tape.map(|row| row.ns_per_state),
         num_dual_ns_per_state: time(Method::NumDualByHand).or(time(Method::NumDual)),
+        ratio_to_num_dual: measured.ratio_to_num_dual(),
         num_dual_generic_ns_per_state: time(Method::NumDual),
         operations: tape.and_then(|row| row.operations),
+        merged_operations: merged.and_then(|row| row.operations),
         max_error: tape.and_then(|row| row.max_error),
     }
 }
@@ -144,6 +150,9 @@ pub fn text(run: &BenchRun, style: Style) -> String {
         out.push_str(&format!("{}  {} ({})\n", measured.item, measured.claim, measured.kind));
         out.push_str(&table(measured, style));
         out.push('\n');
+        if let Some(ratio) = measured.ratio_to_num_dual() {
+            out.push_str(&format!("   merged tape / num-dual by hand: {ratio:.4}\n"));
+        }
         for (method, reason) in &measured.skipped {
             out.push_str(&format!("   {} skipped: {reason}\n", method.name()));
         }

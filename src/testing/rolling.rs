@@ -99,7 +99,8 @@ impl<B: Body> VectorField<6> for Rolling<B> {
         let slope = motion.pose.r.map(|x| x * -self.weight);
         let moment = motion.moment_of_potential(&slope);
         let gyrostat = Vector3::from(self.gyrostat).map(T::from);
-        let (acceleration, _) = motion.acceleration(Some(gyrostat), std::iter::once(moment));
+        let (acceleration, _) =
+            motion.acceleration(motion.torque(Some(gyrostat), std::iter::once(moment)));
         let [a, b] = [acceleration, motion.normal_rate];
         [a.x, a.y, a.z, b.x, b.y, b.z]
     }

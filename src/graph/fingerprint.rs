@@ -1,0 +1,277 @@
+//! Values of nodes at random points of prime fields, by which equal ones are found.
+//!
+//! Two rational values that differ agree at all 64 points with a probability below (d/2^60)^64, d
+//! their degree. √x is the root that is a square itself: √x √y = √(xy) is seen, and √(x²) = x is not,
+//! since x is no square at half of the points. A point at which some root does not exist is drawn
+//! anew. exp, sin and the like are random functions: equal for equal arguments, and nothing else.
+//!
+//! For measuring only. A proof, and whoever bounds rounding, run what was recorded.
+
+use super::{Choice, Expr, Fault, Graph, Member, Node, Step};
+use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
+use crate::number::rational::Rational;
+use crate::number::{Domain, Function, Operation};
+
+/// Points, half of them modulo each of two primes.
+const POINTS: usize = 64;
+const HALF: usize = POINTS / 2;
+/// Blocks of points that are tried: enough for four independent roots.
+const TRIES: u64 = 48;
+/// Numerators and denominators of factors are below: then one prime tells them, and the other agrees
+/// by chance with a probability of 2^-61.
+const MOST_IN_FACTOR: i64 = 1 << 29;
+
+type Values = [u64; POINTS];
+
+/// Larger graphs stay as they are: what each class needs is kept as a set.
+const MOST_NODES: usize = 1 << 13;
+
+impl Graph {
+    /// The outputs from fewer operations, in a graph of their own: what is proportional is made once,
+    /// in the cheapest way that is found among what outputs and `shortcuts` need. Exact, up to the
+    /// probability above, wherever the outputs have values.
+    ///
+    /// An output that is zero without having been folded stays a sum that is computed: none of its
+    /// terms is made from the others.
+    pub fn merged(
+        &self,
+        outputs: &[Expr],
+        shortcuts: &[Expr],
+    ) -> Result<(Graph, Vec<Expr>), Fault> {
+        let reached = self.reached(outputs.iter().chain(shortcuts).copied());
+        let needed = self.reached(outputs.iter().copied());
+        let moduli = moduli();
+        let few = reached.iter().filter(|reached| **reached).count() <= MOST_NODES;
+        let found = if few { self.fingerprints(&moduli, &reached, &needed) } else { None };
+        let Some(mut values) = found else { return self.copied(outputs) };
+        let short = self.reached(shortcuts.iter().copied());
+        for output in outputs.iter().filter(|output| self.constant_value(**output).is_none()) {
+            self.part(self.place(*output), &mut values, &moduli, &short);
+        }
+        let rebuilt =
+            self.rebuilt(outputs, &self.classes(&values, &moduli), Choice::Cheapest(&reached))?;
+        let is_folded = |(before, after): (&Expr, &Expr)| {
+            rebuilt.0.constant_value(*after).is_some() && self.constant_value(*before).is_none()
+        };
+        if outputs.iter().zip(&rebuilt.1).any(is_folded) {
+            return self.copied(outputs);
+        }
+        Ok(rebuilt)
+    }
+
+    /// Where a value is zero, makes the terms of its sum incomparable: one of them, by preference a
+    /// short one, is taken out of its class with all that is proportional to it on its way.
+    fn part(
+        &self,
+        output: usize,
+        values: &mut [Option<Values>],
+        moduli: &[Modulus; POINTS],
+        short: &[bool],
+    ) {
+        let mut open = vec![output];
+        while let Some(place) = open.pop() {
+            if !values[place].is_some_and(|values| vanishes(&values)) {
+                continue;
+            }
+            values[place] = None;
+            let step = self.step(place);
+            let vanishing = |place: &usize| values[*place].is_some_and(|values| vanishes(&values));
+            let zeros: Vec<usize> = step.arguments().filter(vanishing).collect();
+            if let (true, Step::Binary(_, a, b)) = (zeros.is_empty(), step) {
+                let own = if short[a] && !short[b] { a } else { b };
+                let Some(direction) = values[own] else { continue };
+                let cone = self.reached_from(&[own]);
+                for (value, _) in values.iter_mut().zip(cone).filter(|(_, needed)| *needed) {
+                    if value.is_some_and(|value| are_proportional(&value, &direction, moduli)) {
+                        *value = None;
+                    }
+                }
+            }
+            open.extend(zeros);
+        }
+    }
+
+    /// The classes of proportional values; constants are multiples of 1.
+    fn classes(&self, values: &[Option<Values>], moduli: &[Modulus; POINTS]) -> Vec<Member> {
+        let inverse = |x: u64, lane: usize| (x != 0).then(|| moduli[lane].inverse(x));
+        let direction = |values: &Values| -> Option<Values> {
+            if vanishes(values) {
+                return Some(std::array::from_fn(|lane| moduli[lane].one()));
+            }
+            let unit = [inverse(values[0], 0)?, inverse(values[HALF], HALF)?];
+            Some(std::array::from_fn(|lane| moduli[lane].mul(values[lane], unit[lane / HALF])))
+        };
+        let factor = |own: &Values, other: &Values| -> Option<Rational> {
+            let quotient =
+                |lane: usize| Some(moduli[lane].mul(own[lane], inverse(other[lane], lane)?));
+            let found = fraction(&moduli[0], quotient(0)?)?;
+            (moduli[HALF].rational(&found) == Some(quotient(HALF)?)).then_some(found)
+        };
+        self.members(values, direction, factor)
+    }
+
+    /// The values of what is reached at points where what is needed has values; `None` if too few
+    /// points were found.
+    fn fingerprints(
+        &self,
+        moduli: &[Modulus; POINTS],
+        reached: &[bool],
+        needed: &[bool],
+    ) -> Option<Vec<Option<Values>>> {
+        let domain = Fingerprint(Prime::new(*moduli));
+        let mut found: Vec<Values> = vec![[UNDEFINED; POINTS]; self.len()];
+        let mut accepted = [0, HALF];
+        for round in 0..TRIES {
+            let values = self.values_at(&domain, reached, round);
+            let mut defined = [true; POINTS];
+            for (values, _) in values.iter().zip(needed).filter(|(_, needed)| **needed) {
+                for (defined, value) in defined.iter_mut().zip(values) {
+                    *defined &= *value != UNDEFINED;
+                }
+            }
+            for lane in 0..POINTS {
+                let place = &mut accepted[lane / HALF];
+                if !defined[lane] || *place == (lane / HALF + 1) * HALF {
+                    continue;
+                }
+                found.iter_mut().zip(&values).for_each(|(found, new)| found[*place] = new[lane]);
+                *place += 1;
+            }
+            if accepted == [HALF, POINTS] {
+                let whole = |values: Values| (!values.contains(&UNDEFINED)).then_some(values);
+                return Some(found.into_iter().map(whole).collect());
+            }
+        }
+        None
+    }
+
+    /// The values of what is reached at one block of points.
+    fn values_at(&self, domain: &Fingerprint, reached: &[bool], round: u64) -> Vec<Values> {
+        let constants: Vec<Values> =
+            self.constants.iter().map(|value| domain.constant(value)).collect();
+        let mut values: Vec<Values> = Vec::with_capacity(self.len());
+        for (node, reached) in self.nodes.iter().zip(reached) {
+            let mut value = [UNDEFINED; POINTS];
+            match *node {
+                Node::Constant(index) => value = constants[index as usize],
+                _ if !reached => {}
+                Node::Input(input) => value = domain.point(u64::from(input), round),
+                Node::Unary(function, a) => {
+                    domain.unary(function, &values[a.0 as usize], &mut value);
+                }
+                Node::Binary(operation, a, b) => {
+                    let (a, b) = (&values[a.0 as usize], &values[b.0 as usize]);
+                    domain.binary(operation, a, b, &mut value);
+                }
+                Node::Power(a, exponent) => {
+                    let exponent = &self.constants[exponent as usize];
+                    domain.power(&values[a.0 as usize], exponent, &mut value);
+                }
+            }
+            values.push(value);
+        }
+        values
+    }
+}
+
+fn vanishes(values: &Values) -> bool {
+    values.iter().all(|x| *x == 0)
+}
+
+/// Is xᵢyⱼ = xⱼyᵢ modulo each prime?
+fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool {
+    moduli.iter().enumerate().all(|(lane, modulus)| {
+        let first = lane / HALF * HALF;
+        modulus.mul(x[lane], y[first]) == modulus.mul(x[first], y[lane])
+    })
+}
+
+/// Two primes p = 3 mod 4 near 2^61, one for each half of the points.
+fn moduli() -> [Modulus; POINTS] {
+    let mut primes = (0..).map(|k| (1u64 << 61) - 1 - 4 * k).filter(|p| is_prime(*p));
+    let mut next = || Modulus::new(primes.next().unwrap_or((1 << 61) - 1));
+    let both = [next(), next()];
+    std::array::from_fn(|lane| both[lane / HALF])
+}
+
+/// A well mixed number that depends on both (Steele, Lea, Flood 2014: SplitMix64).
+fn mixed(a: u64, b: u64) -> u64 {
+    let mut z = a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ b;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// The fraction with small parts that x is the image of, by Euclid's algorithm (Wang 1981).
+fn fraction(modulus: &Modulus, x: u64) -> Option<Rational> {
+    let (mut r, mut s) = ([modulus.prime() as i64, modulus.to_integer(x) as i64], [0i64, 1i64]);
+    while r[1] >= MOST_IN_FACTOR {
+        let quotient = r[0] / r[1];
+        (r, s) = (
+            [r[1], r[0] - quotient * r[1]],
+            [s[1], s[0].checked_sub(quotient.checked_mul(s[1])?)?],
+        );
+    }
+    (s[1] != 0 && s[1].abs() < MOST_IN_FACTOR).then(|| Rational::new(r[1], s[1]))
+}
+
+/// Prime fields in which a function that they do not have is a random function.
+struct Fingerprint(Prime<POINTS>);
+
+impl Fingerprint {
+    /// A random element for each lane.
+    fn point(&self, input: u64, round: u64) -> Values {
+        let moduli = self.0.moduli();
+        let seed = mixed(input, round);
+        std::array::from_fn(|lane| moduli[lane].integer(mixed(seed, lane as u64 + 1)))
+    }
+
+    /// The value of function number `name` at x and y.
+    fn random(&self, name: u64, x: &Values, y: &Values, out: &mut Values) {
+        for (lane, modulus) in self.0.moduli().iter().enumerate() {
+            out[lane] = match x[lane] == UNDEFINED || y[lane] == UNDEFINED {
+                true => UNDEFINED,
+                false => modulus.integer(mixed(mixed(x[lane], y[lane]), name)),
+            };
+        }
+    }
+}
+
+impl Domain for Fingerprint {
+    type Block = Values;
+
+    fn constant(&self, value: &Rational) -> Values {
+        self.0.constant(value)
+    }
+
+    fn values(&self, values: &[Rational]) -> Values {
+        self.0.values(values)
+    }
+
+    fn unary(&self, function: Function, x: &Values, out: &mut Values) {
+        match function {
+            Function::Neg | Function::Recip | Function::Sqrt | Function::Abs => {
+                self.0.unary(function, x, out);
+            }
+            Function::Exp => self.random(1, x, x, out),
+            Function::Ln => self.random(2, x, x, out),
+            Function::Sin => self.random(3, x, x, out),
+            Function::Cos => self.random(4, x, x, out),
+            Function::Atan => self.random(5, x, x, out),
+        }
+    }
+
+    fn binary(&self, operation: Operation, x: &Values, y: &Values, out: &mut Values) {
+        match operation {
+            Operation::Pow => self.random(6, x, y, out),
+            _ => self.0.binary(operation, x, y, out),
+        }
+    }
+
+    fn power(&self, x: &Values, exponent: &Rational, out: &mut Values) {
+        match exponent.to_integer() {
+            Some(_) => self.0.power(x, exponent, out),
+            None => self.random(6, x, &self.constant(exponent), out),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Short formulas for values that the definitions reach by longer ways.
+//!
+//! They are recorded beside a residual that is to be measured, and take the place of what has the
+//! same value there ([`Graph::merged`](crate::graph::Graph::merged)); where one does not hold, nothing
+//! happens. For a rubber body, with D = ∂r/∂γ, f = K + λγ = Ĩω', b = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ),
+//! P = Ĩ⁻¹ - b⊗Ĩ⁻¹γ (so that ω' = PK on the plane, Pγ = 0, PĨ = E - b⊗γ), and J = γ×:
+//!
+//! ```text
+//! (Ĩω)'  = m(2(r,r')ω - (r,ω)r' - (r',ω)r) + f
+//! (Ĩω,ω)' = ((Ĩω)',ω) + (f,ω)
+//! X = (r,r') tr P - (Pr,r'),   Y = (Dᵀr×γ, Pω) - (r,ω) tr PDJ                           on the plane:
+//! div v        = -(b,γ') - m(X + Y)
+//! v(ln ρ₀)     = 2(b,γ') + 2mX,                      ρ₀ = (γ,adj(Ĩ)γ)
+//! (γ, rot b)   = m(2(γ×Pb, Dᵀr) - (γ×Pr, Dᵀb) - (r,b) tr PDJ)
+//! ```
+//!
+//! div v: ∂/∂ω of r×(ω×r') = (r,r')ω - (r,ω)r'; [Ĩω]× and [S]× have no trace with the symmetric P.
+//! rot b: b is the least of ½(b,Ĩb) on (γ,b) = 1, so b' = P(δγ/(γ,Ĩ⁻¹γ) - Ĩ'b) - (b,δγ)b.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::linear::{adjugate, determinant_with};
+use super::phase::Phase;
+use super::rolling::{Motion, Pose};
+use super::rubber::Rubber;
+use crate::scalar::Scalar;
+
+impl Rubber {
+    /// Values that claims about a body are made of.
+    pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let motion = self.motion(phase);
+        let Pose { omega, gamma, mass, r, .. } = &motion.pose;
+        let (_, multiplier) = self.acceleration(phase);
+        let force = self.torque(phase) + gamma * multiplier;
+        let slide = &motion.contact_rate;
+        let approach = r.dot(slide);
+        let moved = omega * (approach + approach) - slide * r.dot(omega) - r * slide.dot(omega);
+        let momentum_rate = moved * *mass + force;
+        let energy_rate = momentum_rate.dot(omega) + force.dot(omega);
+        let mut values: Vec<T> = momentum_rate.iter().copied().chain([energy_rate]).collect();
+        if self.curvature.is_none() {
+            let terms = OnPlane::of(motion);
+            values.extend([terms.divergence(), terms.logarithmic_rate(), terms.rotation]);
+        }
+        values
+    }
+
+    /// div v, where it is known by a formula: on the plane, with no moment beside a potential.
+    pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        let known = self.curvature.is_none() && self.moment.is_none();
+        known.then(|| OnPlane::of(self.motion(phase)).divergence())
+    }
+}
+
+/// What the measure on the plane is made of.
+struct OnPlane<T> {
+    /// (b,γ')
+    along_rate: T,
+    /// mX
+    spread: T,
+    /// mY
+    shear: T,
+    /// (γ, rot b)
+    rotation: T,
+}
+
+impl<T: Scalar> OnPlane<T> {
+    fn of(motion: &Motion<T>) -> Self {
+        let Pose { omega, gamma, mass, r, slope, inertia, .. } = &motion.pose;
+        let (slide, rate) = (&motion.contact_rate, &motion.normal_rate);
+        let adjugate = adjugate(inertia);
+        let along = adjugate * gamma;
+        let inverse = gamma.dot(&along).recip();
+        let unit: Vector3<T> = along * inverse;
+        let determinant = determinant_with(inertia, &adjugate);
+        let across = (adjugate - along * unit.transpose()).map(|x| x / determinant);
+        let image = across * r;
+        let pull = slope.transpose() * r;
+        let twist = turned_trace(&(across * slope), gamma);
+        let spread = r.dot(slide) * across.trace() - image.dot(slide);
+        let shear = pull.cross(gamma).dot(&(across * omega)) - r.dot(omega) * twist;
+        let first = gamma.cross(&(across * unit)).dot(&pull);
+        let second = gamma.cross(&image).dot(&(slope.transpose() * unit));
+        Self {
+            along_rate: unit.dot(rate),
+            spread: spread * *mass,
+            shear: shear * *mass,
+            rotation: (first + first - second - r.dot(&unit) * twist) * *mass,
+        }
+    }
+
+    fn divergence(&self) -> T {
+        -(self.along_rate + self.spread + self.shear)
+    }
+
+    /// v(ln ρ₀)
+    fn logarithmic_rate(&self) -> T {
+        let half = self.along_rate + self.spread;
+        half + half
+    }
+}
+
+/// tr MJ with Ju = γ×u
+fn turned_trace<T: Scalar>(matrix: &Matrix3<T>, gamma: &Vector3<T>) -> T {
+    let part = |i: usize, j: usize, k: usize| gamma[i] * (matrix[(j, k)] - matrix[(k, j)]);
+    part(0, 1, 2) + part(1, 2, 0) + part(2, 0, 1)
+}
