@@ -14,9 +14,12 @@ use super::stepper::{Accuracy, Stepper};
 use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::number::pair::Pair;
+use crate::number::rational::Rational;
 
 /// Blocks after the part that is left out.
 const BLOCKS: usize = 10;
+/// The share of the time that is left out before them.
+const LEFT_OUT: f64 = 0.1;
 /// Standard errors by which a mean has to differ from 0.
 const ERRORS: f64 = 3.0;
 
@@ -83,15 +86,7 @@ impl Variational {
     /// The motion from a start, the vector along the level set.
     pub fn new(model: &Model, start: &Start) -> Result<Self, FlowError> {
         let dimension = model.dimension();
-        let program = extended_program(model, &start.parameters, dimension + 1, |phase, more| {
-            let jet = Jet::new(phase.with(&[], &phase.state()));
-            let along = jet.phase.lift(&more[..dimension]);
-            let mut rates = jet.phase.field().to_vec();
-            rates.extend(along.field().iter().map(|rate| rate.eps));
-            let level = vec![true; model.level.len()];
-            rates.push(jet.divergence() - jet.level_cofactor(&level));
-            (rates, Vec::new())
-        })?;
+        let program = variational_program(model, &start.parameters, 1)?;
         let mut begin = start.state.clone();
         begin.extend(across_level(model, start)?.into_iter().map(Pair::from_f64));
         begin.push(Pair::default());
@@ -100,8 +95,32 @@ impl Variational {
 
     /// Follows the motion for a time, negative for backwards.
     pub fn exponents(&self, time: f64) -> Result<Exponents, FlowError> {
-        follow(&self.program, self.dimension, &self.begin, time)
+        self.exponents_after(time, LEFT_OUT)
     }
+
+    /// The same with this share of the time left out at the beginning.
+    pub fn exponents_after(&self, time: f64, left_out: f64) -> Result<Exponents, FlowError> {
+        follow(&self.program, self.dimension, &self.begin, time, left_out)
+    }
+}
+
+/// The field with this many vectors along the flow, and div v on the level, behind the state.
+pub(super) fn variational_program(
+    model: &Model,
+    parameters: &[Rational],
+    vectors: usize,
+) -> Result<Program, FlowError> {
+    let dimension = model.dimension();
+    extended_program(model, parameters, vectors * dimension + 1, |phase, more| {
+        let jet = Jet::new(phase.with(&[], &phase.state()));
+        let mut rates = jet.phase.field().to_vec();
+        for vector in more[..vectors * dimension].chunks(dimension) {
+            rates.extend(jet.phase.lift(vector).field().iter().map(|rate| rate.eps));
+        }
+        let level = vec![true; model.level.len()];
+        rates.push(jet.divergence() - jet.level_cofactor(&level));
+        (rates, Vec::new())
+    })
 }
 
 fn follow(
@@ -109,11 +128,12 @@ fn follow(
     dimension: usize,
     begin: &[Pair],
     time: f64,
+    left_out: f64,
 ) -> Result<Exponents, FlowError> {
     let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
-    let block = time * 0.9 / BLOCKS as f64;
-    let mut ends = vec![time * 0.1];
-    ends.extend((1..=BLOCKS).map(|k| time * 0.1 + block * k as f64));
+    let block = time * (1.0 - left_out) / BLOCKS as f64;
+    let mut ends = vec![time * left_out];
+    ends.extend((1..=BLOCKS).map(|k| time * left_out + block * k as f64));
     stepper.start(0, begin, Pair::from_f64(ends[0]));
     let (mut growth, mut volume) = (Vec::new(), Vec::new());
     let mut expanded = 0.0;

@@ -3,7 +3,9 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::{Outcome, RunReport};
-use crate::verdict::{CaseReport, ClaimReport, Independence, Sign, Verdict};
+use crate::verdict::{
+    CaseReport, ClaimReport, Evidence, Independence, Measurement, Sign, Verdict,
+};
 
 /// How much is shown, and whether in colour.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +99,11 @@ fn remark(claim: &ClaimReport) -> String {
     let evidence = &claim.evidence;
     let mut words = Vec::new();
     match claim.verdict {
+        _ if !evidence.measured.is_empty() => {
+            words.push(measured(evidence));
+            words.extend(evidence.remark.clone());
+            words.extend(evidence.reason.clone());
+        }
         Verdict::Confirmed | Verdict::Proved => {
             words.push(evidence.holds.join("; "));
             match evidence.independence {
@@ -134,11 +141,27 @@ fn remark(claim: &ClaimReport) -> String {
         }
         Verdict::Undecided => {}
     }
+    if !evidence.measured.is_empty() {
+        return words.join("; ");
+    }
     if claim.verdict == Verdict::Undecided || (!claim.agrees && claim.verdict != Verdict::Refuted) {
         words.extend(evidence.reason.clone());
     }
     words.retain(|word| !word.is_empty());
     words.join(", ")
+}
+
+/// Numbers with their errors, and what is stated about them.
+fn measured(evidence: &Evidence) -> String {
+    let shown = |found: &Measurement| {
+        let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
+        // The digits that the error leaves, and one more.
+        let places = -libm::floor(libm::log10(found.error)) + 1.0;
+        let places = places.clamp(0.0, 15.0) as usize;
+        let (quantity, value, error) = (&found.quantity, found.value, found.error);
+        format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
+    };
+    evidence.measured.iter().map(shown).collect::<Vec<_>>().join(", ")
 }
 
 fn details(report: &CaseReport) -> String {
@@ -149,7 +172,9 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        if evidence.measured.is_empty() {
+            out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        }
         for (index, rung) in evidence.climb.iter().enumerate() {
             let label = if index == 0 { "climb" } else { "" };
             out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
@@ -228,6 +253,10 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if summary.motions_left > 0 {
+        let left = count(summary.motions_left, "claim");
+        line.push_str(&format!("; {left} about motion not looked at: add --motion"));
     }
     if let Some(mutants) = summary.mutants {
         line.push_str(&format!(
