@@ -7,8 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare,
-    shadows, solvable, variables, velocities, weights,
+    Case, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare, shadows,
+    solvable, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 

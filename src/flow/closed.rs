@@ -94,8 +94,7 @@ impl SectionMap<'_> {
         (pair.trace, pair.determinant) = self.monodromy::<Pair>(&start, time, Accuracy::PAIR)?;
         let (start, time) = (self.chart.start(found.at)?, Pair::from_f64(found.time));
         let mut float = found;
-        (float.trace, float.determinant) =
-            self.monodromy::<f64>(&start, time, Accuracy::FLOAT)?;
+        (float.trace, float.determinant) = self.monodromy::<f64>(&start, time, Accuracy::FLOAT)?;
         Ok(ClosedOrbit { float, pair })
     }
 

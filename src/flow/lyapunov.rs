@@ -18,8 +18,6 @@ use crate::number::rational::Rational;
 
 /// Blocks after the part that is left out.
 const BLOCKS: usize = 10;
-/// The share of the time that is left out before them.
-const LEFT_OUT: f64 = 0.1;
 /// Standard errors by which a mean has to differ from 0.
 const ERRORS: f64 = 3.0;
 
@@ -95,12 +93,7 @@ impl Variational {
 
     /// Follows the motion for a time, negative for backwards.
     pub fn exponents(&self, time: f64) -> Result<Exponents, FlowError> {
-        self.exponents_after(time, LEFT_OUT)
-    }
-
-    /// The same with this share of the time left out at the beginning.
-    pub fn exponents_after(&self, time: f64, left_out: f64) -> Result<Exponents, FlowError> {
-        follow(&self.program, self.dimension, &self.begin, time, left_out)
+        follow(&self.program, self.dimension, &self.begin, time)
     }
 }
 
@@ -128,12 +121,11 @@ fn follow(
     dimension: usize,
     begin: &[Pair],
     time: f64,
-    left_out: f64,
 ) -> Result<Exponents, FlowError> {
     let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
-    let block = time * (1.0 - left_out) / BLOCKS as f64;
-    let mut ends = vec![time * left_out];
-    ends.extend((1..=BLOCKS).map(|k| time * left_out + block * k as f64));
+    let block = time * 0.9 / BLOCKS as f64;
+    let mut ends = vec![time * 0.1];
+    ends.extend((1..=BLOCKS).map(|k| time * 0.1 + block * k as f64));
     stepper.start(0, begin, Pair::from_f64(ends[0]));
     let (mut growth, mut volume) = (Vec::new(), Vec::new());
     let mut expanded = 0.0;

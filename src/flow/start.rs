@@ -41,11 +41,7 @@ fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Ratio
 }
 
 /// The components of the free parameters at an index of the seed.
-pub fn fixed_parameters(
-    case: &Case,
-    seed: u64,
-    index: u64,
-) -> Result<Vec<Rational>, FlowError> {
+pub fn fixed_parameters(case: &Case, seed: u64, index: u64) -> Result<Vec<Rational>, FlowError> {
     drawn(case, seed, index).map(|(parameters, _)| parameters)
 }
 

@@ -20,7 +20,8 @@ pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     };
     let (float, pair) = (events(Precision::Float)?, events(Precision::Pair)?);
     let mut finding = Finding::default();
-    let kinds = |events: &[(Touch, f64)]| events.iter().map(|(touch, _)| *touch).collect::<Vec<_>>();
+    let kinds =
+        |events: &[(Touch, f64)]| events.iter().map(|(touch, _)| *touch).collect::<Vec<_>>();
     if kinds(&float) != kinds(&pair) {
         finding.leave_open("f64 and double-double see other events".to_string());
         return Ok(finding);

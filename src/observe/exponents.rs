@@ -1,6 +1,7 @@
-//! Lyapunov exponents and mean divergences, from the later half of a long run.
+//! Lyapunov exponents and mean divergences of long runs.
 //!
-//! Ten blocks give the standard errors. A regular motion shows (ln t)/t in place of 0.
+//! Ten blocks give the standard errors. A sign has to be that of the later five alone too: transients
+//! look like chaos that is gone later. A regular motion shows (ln t)/t in place of 0.
 
 use super::finding::{ERRORS, Finding};
 use super::scene::Scene;
@@ -23,13 +24,14 @@ pub fn exponent(claim: &Exponent, scene: &Scene<'_>) -> Result<Finding, FlowErro
     Ok(finding)
 }
 
-/// Positive: above what a regular motion shows, by three errors; zero: not above it.
+/// Zero: in the end not above what a regular motion shows; positive: above it and three errors.
 fn growth(found: Estimate, time: f64) -> Option<Growth> {
     let regular = libm::log(time.max(std::f64::consts::E)) / time;
-    if found.mean <= regular {
+    if found.later <= regular {
         return Some(Growth::Zero);
     }
-    (found.mean - ERRORS * found.error > regular).then_some(Growth::Positive)
+    let least = regular.max(ERRORS * found.error);
+    (found.mean.min(found.later) > least).then_some(Growth::Positive)
 }
 
 /// The mean divergence.
@@ -44,7 +46,7 @@ pub fn mean_divergence(claim: &MeanDivergence, scene: &Scene<'_>) -> Result<Find
     Ok(finding)
 }
 
-/// A sign is what is beyond three errors, and the same in the last five blocks.
+/// A sign is what is beyond three errors, and the same in the later half.
 fn tendency(found: Estimate) -> Option<Tendency> {
     if found.mean.abs() <= ERRORS * found.error {
         return Some(Tendency::Zero);
@@ -66,6 +68,8 @@ mod tests {
         assert_eq!(growth(of(0.08, 0.01), 1e4), Some(Growth::Positive), "far above");
         assert_eq!(growth(of(0.0005, 0.01), 1e4), Some(Growth::Zero), "as (ln t)/t");
         assert_eq!(growth(of(0.01, 0.004), 1e4), None, "neither");
+        let transient = Estimate { mean: 0.04, error: 0.001, later: 0.0002 };
+        assert_eq!(growth(transient, 1e4), Some(Growth::Zero), "gone in the later half");
         assert_eq!(tendency(of(-0.01, 0.001)), Some(Tendency::Negative), "ten errors");
         assert_eq!(tendency(of(-0.01, 0.004)), Some(Tendency::Zero), "two and a half");
         let turns = Estimate { mean: 0.01, error: 0.001, later: -0.001 };

@@ -37,7 +37,8 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
         quotients.push(squares.sum::<f64>().sqrt() / size);
         divisor *= 10;
     }
-    let differences: Vec<f64> = quotients.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let differences: Vec<f64> =
+        quotients.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let last = quotients.len() - 1;
     let found = Measured { value: quotients[last], error: differences[last - 1] };
     let mut finding = Finding::default();

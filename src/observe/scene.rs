@@ -11,9 +11,6 @@ use crate::flow::{
 };
 use crate::number::rational::Rational;
 
-/// The share of a long run that is left out: what passes is over by then.
-const LEFT_OUT: f64 = 0.5;
-
 /// A case with the motions that were followed.
 pub struct Scene<'c> {
     pub case: &'c Case,
@@ -65,14 +62,13 @@ impl<'c> Scene<'c> {
             Beginning::Section(at) => {
                 let plan = self.plan()?;
                 let at = [coordinates(at)];
-                let starts =
-                    section_starts(self.case, &plan.g0, &plan.energy, &at, self.seed)?;
+                let starts = section_starts(self.case, &plan.g0, &plan.energy, &at, self.seed)?;
                 starts.into_iter().next().unwrap_or(Err(FlowError::NoStart))
             }
         }
     }
 
-    /// The exponent and the mean divergence of the later half of a run.
+    /// The exponent and the mean divergence of a run.
     pub fn exponents(&self, beginning: &Beginning, time: f64) -> Result<Exponents, FlowError> {
         let name = beginning.text();
         let is_same = |run: &&(String, f64, Exponents)| run.0 == name && run.1 == time;
@@ -80,7 +76,7 @@ impl<'c> Scene<'c> {
             return Ok(*found);
         }
         let motion = Variational::new(&self.case.model, &self.start(beginning)?)?;
-        let found = motion.exponents_after(time, LEFT_OUT)?;
+        let found = motion.exponents(time)?;
         self.exponents.borrow_mut().push((name, time, found));
         Ok(found)
     }

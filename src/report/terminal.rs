@@ -3,9 +3,11 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::{Outcome, RunReport};
-use crate::verdict::{
-    CaseReport, ClaimReport, Evidence, Independence, Measurement, Sign, Verdict,
-};
+use crate::verdict::{CaseReport, ClaimReport, Independence, Measurement, Sign, Verdict};
+
+/// Decimal places of measured numbers in the table, and with `-v`.
+const SHOWN: f64 = 10.0;
+const ALL: f64 = 15.0;
 
 /// How much is shown, and whether in colour.
 #[derive(Clone, Copy, Debug)]
@@ -100,7 +102,10 @@ fn remark(claim: &ClaimReport) -> String {
     let mut words = Vec::new();
     match claim.verdict {
         _ if !evidence.measured.is_empty() => {
-            words.push(measured(evidence));
+            let stated = |found: &&Measurement| {
+                found.stated.is_some() || evidence.measured.iter().all(|one| one.stated.is_none())
+            };
+            words.extend(evidence.measured.iter().filter(stated).map(|one| measured(one, SHOWN)));
             words.extend(evidence.remark.clone());
             words.extend(evidence.reason.clone());
         }
@@ -151,17 +156,14 @@ fn remark(claim: &ClaimReport) -> String {
     words.join(", ")
 }
 
-/// Numbers with their errors, and what is stated about them.
-fn measured(evidence: &Evidence) -> String {
-    let shown = |found: &Measurement| {
-        let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
-        // The digits that the error leaves, and one more.
-        let places = -libm::floor(libm::log10(found.error)) + 1.0;
-        let places = places.clamp(0.0, 15.0) as usize;
-        let (quantity, value, error) = (&found.quantity, found.value, found.error);
-        format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
-    };
-    evidence.measured.iter().map(shown).collect::<Vec<_>>().join(", ")
+/// A number with its error, to the digits that the error leaves, and what is stated about it.
+fn measured(found: &Measurement, most: f64) -> String {
+    let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
+    let places = (1.0 - libm::floor(libm::log10(found.error))).clamp(0.0, most) as usize;
+    let (quantity, error) = (&found.quantity, found.error);
+    // Without the sign of a rounded zero.
+    let value = if found.value.abs() < error { found.value.abs() } else { found.value };
+    format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
 }
 
 fn details(report: &CaseReport) -> String {
@@ -174,6 +176,10 @@ fn details(report: &CaseReport) -> String {
         let evidence = &claim.evidence;
         if evidence.measured.is_empty() {
             out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        }
+        for (index, found) in evidence.measured.iter().enumerate() {
+            let label = if index == 0 { "measured" } else { "" };
+            out.push_str(&format!("      {label:<9} {}\n", measured(found, ALL)));
         }
         for (index, rung) in evidence.climb.iter().enumerate() {
             let label = if index == 0 { "climb" } else { "" };

@@ -1,6 +1,6 @@
 //! Motions whose crossings stay in a part of the section.
 
-use super::{Motional, Beginning, Stated, count, stated};
+use super::{Beginning, Motional, Stated, count, stated};
 use crate::claim::Reader;
 
 /// A coordinate of the section.

@@ -1,6 +1,6 @@
 //! What happens at a one-sided constraint, and when.
 
-use super::{Motional, Beginning, Stated, stated, time};
+use super::{Beginning, Motional, Stated, stated, time};
 use crate::claim::Reader;
 
 /// Something that happens at the constraint.
@@ -51,8 +51,11 @@ impl Motional for Contacts {
             Touch::Arrives => "arrives",
             Touch::Leaves => "leaves",
         };
-        let events: Vec<String> =
-            self.events.iter().map(|(touch, when)| format!("{} at {}", name(touch), when.text)).collect();
+        let events: Vec<String> = self
+            .events
+            .iter()
+            .map(|(touch, when)| format!("{} at {}", name(touch), when.text))
+            .collect();
         match events.is_empty() {
             true => "stays free".to_string(),
             false => events.join(", "),

@@ -1,6 +1,6 @@
 //! The largest Lyapunov exponent of a motion.
 
-use super::{Motional, Beginning, Stated, number, time, word};
+use super::{Beginning, Motional, Stated, number, time, word};
 use crate::claim::Reader;
 
 /// Whether neighbouring motions part exponentially.
@@ -32,7 +32,8 @@ impl Motional for Exponent {
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let words = [("positive", Growth::Positive), ("zero", Growth::Zero)];
         let growth = word(from, Self::NAME, &words)?.ok_or_else(|| from.missing(Self::NAME))?;
-        let (value, beginning, time) = (number(from, "value")?, Beginning::read(from)?, time(from)?);
+        let (value, beginning, time) =
+            (number(from, "value")?, Beginning::read(from)?, time(from)?);
         Ok(Self { growth, value, beginning, time })
     }
 

@@ -1,6 +1,6 @@
 //! Motions that tend to a periodic one.
 
-use super::{Motional, Beginning, Stated, count, point};
+use super::{Beginning, Motional, Stated, count, point};
 use crate::claim::Reader;
 
 /// The crossings tend to a cycle of the section map.

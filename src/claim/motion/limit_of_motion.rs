@@ -1,6 +1,6 @@
 //! How motions tend to a limit with a parameter.
 
-use super::{Motional, Beginning, Stated, count, number, time};
+use super::{Beginning, Motional, Stated, count, number, time};
 use crate::claim::Reader;
 use crate::claim::limit::scalar_parameter;
 use crate::formula::Formula;

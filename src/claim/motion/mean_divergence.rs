@@ -1,6 +1,6 @@
 //! The mean of div v along a motion.
 
-use super::{Motional, Beginning, Stated, number, time, word};
+use super::{Beginning, Motional, Stated, number, time, word};
 use crate::claim::Reader;
 
 /// What becomes of volumes along a motion.
@@ -38,7 +38,8 @@ impl Motional for MeanDivergence {
             ("positive", Tendency::Positive),
         ];
         let tendency = word(from, Self::NAME, &words)?.ok_or_else(|| from.missing(Self::NAME))?;
-        let (value, beginning, time) = (number(from, "value")?, Beginning::read(from)?, time(from)?);
+        let (value, beginning, time) =
+            (number(from, "value")?, Beginning::read(from)?, time(from)?);
         Ok(Self { tendency, value, beginning, time })
     }
 

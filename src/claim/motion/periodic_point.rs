@@ -1,6 +1,6 @@
 //! Fixed and periodic points of the section map.
 
-use super::{Motional, Beginning, Stated, count, number, point, word};
+use super::{Beginning, Motional, Stated, count, number, point, word};
 use crate::claim::Reader;
 
 /// What the multipliers of a periodic point say.
@@ -81,9 +81,8 @@ impl Motional for PeriodicPoint {
 
     fn text(&self) -> String {
         let named = |stability| Stability::ALL.iter().find(|(_, one)| *one == stability);
-        let kind = self.stability.and_then(named).map_or(String::new(), |(name, _)| {
-            format!("{name}, ")
-        });
+        let kind =
+            self.stability.and_then(named).map_or(String::new(), |(name, _)| format!("{name}, "));
         let period = match self.period {
             1 => "fixed point".to_string(),
             n => format!("period {n}"),
