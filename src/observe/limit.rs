@@ -10,10 +10,10 @@ use crate::number::rational::Rational;
 /// How many values of the parameter, each a tenth of the one before.
 const VALUES: i64 = 5;
 
-/// Looks whether |F(ε) - F(0)|/ε^rate tends to a constant.
+/// Looks whether |F(ε) - F(0)|/ε^order tends to a constant.
 ///
-/// With an error C ε^rate (1 + O(ε)) the quotients differ less and less; their last difference is the
-/// error of C. If they grow, the rate is lower than claimed; if C is not above its error, higher.
+/// With an error C ε^order (1 + O(ε)) the quotients differ less and less; their last difference is the
+/// error of C. If they grow, the order is lower than claimed; if C is not above its error, higher.
 pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
     let model = &scene.case.model;
@@ -31,7 +31,7 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
     let mut divisor = 1;
     for _ in 0..VALUES {
         let value = &drawn[claim.component] * &Rational::new(1, divisor);
-        let size = libm::pow(value.to_f64().0.abs(), claim.rate as f64);
+        let size = libm::pow(value.to_f64().0.abs(), claim.order as f64);
         let squares = at(value)?;
         let squares = squares.iter().zip(&limit).map(|(x, y)| (*x - *y).hi * (*x - *y).hi);
         quotients.push(squares.sum::<f64>().sqrt() / size);
@@ -49,7 +49,7 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
     if differences[last - 1] >= differences[0] {
         finding.refute("the quotients do not tend to a constant".to_string());
     } else if found.value <= found.error {
-        finding.refute("the quotients tend to 0: the rate is higher".to_string());
+        finding.refute("the quotients tend to 0: the order is higher".to_string());
     } else if differences.windows(2).any(|pair| pair[1] >= pair[0]) {
         finding.leave_open("the quotients do not settle steadily".to_string());
     }

@@ -5,7 +5,7 @@ use crate::claim::Reader;
 use crate::claim::limit::scalar_parameter;
 use crate::formula::Formula;
 
-/// After a time, |F at ε - F at ε = 0| = C ε^rate + o(ε^rate), with C as given, if it is.
+/// After a time, |F at ε - F at ε = 0| = C ε^order + o(ε^order), with C as given, if it is.
 #[derive(Clone, Debug)]
 pub struct LimitOfMotion {
     /// F, at the end of the motion.
@@ -13,7 +13,7 @@ pub struct LimitOfMotion {
     /// ε, as a component of the free parameters.
     pub component: usize,
     /// The order of the error.
-    pub rate: usize,
+    pub order: usize,
     /// C
     pub constant: Option<Stated>,
     /// The start of the motions.
@@ -25,7 +25,7 @@ pub struct LimitOfMotion {
 impl Motional for LimitOfMotion {
     const NAME: &'static str = "limit-of-motion";
     const COMPANIONS: &'static [&'static str] =
-        &["parameter", "rate", "constant", "start", "state", "time"];
+        &["parameter", "order", "constant", "start", "state", "time"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let parameter = scalar_parameter(from, "parameter")?;
@@ -36,7 +36,7 @@ impl Motional for LimitOfMotion {
         Ok(Self {
             function: from.required(Self::NAME, None)?,
             component,
-            rate: count(from, "rate")?.unwrap_or(1),
+            order: count(from, "order")?.unwrap_or(1),
             constant: number(from, "constant")?,
             beginning: Beginning::read(from)?,
             time: time(from)?,
@@ -48,6 +48,6 @@ impl Motional for LimitOfMotion {
     }
 
     fn text(&self) -> String {
-        format!("{} tends to its limit at rate {}", self.function.text(), self.rate)
+        format!("{} tends to its limit, error of order {}", self.function.text(), self.order)
     }
 }
