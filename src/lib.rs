@@ -71,6 +71,7 @@ pub mod formula;
 pub mod graph;
 pub mod mechanics;
 pub mod number;
+pub mod observe;
 pub mod proof;
 pub mod report;
 pub mod scalar;

@@ -49,7 +49,7 @@ impl Case {
         let root = Section::new("the question", document.get_ref(), 0..0, text);
         root.allow(&KEYS)?;
         let mut asked = self.clone();
-        asked.claims.clear();
+        asked.motions.clear();
         if let Some(section) = root.section("let")? {
             abbreviate(&section, &mut asked.model)?;
         }
@@ -57,10 +57,11 @@ impl Case {
             asked.model.variables = None;
             variables::read(&root, &mut asked.model)?;
         }
-        let mut stated: Vec<Claim> = Vec::new();
+        let (mut stated, mut names) = (Vec::new(), Vec::new());
         for section in root.sections("claim")? {
-            let claim = claims::read(&section, &asked.model, &stated, "")?;
+            let claim = claims::read(&section, &asked.model, &names, "")?;
             self.check_degrees(&claim, &section)?;
+            names.push(claim.name.clone());
             stated.push(claim);
         }
         asked.claims = stated;

@@ -7,8 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Claim, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare,
-    shadows, solvable, variables, velocities, weights,
+    Case, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare, shadows,
+    solvable, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 
@@ -63,9 +63,19 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         parts.chart = solvable::steps(&parts.model).map_or(Chart::Numerical, Chart::Solved);
     }
     warnings.extend(of_chart(&parts));
-    let mut claims: Vec<Claim> = Vec::new();
-    for section in root.sections("claim")? {
-        claims.push(claims::read(&section, &parts.model, &claims, &source)?);
+    let section = poincare::read(&root)?;
+    let (mut claims, mut motions, mut names) = (Vec::new(), Vec::new(), Vec::new());
+    for stated in root.sections("claim")? {
+        if claims::is_about_motion(&stated) {
+            let plan = section.as_ref();
+            let claim = claims::read_motion(&stated, &parts.model, plan, &names, &source)?;
+            names.push(claim.name.clone());
+            motions.push(claim);
+        } else {
+            let claim = claims::read(&stated, &parts.model, &names, &source)?;
+            names.push(claim.name.clone());
+            claims.push(claim);
+        }
     }
     let check = root.boolean("check-weights")?.unwrap_or(true);
     let dimensions = root.section("dimensions")?;
@@ -73,7 +83,6 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
     }
     let column = column(&root)?;
-    let section = poincare::read(&root)?;
     let one_sided = one_sided::read(&root, &parts.model)?;
     let Parts { model, chart, free_draws, .. } = parts;
     Ok(Case {
@@ -84,6 +93,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         chart,
         free_draws,
         claims,
+        motions,
         column,
         section,
         one_sided,

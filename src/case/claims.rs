@@ -3,7 +3,8 @@
 use super::body::formula;
 use super::error::{CaseError, Problem};
 use super::section::{Section, Text};
-use super::{Claim, Expect, TABLE_ROWS};
+use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
+use crate::claim::motion::{Beginning, MOTIONS, Motion};
 use crate::claim::{Kind, Place, Reader, STATEMENTS};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Model, Reach, Vocabulary};
@@ -11,17 +12,25 @@ use crate::mechanics::{Model, Reach, Vocabulary};
 /// The keys of every claim.
 const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 
+/// The keys of a claim about motion.
+const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
+
+/// Is this a claim about motion?
+pub fn is_about_motion(section: &Section<'_>) -> bool {
+    MOTIONS.iter().any(|key| section.value(key).is_some())
+}
+
 /// Reads one claim; `taken` holds the names of those before it.
 pub fn read(
     section: &Section<'_>,
     model: &Model,
-    taken: &[Claim],
+    taken: &[String],
     default_source: &str,
 ) -> Result<Claim, CaseError> {
     let kind = kind(section, model)?;
     let (place, only_there) = place(section, model)?;
     let claim = Claim {
-        name: name(section, &kind, taken)?,
+        name: name(section, kind.text().unwrap_or_else(|| kind.name().to_string()), taken)?,
         source: section.text("source")?.map_or(default_source.to_string(), |text| text.value),
         place,
         only_there,
@@ -33,6 +42,43 @@ pub fn read(
     Ok(claim)
 }
 
+/// Reads one claim about motion; `plan` is the section of the case.
+pub fn read_motion(
+    section: &Section<'_>,
+    model: &Model,
+    plan: Option<&SectionPlan>,
+    taken: &[String],
+    default_source: &str,
+) -> Result<MotionClaim, CaseError> {
+    let mut stated = STATEMENTS.iter().chain(MOTIONS).filter(|key| section.value(key).is_some());
+    let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
+    section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat())?;
+    let entries = Entries { section, model };
+    let kind = match (Motion::read(key, &entries), second) {
+        (Some(kind), None) => kind?,
+        _ => return Err(one_statement(section, 2)),
+    };
+    if plan.is_none() && matches!(kind.beginning(), Beginning::Section(_)) {
+        return Err(section.complaint(Problem::Other {
+            message: "the motion starts on a section, and the case has none".to_string(),
+            remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
+        }));
+    }
+    Ok(MotionClaim {
+        name: name(section, kind.text(), taken)?,
+        source: section.text("source")?.map_or(default_source.to_string(), |text| text.value),
+        expect: expect(section)?,
+        note: section.text("note")?.map(|text| text.value),
+        kind,
+    })
+}
+
+fn one_statement(section: &Section<'_>, given: usize) -> CaseError {
+    let message = format!("a claim makes one statement, and this one {given}");
+    let remedy = format!("give one of {}", [STATEMENTS, MOTIONS].concat().join(", "));
+    CaseError::at(section.span.clone(), Problem::Other { message, remedy })
+}
+
 fn other(text: &Text, message: String, remedy: &str) -> CaseError {
     CaseError::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }
@@ -41,19 +87,13 @@ fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
     let given: Vec<&str> =
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
     let companions = given.first().map_or(&[][..], |key| Kind::companions(key));
-    let mut known = [STATEMENTS, &COMMON].concat();
-    known.extend(companions);
-    section.allow(&known)?;
+    section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat())?;
     let entries = Entries { section, model };
     let read = match given.as_slice() {
         [key] => Kind::read(key, &entries),
         _ => None,
     };
-    let Some(kind) = read else {
-        let message = format!("a claim makes one statement, and this one {}", given.len());
-        let remedy = format!("give one of {}", STATEMENTS.join(", "));
-        return Err(CaseError::at(section.span.clone(), Problem::Other { message, remedy }));
-    };
+    let Some(kind) = read else { return Err(one_statement(section, given.len())) };
     let kind = kind?;
     match kind.objection(model) {
         None => Ok(kind),
@@ -76,6 +116,14 @@ impl Reader for Entries<'_, '_> {
 
     fn text(&self, key: &'static str) -> Result<Option<String>, CaseError> {
         Ok(self.section.text(key)?.map(|text| text.value))
+    }
+
+    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, CaseError> {
+        if self.section.value(key).is_none() {
+            return Ok(None);
+        }
+        let texts = self.section.texts(key)?;
+        Ok(Some(texts.into_iter().map(|text| text.value).collect()))
     }
 
     fn formula_in(
@@ -136,16 +184,16 @@ impl Reader for Entries<'_, '_> {
     }
 }
 
-fn name(section: &Section<'_>, kind: &Kind, taken: &[Claim]) -> Result<String, CaseError> {
+/// The name that is given, or `base`, numbered where it is taken.
+fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, CaseError> {
     if let Some(text) = section.text("name")? {
-        if taken.iter().any(|claim| claim.name == text.value) {
+        if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
             return Err(other(&text, message, "give each claim a name of its own"));
         }
         return Ok(text.value);
     }
-    let base = kind.text().unwrap_or_else(|| kind.name().to_string());
-    let free = |name: &String| taken.iter().all(|claim| claim.name != *name);
+    let free = |name: &String| !taken.contains(name);
     let numbered = (2..).map(|number| format!("{base} ({number})"));
     Ok(std::iter::once(base.clone()).chain(numbered).find(free).unwrap_or(base))
 }

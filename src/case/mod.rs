@@ -26,6 +26,7 @@ mod weights;
 
 use std::path::Path;
 
+use crate::claim::motion::Motion;
 use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
@@ -56,6 +57,8 @@ pub struct Case {
     pub free_draws: Vec<Draw>,
     /// The claims in the order of the file.
     pub claims: Vec<Claim>,
+    /// The claims about motion in the order of the file.
+    pub motions: Vec<MotionClaim>,
     /// The table and column of the paper that this case belongs to.
     pub column: Option<Column>,
     /// The Poincaré section that shows its motion.
@@ -109,6 +112,21 @@ pub struct Claim {
     pub expect: Expect,
     /// The row of the paper's table that it fills.
     pub cell: Option<String>,
+    /// A remark.
+    pub note: Option<String>,
+}
+
+/// A claim about motion with what is expected of it.
+#[derive(Clone, Debug)]
+pub struct MotionClaim {
+    /// Its name; unique in the case.
+    pub name: String,
+    /// What is claimed.
+    pub kind: Motion,
+    /// Equation number, figure, section.
+    pub source: String,
+    /// What the file expects.
+    pub expect: Expect,
     /// A remark.
     pub note: Option<String>,
 }

@@ -10,6 +10,19 @@ use crate::mechanics::Meaning;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
+/// The scalar parameter that is named under a key.
+pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result<usize, R::Error> {
+    let name = from.text(key)?.ok_or_else(|| from.missing(key))?;
+    let entry = from.model().vocabulary.find(name.trim());
+    match entry.map(|entry| (entry.meaning, entry.kind)) {
+        Some((Meaning::Parameter(index), Type::Scalar)) => Ok(index),
+        _ => {
+            let message = format!("`{name}` is no scalar parameter");
+            Err(from.complaint(key, message, "name the parameter that goes to 0"))
+        }
+    }
+}
+
 /// A → B as the parameter goes to 0, with the slope C if one is given. A has to be analytic in the
 /// parameter near 0, as what is built without dividing by it is.
 #[derive(Clone, Debug)]
@@ -31,16 +44,7 @@ impl Statement for Limit {
         let kind = Some(function.value_type());
         let value = from.required("equals", kind)?;
         let slope = from.formula("slope", kind)?;
-        let name = from.text("parameter")?.ok_or_else(|| from.missing("parameter"))?;
-        let entry = from.model().vocabulary.find(name.trim());
-        let parameter = match entry.map(|entry| (entry.meaning, entry.kind)) {
-            Some((Meaning::Parameter(index), Type::Scalar)) => index,
-            _ => {
-                let message = format!("`{name}` is no scalar parameter");
-                let remedy = "name the parameter that goes to 0";
-                return Err(from.complaint("parameter", message, remedy));
-            }
-        };
+        let parameter = scalar_parameter(from, "parameter")?;
         if slope.is_some() && from.model().has_antiderivative(&function) {
             let message =
                 "the slope of an ∫ by a parameter is open, as its constant is".to_string();

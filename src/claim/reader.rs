@@ -14,6 +14,9 @@ pub trait Reader {
     /// The text under a key.
     fn text(&self, key: &'static str) -> Result<Option<String>, Self::Error>;
 
+    /// The texts of a list; one text by itself is a list of one.
+    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, Self::Error>;
+
     /// The formula under a key, in the names of `scope`; of any kind if none is given.
     fn formula_in(
         &self,

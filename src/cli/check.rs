@@ -11,6 +11,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
     let run = files::judge(
         &options.paths,
         &Options { mutants: options.mutants, ..options.sampling.options() },
+        options.motion,
         options.sampling.threads,
     )?;
     let text = if options.json {

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use liouville::case::Case;
+use liouville::observe;
 use liouville::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::verdict::{self, Options};
 use rayon::prelude::*;
@@ -13,10 +14,11 @@ use rayon::prelude::*;
 /// A progress bar appears after this time.
 const BLINK: Duration = Duration::from_millis(300);
 
-/// Judges every case under `paths`.
+/// Judges every case under `paths`; the claims about motion too, if `motion` says so.
 pub fn judge(
     paths: &[PathBuf],
     options: &Options,
+    motion: bool,
     threads: Option<usize>,
 ) -> Result<RunReport, String> {
     let started = Instant::now();
@@ -32,7 +34,7 @@ pub fn judge(
             .par_iter()
             .map(|file| {
                 let outcome = match file {
-                    Ok(path) => judge_file(path, options),
+                    Ok(path) => judge_file(path, options, motion),
                     Err((path, problem)) => failed(path, problem.clone()),
                 };
                 advance(&bar, started);
@@ -124,7 +126,7 @@ fn failed(path: &Path, problem: Failure) -> Outcome {
     Outcome { path, heading: Heading::default(), result: Err(problem) }
 }
 
-fn judge_file(path: &Path, options: &Options) -> Outcome {
+fn judge_file(path: &Path, options: &Options, motion: bool) -> Outcome {
     let shown = path.display().to_string();
     let (text, case) = Case::read(path, &[]);
     let case = match case {
@@ -133,8 +135,11 @@ fn judge_file(path: &Path, options: &Options) -> Outcome {
             return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
-    let result = verdict::judge(&case, options)
-        .map_err(|error| plain(path, &error.to_string(), error.help()));
+    let judged = match motion {
+        true => observe::judge(&case, options),
+        false => verdict::judge(&case, options),
+    };
+    let result = judged.map_err(|error| plain(path, &error.to_string(), error.help()));
     let heading = Heading {
         title: case.title,
         source: case.source,

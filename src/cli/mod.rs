@@ -101,6 +101,9 @@ pub struct Check {
     /// Perturb every true formula, and refute each mutant that is not equivalent
     #[arg(long)]
     pub mutants: bool,
+    /// Follow motions too, for the claims about them: minutes for all of cases/figures
+    #[arg(long)]
+    pub motion: bool,
     /// Show witnesses and how each verdict came about
     #[arg(short, long)]
     pub verbose: bool,

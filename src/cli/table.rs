@@ -5,7 +5,8 @@ use liouville::report::table;
 use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
-    let run = files::judge(&options.paths, &options.sampling.options(), options.sampling.threads)?;
+    let run =
+        files::judge(&options.paths, &options.sampling.options(), false, options.sampling.threads)?;
     for outcome in &run.outcomes {
         if let Err(failure) = &outcome.result {
             anstream::eprintln!("{}", failure.rendered);

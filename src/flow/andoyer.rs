@@ -66,9 +66,19 @@ pub fn coordinates(state: &[Pair]) -> [f64; 2] {
     [if l < 0.0 { (l + turn).min(turn.next_down()) } else { l }, z / length]
 }
 
+/// The way from one state to another near it in (l, L/G), to the relative accuracy of f64.
+pub fn displacement(from: &[Pair], to: &[Pair]) -> [f64; 2] {
+    let length = |x: &[Pair]| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+    let (a, b) = (length(from).recip(), length(to).recip());
+    let along = from[0] * to[0] + from[1] * to[1];
+    let turned = to[0] * from[1] - to[1] * from[0];
+    [libm::atan2(turned.hi, along.hi), (to[2] * b - from[2] * a).hi]
+}
+
 /// States of the section at an energy.
 pub struct Chart<'m> {
-    model: &'m Model,
+    /// The model whose states they are.
+    pub model: &'m Model,
     parameters: Vec<Rational>,
     tape: Tape,
 }
@@ -109,14 +119,20 @@ impl<'m> Chart<'m> {
 
     /// The state over (l, L/G).
     pub fn start(&self, at: [f64; 2]) -> Result<Start, FlowError> {
-        if !at[0].is_finite() || at[1].abs() >= 1.0 || at[1].is_nan() {
-            return Err(FlowError::OffSphere { l: at[0], z: at[1] });
+        self.start_at(at.map(Pair::from_f64))
+    }
+
+    /// The same for a point of more digits.
+    pub fn start_at(&self, at: [Pair; 2]) -> Result<Start, FlowError> {
+        let [l, z] = at.map(|x| x.hi);
+        if !l.is_finite() || z.abs() >= 1.0 || z.is_nan() {
+            return Err(FlowError::OffSphere { l, z });
         }
         let mut evaluator = Evaluator::new(&self.tape, Pairs);
-        evaluator.run(&at.map(Pair::from_f64));
+        evaluator.run(&at);
         let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
         if outputs[0].hi.is_nan() || outputs[0].hi <= 0.0 {
-            return Err(FlowError::BelowPotential { l: at[0], z: at[1], potential: outputs[1].hi });
+            return Err(FlowError::BelowPotential { l, z, potential: outputs[1].hi });
         }
         Start::near(self.model, self.parameters.clone(), outputs[2..].to_vec())
     }

@@ -23,6 +23,9 @@ pub enum FlowError {
     /// The section has other variables than this system.
     #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
     NoAndoyer,
+    /// A section that the case does not have.
+    #[error("the case has no [section]")]
+    NoSection,
     /// A point that is not on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
@@ -93,6 +96,7 @@ impl FlowError {
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { .. } => "choose another start, or a shorter time",
             FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => "choose another start, or another g0",

@@ -14,6 +14,7 @@ use super::stepper::{Accuracy, Stepper};
 use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::number::pair::Pair;
+use crate::number::rational::Rational;
 
 /// Blocks after the part that is left out.
 const BLOCKS: usize = 10;
@@ -83,15 +84,7 @@ impl Variational {
     /// The motion from a start, the vector along the level set.
     pub fn new(model: &Model, start: &Start) -> Result<Self, FlowError> {
         let dimension = model.dimension();
-        let program = extended_program(model, &start.parameters, dimension + 1, |phase, more| {
-            let jet = Jet::new(phase.with(&[], &phase.state()));
-            let along = jet.phase.lift(&more[..dimension]);
-            let mut rates = jet.phase.field().to_vec();
-            rates.extend(along.field().iter().map(|rate| rate.eps));
-            let level = vec![true; model.level.len()];
-            rates.push(jet.divergence() - jet.level_cofactor(&level));
-            (rates, Vec::new())
-        })?;
+        let program = variational_program(model, &start.parameters, 1)?;
         let mut begin = start.state.clone();
         begin.extend(across_level(model, start)?.into_iter().map(Pair::from_f64));
         begin.push(Pair::default());
@@ -102,6 +95,25 @@ impl Variational {
     pub fn exponents(&self, time: f64) -> Result<Exponents, FlowError> {
         follow(&self.program, self.dimension, &self.begin, time)
     }
+}
+
+/// The field with this many vectors along the flow, and div v on the level, behind the state.
+pub(super) fn variational_program(
+    model: &Model,
+    parameters: &[Rational],
+    vectors: usize,
+) -> Result<Program, FlowError> {
+    let dimension = model.dimension();
+    extended_program(model, parameters, vectors * dimension + 1, |phase, more| {
+        let jet = Jet::new(phase.with(&[], &phase.state()));
+        let mut rates = jet.phase.field().to_vec();
+        for vector in more[..vectors * dimension].chunks(dimension) {
+            rates.extend(jet.phase.lift(vector).field().iter().map(|rate| rate.eps));
+        }
+        let level = vec![true; model.level.len()];
+        rates.push(jet.divergence() - jet.level_cofactor(&level));
+        (rates, Vec::new())
+    })
 }
 
 fn follow(

@@ -9,6 +9,7 @@
 //! over double-double.
 
 mod andoyer;
+mod closed;
 mod compile;
 mod error;
 mod event;
@@ -28,12 +29,13 @@ mod start;
 mod stepper;
 
 pub use andoyer::spread;
+pub use closed::{ClosedOrbit, Measured};
 pub use error::FlowError;
 pub use lyapunov::{Character, Estimate, Exponents, Variational};
 pub use one_sided::{Contact, ContactEvent};
-pub use orbit::{Followed, Orbit, Precision, Role, orbit};
+pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
 pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
 pub use section::{
     Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
 };
-pub use start::Start;
+pub use start::{Start, fixed_parameters};

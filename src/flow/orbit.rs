@@ -205,6 +205,19 @@ fn norm(parts: impl Iterator<Item = f64>) -> f64 {
     parts.map(|x| x * x).sum::<f64>().sqrt()
 }
 
+/// The components of a formula at a state.
+pub fn value_at(
+    model: &Model,
+    formula: &Formula,
+    parameters: &[Rational],
+    state: &[Pair],
+) -> Result<Vec<Pair>, FlowError> {
+    let (graph, components) = record(model.dimension(), |state| {
+        Source::Formula(formula).values(&point(model, parameters, state))
+    })?;
+    Ok(values(&Tape::new(&graph, &components), state))
+}
+
 fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
     let mut evaluator = Evaluator::new(tape, Pairs);
     evaluator.run(state);

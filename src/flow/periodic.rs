@@ -8,7 +8,7 @@ use super::event::{Event, Sides, value};
 use super::motion::program;
 use super::number::Number;
 use super::program::Program;
-use super::start::fixed_parameters;
+use super::start::{Start, fixed_parameters};
 use super::stepper::{Accuracy, Stepper};
 use crate::case::{Angle, Case};
 use crate::number::pair::Pair;
@@ -86,7 +86,7 @@ impl PeriodicPoint {
 
 /// The map from the section g = g₀ to itself, crossings in both directions.
 pub struct SectionMap<'c> {
-    chart: Chart<'c>,
+    pub(super) chart: Chart<'c>,
     program: Program,
 }
 
@@ -110,7 +110,18 @@ impl<'c> SectionMap<'c> {
     /// Where a point is after some crossings, and when.
     pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
         let start = self.chart.start(at)?;
-        let mut stepper = Stepper::<f64>::new(&self.program, Accuracy::FLOAT);
+        let (state, time) = self.follow::<f64>(&start, crossings, Accuracy::FLOAT)?;
+        Ok((coordinates(&state), time.hi))
+    }
+
+    /// The state at a later crossing, and when that is.
+    pub(super) fn follow<T: Number<One = T>>(
+        &self,
+        start: &Start,
+        crossings: usize,
+        accuracy: Accuracy,
+    ) -> Result<(Vec<Pair>, Pair), FlowError> {
+        let mut stepper = Stepper::<T>::new(&self.program, accuracy);
         stepper.start(0, &start.state, Pair::from_f64(NEVER));
         let (mut sides, mut met) = (Sides::default(), 0);
         while stepper.steps(0) < MAX_STEPS_BETWEEN * crossings as u64 {
@@ -124,8 +135,7 @@ impl<'c> SectionMap<'c> {
                 }
                 met += 1;
                 if met == crossings {
-                    let time = piece.begin().hi + after;
-                    return Ok((coordinates(&piece.state(after)), time));
+                    return Ok((piece.state(after), piece.begin() + after.pair()));
                 }
             }
             stepper.advance();
@@ -140,7 +150,11 @@ impl<'c> SectionMap<'c> {
     }
 
     /// The derivative of Φⁿ: central differences at two distances, extrapolated.
-    fn derivative(&self, at: [f64; 2], period: usize) -> Result<[[f64; 2]; 2], FlowError> {
+    pub(super) fn derivative(
+        &self,
+        at: [f64; 2],
+        period: usize,
+    ) -> Result<[[f64; 2]; 2], FlowError> {
         let difference = |column: usize, distance: f64| {
             let moved = |sign: f64| {
                 let mut point = at;
@@ -170,17 +184,15 @@ impl<'c> SectionMap<'c> {
         for _ in 0..MAX_STEPS {
             let ([dl, dz], time) = self.defect(at, period)?;
             let residual = libm::hypot(dl, dz);
-            let [[a, c], [b, d]] = self.derivative(at, period)?;
+            let columns = self.derivative(at, period)?;
             if residual <= RESIDUAL || (residual >= best && residual < 1e3 * RESIDUAL) {
+                let [[a, c], [b, d]] = columns;
                 let (trace, determinant) = (a + d, a * d - b * c);
                 let at = [(at[0] + 2.0 * PI) % (2.0 * PI), at[1]];
                 return Ok(PeriodicPoint { at, period, time, residual, trace, determinant });
             }
             best = best.min(residual);
-            // (Φ' - E) step = -defect
-            let (p, s) = (a - 1.0, d - 1.0);
-            let determinant = p * s - b * c;
-            let step = [-(s * dl - b * dz) / determinant, -(p * dz - c * dl) / determinant];
+            let step = newton_step(columns, [dl, dz]);
             at = [at[0] + step[0], at[1] + step[1]];
             if !step[0].is_finite() || step[0].abs() > PI || at[1].abs() >= 1.0 {
                 break;
@@ -188,6 +200,13 @@ impl<'c> SectionMap<'c> {
         }
         Err(FlowError::NoPeriodicPoint { l: near[0], z: near[1], period })
     }
+}
+
+/// (Φ' - E) step = -defect, Φ' by its columns.
+pub(super) fn newton_step([[a, c], [b, d]]: [[f64; 2]; 2], [dl, dz]: [f64; 2]) -> [f64; 2] {
+    let (p, s) = (a - 1.0, d - 1.0);
+    let determinant = p * s - b * c;
+    [-(s * dl - b * dz) / determinant, -(p * dz - c * dl) / determinant]
 }
 
 /// An angle difference between -π and π.

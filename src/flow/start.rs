@@ -6,7 +6,7 @@ use super::error::FlowError;
 use super::motion::point;
 use super::number::Number;
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::{Place, Point};
 use crate::graph::{Evaluator, Tape, record};
 use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -41,11 +41,7 @@ fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Ratio
 }
 
 /// The components of the free parameters at an index of the seed.
-pub(super) fn fixed_parameters(
-    case: &Case,
-    seed: u64,
-    index: u64,
-) -> Result<Vec<Rational>, FlowError> {
+pub fn fixed_parameters(case: &Case, seed: u64, index: u64) -> Result<Vec<Rational>, FlowError> {
     drawn(case, seed, index).map(|(parameters, _)| parameters)
 }
 
@@ -60,6 +56,22 @@ impl Start {
         let (parameters, drawn) = drawn(case, seed, index)?;
         let state = state.unwrap_or(&drawn).iter().map(Pair::from_rational).collect();
         Self::near(&case.model, parameters, state)
+    }
+
+    /// A point of a claim, with these values of the free parameters.
+    pub fn at(
+        model: &Model,
+        parameters: Vec<Rational>,
+        claimed: &Point,
+    ) -> Result<Self, FlowError> {
+        let (graph, components) = record(model.dimension(), |state| {
+            claimed.components(&point(model, &parameters, state))
+        })?;
+        let tape = Tape::new(&graph, &components);
+        let mut evaluator = Evaluator::new(&tape, Pairs);
+        evaluator.run(&vec![Pair::default(); model.dimension()]);
+        let state = evaluator.outputs().copied().collect();
+        Self::near(model, parameters, state)
     }
 
     /// The state of the level set nearest to this one, by Newton's method across the level.
@@ -127,6 +139,50 @@ impl Level {
         }
         Err(FlowError::NoStart)
     }
+}
+
+/// An orthonormal basis of the tangent space of the level set at a start, by the method of Gram and
+/// Schmidt: the gradients first, then the axes, that with the longest rest next.
+pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>, FlowError> {
+    let level = Level::new(model, &start.parameters)?;
+    let mut evaluator = Evaluator::new(&level.tape, Pairs);
+    evaluator.run(&start.state);
+    let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+    let dimension = model.dimension();
+    let mut unit: Vec<Vec<Pair>> = Vec::new();
+    for gradient in outputs[level.equations..].chunks(dimension) {
+        unit.push(normalised(across(gradient, &unit)));
+    }
+    let axis = |k: usize| {
+        let mut axis = vec![Pair::default(); dimension];
+        axis[k] = Pair::from_f64(1.0);
+        axis
+    };
+    while unit.len() < dimension {
+        let rests = (0..dimension).map(|k| across(&axis(k), &unit));
+        let longest = rests.max_by(|a, b| dot(a, a).hi.total_cmp(&dot(b, b).hi));
+        unit.extend(longest.map(normalised));
+    }
+    Ok(unit.split_off(level.equations))
+}
+
+fn dot(a: &[Pair], b: &[Pair]) -> Pair {
+    a.iter().zip(b).fold(Pair::default(), |sum, (x, y)| sum + *x * *y)
+}
+
+fn normalised(vector: Vec<Pair>) -> Vec<Pair> {
+    let factor = dot(&vector, &vector).sqrt().recip();
+    vector.into_iter().map(|x| x * factor).collect()
+}
+
+/// What is left of a vector across unit vectors; twice is enough against rounding.
+fn across(vector: &[Pair], unit: &[Vec<Pair>]) -> Vec<Pair> {
+    let mut rest = vector.to_vec();
+    for e in unit.iter().chain(unit) {
+        let along = dot(&rest, e);
+        rest.iter_mut().zip(e).for_each(|(x, e)| *x = *x - along * *e);
+    }
+    rest
 }
 
 /// A unit vector along the level set at a start, in no special direction.

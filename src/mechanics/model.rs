@@ -189,6 +189,14 @@ impl Model {
         self.parameters.iter().filter(|parameter| matches!(parameter.origin, Origin::Free(_)))
     }
 
+    /// Where parameter `index` stands among the components of the free ones, if it is free.
+    pub fn free_component(&self, index: usize) -> Option<usize> {
+        let is_free = |parameter: &Parameter| matches!(parameter.origin, Origin::Free(_));
+        let before = self.parameters[..index].iter().filter(|parameter| is_free(parameter));
+        let start = before.map(|parameter| components(parameter.kind)).sum();
+        is_free(&self.parameters[index]).then_some(start)
+    }
+
     /// The draws that make the free parameters, in order.
     pub fn parameter_draws(&self) -> Vec<Draw> {
         self.recipes().flat_map(Recipe::draws).collect()

@@ -97,6 +97,9 @@ pub struct Summary {
     pub disagreements: usize,
     /// Files that could not be judged.
     pub errors: usize,
+    /// Claims about motion that were left alone.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub motions_left: usize,
     /// What became of mutants, if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mutants: Option<MutantCounts>,
@@ -115,6 +118,11 @@ pub struct MutantCounts {
     pub equivalent: usize,
     /// Proved, and independent of what is known.
     pub discovered: usize,
+}
+
+/// Is a count not worth telling?
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl RunReport {
@@ -139,7 +147,10 @@ impl RunReport {
         let mut summary = Summary { seconds: self.elapsed.as_secs_f64(), ..Summary::default() };
         for outcome in &self.outcomes {
             match outcome.result {
-                Ok(_) => summary.cases += 1,
+                Ok(ref report) => {
+                    summary.cases += 1;
+                    summary.motions_left += report.motions_left;
+                }
                 Err(_) => summary.errors += 1,
             }
         }

@@ -3,7 +3,11 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::{Outcome, RunReport};
-use crate::verdict::{CaseReport, ClaimReport, Independence, Sign, Verdict};
+use crate::verdict::{CaseReport, ClaimReport, Independence, Measurement, Sign, Verdict};
+
+/// Decimal places of measured numbers in the table, and with `-v`.
+const SHOWN: f64 = 10.0;
+const ALL: f64 = 15.0;
 
 /// How much is shown, and whether in colour.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +101,14 @@ fn remark(claim: &ClaimReport) -> String {
     let evidence = &claim.evidence;
     let mut words = Vec::new();
     match claim.verdict {
+        _ if !evidence.measured.is_empty() => {
+            let stated = |found: &&Measurement| {
+                found.stated.is_some() || evidence.measured.iter().all(|one| one.stated.is_none())
+            };
+            words.extend(evidence.measured.iter().filter(stated).map(|one| measured(one, SHOWN)));
+            words.extend(evidence.remark.clone());
+            words.extend(evidence.reason.clone());
+        }
         Verdict::Confirmed | Verdict::Proved => {
             words.push(evidence.holds.join("; "));
             match evidence.independence {
@@ -134,11 +146,24 @@ fn remark(claim: &ClaimReport) -> String {
         }
         Verdict::Undecided => {}
     }
+    if !evidence.measured.is_empty() {
+        return words.join("; ");
+    }
     if claim.verdict == Verdict::Undecided || (!claim.agrees && claim.verdict != Verdict::Refuted) {
         words.extend(evidence.reason.clone());
     }
     words.retain(|word| !word.is_empty());
     words.join(", ")
+}
+
+/// A number with its error, to the digits that the error leaves, and what is stated about it.
+fn measured(found: &Measurement, most: f64) -> String {
+    let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
+    let places = (1.0 - libm::floor(libm::log10(found.error))).clamp(0.0, most) as usize;
+    let (quantity, error) = (&found.quantity, found.error);
+    // Without the sign of a rounded zero.
+    let value = if found.value.abs() < error { found.value.abs() } else { found.value };
+    format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
 }
 
 fn details(report: &CaseReport) -> String {
@@ -149,7 +174,13 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        if evidence.measured.is_empty() {
+            out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+        }
+        for (index, found) in evidence.measured.iter().enumerate() {
+            let label = if index == 0 { "measured" } else { "" };
+            out.push_str(&format!("      {label:<9} {}\n", measured(found, ALL)));
+        }
         for (index, rung) in evidence.climb.iter().enumerate() {
             let label = if index == 0 { "climb" } else { "" };
             out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
@@ -228,6 +259,10 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if summary.motions_left > 0 {
+        let left = count(summary.motions_left, "claim");
+        line.push_str(&format!("; {left} about motion not looked at: add --motion"));
     }
     if let Some(mutants) = summary.mutants {
         line.push_str(&format!(

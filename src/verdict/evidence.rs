@@ -131,13 +131,27 @@ pub struct Rung {
     pub found: String,
 }
 
+/// A number that was measured on a motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measurement {
+    /// What it is.
+    pub quantity: String,
+    /// Its value.
+    pub value: f64,
+    /// An estimate of its error, from the computation itself.
+    pub error: f64,
+    /// What the claim states, as it is typed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stated: Option<String>,
+}
+
 /// The grounds of a verdict.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
     /// The rung that settled it. `folding`: the residual became the constant 0, or another, while it
     /// was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, with twice
     /// its digits, with more. `ball at numerical states`: where the level set has no parametrisation.
-    /// `prime field`: an identity tested modulo random primes.
+    /// `prime field`: an identity tested modulo random primes. `motion`: numbers from motions.
     pub method: &'static str,
     /// The proof, where there is one.
     #[serde(flatten)]
@@ -173,6 +187,9 @@ pub struct Evidence {
     /// Where a claim is refuted; where functions are independent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
+    /// For claims about motion: what was measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub measured: Vec<Measurement>,
     /// All rungs, in order.
     pub climb: Vec<Rung>,
     /// Why a claim is undecided, or what its verdict leaves open.

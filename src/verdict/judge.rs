@@ -53,6 +53,8 @@ pub struct CaseReport {
     pub warnings: Vec<String>,
     /// What became of mutants, if they were asked for.
     pub mutants: Option<MutationReport>,
+    /// How many claims about motion were left alone.
+    pub motions_left: usize,
 }
 
 /// Why a case cannot be judged.
@@ -136,7 +138,7 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case.
+/// Judges all claims of a case but those about motion, which [`observe`](crate::observe) looks at.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
@@ -175,5 +177,5 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         .map(|(item, finding)| report(case, item, finding, options))
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
-    Ok(CaseReport { claims, warnings, mutants })
+    Ok(CaseReport { claims, warnings, mutants, motions_left: case.motions.len() })
 }

@@ -28,7 +28,9 @@ mod state;
 mod wider;
 mod witness;
 
-pub use evidence::{ClaimReport, Evidence, Independence, Proof, Rung, Sign, Verdict, Witness};
+pub use evidence::{
+    ClaimReport, Evidence, Independence, Measurement, Proof, Rung, Sign, Verdict, Witness,
+};
 pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
 pub use mutants::{MutantReport, MutationReport};
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};

@@ -1,0 +1,45 @@
+//! Where a motion starts that a claim is about.
+
+use super::{Stated, point};
+use crate::claim::Reader;
+use crate::claim::point::{Point, read_point};
+
+/// The start of a motion.
+#[derive(Clone, Debug)]
+pub enum Beginning {
+    /// The state over (l, L/G) on the section of the case, at its energy.
+    Section([Stated; 2]),
+    /// A state by its variables.
+    State(Point),
+}
+
+impl Beginning {
+    /// The keys under which it stands.
+    pub const KEYS: [&'static str; 2] = ["start", "state"];
+
+    /// Reads `start = [l, L/G]` or `state = { … }`.
+    pub fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        match (point(from, "start")?, read_point(from, "state")?) {
+            (Some(at), None) => Ok(Beginning::Section(at)),
+            (None, Some(state)) => Ok(Beginning::State(state)),
+            (None, None) => Err(from.missing("start")),
+            (Some(_), Some(_)) => {
+                let message = "a motion has one start, and this one two".to_string();
+                Err(from.complaint("state", message, "remove `start` or `state`"))
+            }
+        }
+    }
+
+    /// Reads `start = [l, L/G]`.
+    pub fn on_section<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        point(from, "start")?.map(Beginning::Section).ok_or_else(|| from.missing("start"))
+    }
+
+    /// How a report names it.
+    pub fn text(&self) -> String {
+        match self {
+            Beginning::Section([l, z]) => format!("({}, {})", l.text, z.text),
+            Beginning::State(point) => point.text.clone(),
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Motions that tend to a periodic one.
+
+use super::{Beginning, Motional, Stated, count, point};
+use crate::claim::Reader;
+
+/// The crossings tend to a cycle of the section map.
+#[derive(Clone, Debug)]
+pub struct LimitCycle {
+    /// How many points the cycle has.
+    pub period: usize,
+    /// One of them.
+    pub point: Option<[Stated; 2]>,
+    /// Where the motion starts.
+    pub beginning: Beginning,
+    /// For how many crossings it is followed.
+    pub crossings: usize,
+}
+
+impl Motional for LimitCycle {
+    const NAME: &'static str = "limit-cycle";
+    const COMPANIONS: &'static [&'static str] = &["start", "crossings", "point"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let period = count(from, Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
+        let crossings = count(from, "crossings")?.ok_or_else(|| from.missing("crossings"))?;
+        if crossings < 8 * period {
+            let message = format!("{crossings} crossings do not show a cycle of period {period}");
+            return Err(from.complaint("crossings", message, "follow the motion for longer"));
+        }
+        let (point, beginning) = (point(from, "point")?, Beginning::on_section(from)?);
+        Ok(Self { period, point, beginning, crossings })
+    }
+
+    fn beginning(&self) -> &Beginning {
+        &self.beginning
+    }
+
+    fn text(&self) -> String {
+        format!("tends to a cycle of period {} from {}", self.period, self.beginning.text())
+    }
+}

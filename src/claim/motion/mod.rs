@@ -1,0 +1,168 @@
+//! Claims about motion: what long orbits, periodic points and limits of orbits show.
+//!
+//! They have no residual that could be proved to vanish. They are observed: confirmed or refuted by
+//! numbers with their errors. Each kind is one file that says what is claimed; `observe` looks.
+
+mod beginning;
+mod confined;
+mod contacts;
+mod exponent;
+mod limit_cycle;
+mod limit_of_motion;
+mod mean_divergence;
+mod periodic_point;
+mod stated;
+
+use super::Reader;
+
+pub use beginning::Beginning;
+pub use confined::{Axis, Confined};
+pub use contacts::{Contacts, Touch};
+pub use exponent::{Exponent, Growth};
+pub use limit_cycle::LimitCycle;
+pub use limit_of_motion::LimitOfMotion;
+pub use mean_divergence::{MeanDivergence, Tendency};
+pub use periodic_point::{PeriodicPoint, Stability};
+pub use stated::Stated;
+
+/// A kind of claim about motion: how it is read.
+pub trait Motional: Clone {
+    /// Its key in case files, and its name in reports.
+    const NAME: &'static str;
+    /// The keys that may stand beside it.
+    const COMPANIONS: &'static [&'static str];
+
+    /// Reads it.
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
+
+    /// Where the motion starts.
+    fn beginning(&self) -> &Beginning;
+
+    /// What is stated, in a few words.
+    fn text(&self) -> String;
+}
+
+/// Lists the kinds of claims about motion; each is one [`Motional`], written in one file.
+macro_rules! kinds {
+    ($($kind:ident),* $(,)?) => {
+        /// What is claimed of motions.
+        #[derive(Clone, Debug)]
+        pub enum Motion {
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
+        }
+
+        /// What a claim about motion can state: the keys under which the statements stand.
+        pub const MOTIONS: &[&str] = &[$($kind::NAME),*];
+
+        impl Motion {
+            /// Reads the statement that stands under `key`, one of [`MOTIONS`].
+            pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
+                match key {
+                    $(_ if key == $kind::NAME => Some($kind::read(from).map(Motion::$kind)),)*
+                    _ => None,
+                }
+            }
+
+            /// The keys that may stand beside the statement under `key`.
+            pub fn companions(key: &str) -> &'static [&'static str] {
+                match key {
+                    $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
+                    _ => &[],
+                }
+            }
+
+            /// The kind's name in case files and reports.
+            pub fn name(&self) -> &'static str {
+                match self { $(Motion::$kind(_) => $kind::NAME,)* }
+            }
+
+            /// Where the motion starts.
+            pub fn beginning(&self) -> &Beginning {
+                match self { $(Motion::$kind(claim) => claim.beginning(),)* }
+            }
+
+            /// What is stated, in a few words.
+            pub fn text(&self) -> String {
+                match self { $(Motion::$kind(claim) => claim.text(),)* }
+            }
+        }
+    };
+}
+
+kinds! {
+    Exponent,
+    MeanDivergence,
+    PeriodicPoint,
+    LimitCycle,
+    Confined,
+    LimitOfMotion,
+    Contacts,
+}
+
+/// The number under a key.
+fn number<R: Reader>(from: &R, key: &'static str) -> Result<Option<Stated>, R::Error> {
+    let Some(text) = from.text(key)? else { return Ok(None) };
+    stated(from, key, &text).map(Some)
+}
+
+/// The number that must stand under a key.
+fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::Error> {
+    number(from, key)?.ok_or_else(|| from.missing(key))
+}
+
+fn stated<R: Reader>(from: &R, key: &'static str, text: &str) -> Result<Stated, R::Error> {
+    Stated::parse(text).ok_or_else(|| {
+        let message = format!("`{text}` is no number");
+        from.complaint(key, message, "write 1.234, 3/7, π/2, or \"0.035 ± 0.003\"")
+    })
+}
+
+/// The point [l, L/G] under a key.
+fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, R::Error> {
+    let Some(texts) = from.texts(key)? else { return Ok(None) };
+    let numbers =
+        texts.iter().map(|text| stated(from, key, text)).collect::<Result<Vec<_>, _>>()?;
+    let count = numbers.len();
+    <[Stated; 2]>::try_from(numbers).map(Some).map_err(|_| {
+        let message = format!("a point of the section has two coordinates, and this one {count}");
+        from.complaint(key, message, "write [l, L/G]")
+    })
+}
+
+/// A whole number from 1 on.
+fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Error> {
+    let Some(text) = from.text(key)? else { return Ok(None) };
+    match text.parse() {
+        Ok(count) if count > 0 => Ok(Some(count)),
+        _ => Err(from.complaint(key, format!("`{text}` is no count"), "write 1, 2, 3, …")),
+    }
+}
+
+/// How long a motion is followed: a positive time.
+fn time<R: Reader>(from: &R) -> Result<f64, R::Error> {
+    let time = required_number(from, "time")?;
+    match time.value > 0.0 {
+        true => Ok(time.value),
+        false => {
+            let message = format!("a motion cannot be followed for the time {}", time.text);
+            Err(from.complaint("time", message, "write a positive number"))
+        }
+    }
+}
+
+/// One of some words.
+fn word<R: Reader, T: Copy>(
+    from: &R,
+    key: &'static str,
+    words: &[(&str, T)],
+) -> Result<Option<T>, R::Error> {
+    let Some(text) = from.text(key)? else { return Ok(None) };
+    match words.iter().find(|(word, _)| *word == text.trim()) {
+        Some((_, meaning)) => Ok(Some(*meaning)),
+        None => {
+            let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+            let message = format!("`{text}` is not what can be claimed here");
+            Err(from.complaint(key, message, &format!("write {}", known.join(" or "))))
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Numbers as a case states them, with the accuracy that their digits claim.
+
+use std::f64::consts::PI;
+
+use crate::number::rational::Rational;
+
+/// A number with what its spelling says about its accuracy.
+///
+/// `1`, `3/7`, `π/2` are exact; `0.0331941` is right up to one unit in its last place; `0.035 ± 0.003`
+/// has a standard error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stated {
+    /// As it is typed.
+    pub text: String,
+    /// The nearest f64.
+    pub value: f64,
+    /// One unit in the last place of a decimal; 0 for an exact number.
+    pub unit: f64,
+    /// The standard error, where one is given.
+    pub error: f64,
+}
+
+impl Stated {
+    /// Reads a number; `None` where it is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim().replace("pi", "π").replace('−', "-");
+        let (number, error) = match text.split_once('±') {
+            Some((number, error)) => {
+                let error: Rational = error.trim().parse().ok()?;
+                (number.trim(), error.to_f64().0)
+            }
+            None => (text.as_str(), 0.0),
+        };
+        let value = match number.split_once('π') {
+            Some((factor, divisor)) => multiple_of_pi(factor.trim(), divisor.trim())?,
+            None => number.parse::<Rational>().ok()?.to_f64().0,
+        };
+        Some(Self { value, unit: unit(number), error, text })
+    }
+}
+
+/// f π/d
+fn multiple_of_pi(factor: &str, divisor: &str) -> Option<f64> {
+    let factor = match factor.trim_end_matches('*') {
+        "" => 1.0,
+        "-" => -1.0,
+        factor => factor.parse().ok()?,
+    };
+    let divisor: f64 = match divisor.strip_prefix('/') {
+        None if divisor.is_empty() => 1.0,
+        None => return None,
+        Some(divisor) => divisor.trim().parse().ok()?,
+    };
+    Some(factor * PI / divisor)
+}
+
+/// One unit in the last place of a decimal.
+fn unit(number: &str) -> f64 {
+    let (digits, exponent) = match number.split_once(['e', 'E']) {
+        Some((digits, exponent)) => (digits, exponent.parse().unwrap_or(0)),
+        None => (number, 0),
+    };
+    match digits.split_once('.') {
+        Some((_, decimals)) => libm::pow(10.0, f64::from(exponent - decimals.len() as i32)),
+        None => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spelling_tells_the_accuracy() {
+        let read = |text| Stated::parse(text).map(|s| (s.value, s.unit, s.error));
+        assert_eq!(read("1"), Some((1.0, 0.0, 0.0)), "exact");
+        assert_eq!(read("3/4"), Some((0.75, 0.0, 0.0)), "exact");
+        assert_eq!(read("π/2"), Some((PI / 2.0, 0.0, 0.0)), "exact");
+        assert_eq!(read("-3pi/2"), Some((-1.5 * PI, 0.0, 0.0)), "exact");
+        assert_eq!(read("0.50"), Some((0.5, 0.01, 0.0)), "two decimals");
+        assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
+        assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
+        for wrong in ["", "x", "1 ± y", "ππ", "π2"] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What the crossings of one orbit show: cycles that they tend to, parts in which they stay.
+
+use std::f64::consts::PI;
+
+use super::finding::Finding;
+use super::scene::Scene;
+use crate::claim::motion::{Axis, Confined, LimitCycle};
+use crate::flow::{Crossing, FlowError, Measured};
+
+fn distance(a: &Crossing, b: &Crossing) -> f64 {
+    let turn = (a.at[0] - b.at[0]) / (2.0 * PI);
+    libm::hypot(2.0 * PI * (turn - turn.round()), a.at[1] - b.at[1])
+}
+
+/// Do the crossings tend to a cycle?
+///
+/// The displacement |x_(k+n) - x_k| has to fall to half in each quarter of the run, or to what f64 and
+/// double-double differ by after a turn. From its decline follows how far the cycle still is.
+pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let crossings = scene.crossings(&claim.beginning, 0, claim.crossings)?.crossings;
+    let period = claim.period;
+    let last = crossings.len() - 1;
+    // The largest displacement over one turn of the cycle, the last of them ending at `end`.
+    let displacement = |end: usize, step: usize| {
+        let of = |k: usize| distance(&crossings[end - k], &crossings[end - k - step]);
+        (0..period).map(of).fold(0.0, f64::max)
+    };
+    let quarter = last / 4;
+    let falls = [2 * quarter, 3 * quarter, last].map(|end| displacement(end, period));
+    let blur = scene.map()?.blur(crossings[last].at, period)?;
+    let mut finding = Finding::default();
+    let shown = |value: f64| Measured { value, error: blur };
+    finding.show("displacement halfway", shown(falls[0]));
+    finding.show("displacement at the end", shown(falls[2]));
+    // What rounding adds up to moves a cycle that is about to vanish by its root.
+    let floor = libm::sqrt(blur * (last / period) as f64);
+    if falls[2] > blur && falls.windows(2).any(|pair| pair[1] > pair[0] / 2.0) {
+        match falls[2] >= falls[0] && falls[2] > floor {
+            true => finding.refute("the crossings do not come to rest".to_string()),
+            false if falls[2] > floor => finding.leave_open("they come to rest slowly".to_string()),
+            false => finding.leave_open("they rest up to rounding: follow fewer".to_string()),
+        }
+        return Ok(finding);
+    }
+    let left = remaining(falls, (quarter / period).max(1), blur);
+    for divisor in (1..period).filter(|n| period.is_multiple_of(*n)) {
+        if displacement(last, divisor) <= falls[2] + left {
+            finding.refute(format!("the period is {divisor}"));
+        }
+    }
+    if let Some(point) = &claim.point {
+        let stated = Crossing { at: [point[0].value, point[1].value], ..crossings[last] };
+        let nearest = (0..period)
+            .map(|k| &crossings[last - k])
+            .min_by(|a, b| distance(a, &stated).total_cmp(&distance(b, &stated)));
+        for (axis, quantity) in ["l", "L/G"].into_iter().enumerate() {
+            let value = nearest.map_or(f64::NAN, |crossing| crossing.at[axis]);
+            finding.compare(quantity, Measured { value, error: left }, &point[axis]);
+        }
+    }
+    Ok(finding)
+}
+
+/// How far a geometric decline still goes: d r/(1 - r), where d is the last displacement, and r the
+/// factor from one turn to the next, over `turns` turns between those that are given.
+fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
+    let factor = libm::pow(last / before, 1.0 / turns as f64);
+    match factor < 1.0 {
+        true => (last * factor / (1.0 - factor)).max(blur),
+        false => blur.max(last),
+    }
+}
+
+/// Do the crossings stay in a part of the section?
+pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
+    let axis = match claim.axis {
+        Axis::L => 0,
+        Axis::Z => 1,
+    };
+    let values = orbit.crossings.iter().map(|crossing| crossing.at[axis]);
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.fold(start, |(low, high), x| (low.min(x), high.max(x)));
+    let mut finding = Finding::default();
+    let rounded = |value: f64| Measured { value, error: f64::EPSILON * value.abs() };
+    finding.show("lowest", rounded(low));
+    finding.show("highest", rounded(high));
+    if low <= claim.between[0].value || high >= claim.between[1].value {
+        finding.refute(format!("the {} crossings go beyond", orbit.crossings.len()));
+    }
+    Ok(finding)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_geometric_decline_tells_what_is_left() {
+        // d = 2^-k: after the displacement 2^-20 as much again is left.
+        let falls = [10, 15, 20].map(|k| libm::pow(2.0, -f64::from(k)));
+        let left = remaining(falls, 5, 1e-16);
+        assert!((left / falls[2] - 1.0).abs() < 1e-12, "left: {left:e}");
+        assert_eq!(remaining([1e-3, 1e-3, 2e-3], 5, 1e-16), 2e-3, "no decline");
+    }
+}
