@@ -9,6 +9,7 @@
 //! over double-double.
 
 mod andoyer;
+mod code;
 mod compile;
 mod error;
 mod event;
