@@ -154,7 +154,7 @@ impl Compiler {
                     own_theta,
                     x,
                 ));
-                let rule = Rule::Power { x, theta, exponent: exponent.clone() };
+                let rule = Rule::Power { x, exponent: exponent.clone() };
                 let row = self.emit(rule, form);
                 self.theta(row);
                 Form::of_row(Self::one(), row)
@@ -189,12 +189,12 @@ impl Compiler {
     fn exponential(&mut self, x: Row) -> Row {
         let theta = self.theta(x);
         let out = self.next;
-        self.emit(Rule::Exp { x, theta }, Self::product(theta, out))
+        self.emit(Rule::Exp(x), Self::product(theta, out))
     }
 
     fn logarithm(&mut self, x: Row) -> Row {
         let own_theta = self.next + 1;
-        let row = self.emit(Rule::Ln { x }, Self::product(own_theta, x));
+        let row = self.emit(Rule::Ln(x), Self::product(own_theta, x));
         self.theta(row);
         row
     }
@@ -206,8 +206,8 @@ impl Compiler {
         }
         let theta = self.theta(x);
         let (sine, cosine) = (self.next, self.next + 1);
-        self.emit(Rule::Sin { x, theta, cosine }, Self::product(theta, cosine));
-        self.emit(Rule::Cos { x, theta, sine }, Self::product(theta, sine));
+        self.emit(Rule::Sin { x, cosine }, Self::product(theta, cosine));
+        self.emit(Rule::Cos { x, sine }, Self::product(theta, sine));
         self.circular.push((x, sine, cosine));
         (sine, cosine)
     }

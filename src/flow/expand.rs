@@ -3,8 +3,9 @@
 //! The inner sums of all products need lower orders only, and are made first, as dot products; then
 //! each row is finished in turn, from the same order of the rows before it.
 
+use super::code::{Bound, Code, Copied, Order, Place, part, part_mut};
 use super::number::{BLOCK, Number};
-use super::series::{Bound, Operation, Series, Weight};
+use super::series::Series;
 use crate::graph::Work;
 use crate::number::Function;
 
@@ -15,7 +16,11 @@ impl<T: Number> Work for Expansion<'_, T> {
     #[inline(always)]
     fn run(self) {
         let series = self.0;
-        for n in 0..series.order {
+        series.values();
+        series.code.slopes(&series.memory);
+        series.inner.fill(T::ZERO);
+        series.next_order(0);
+        for n in 1..series.order {
             if n >= 2 {
                 series.inner_sums(n);
             }
@@ -40,21 +45,18 @@ impl<T: Number> Series<T> {
 
     #[inline(always)]
     fn inner_sums_of(&mut self, n: usize, length: usize) {
-        for (inner, operation) in self.partial.iter_mut().zip(&self.operations) {
+        let forwards = &self.memory[1..];
+        let last = if T::WIDTH > 1 { n - 1 } else { 1 };
+        let backwards = &self.memory[T::copied(self.orders, last)..];
+        let mut rest = self.code.products.as_slice();
+        for (count, partial) in self.code.counts.iter().zip(&mut self.partial) {
             let mut sum = T::nothing();
-            for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize] {
-                let mut part = T::nothing();
-                for product in &self.products[group.first as usize..group.last as usize] {
-                    let x = &self.memory[product.a + 1..][..length];
-                    let y = &self.memory[product.b_backward + 1 - n..][..length];
-                    part = T::dot(part, x, y);
-                }
-                sum = match group.weight {
-                    Weight::One => part,
-                    _ => T::weigh(sum, group.factor, part),
-                };
+            for product in first(&mut rest, *count) {
+                let x = &forwards[product.x as usize..][..length];
+                let y = &backwards[product.cy as usize..][..length];
+                sum = T::dot(sum, x, y);
             }
-            *inner = sum;
+            *partial = sum;
         }
         let (totals, _) = self.inner.as_chunks_mut::<BLOCK>();
         for (totals, parts) in totals.iter_mut().zip(self.partial.as_chunks::<BLOCK>().0) {
@@ -62,136 +64,150 @@ impl<T: Number> Series<T> {
         }
     }
 
-    /// Order n of every row.
+    /// Order n ≥ 1 of every row.
     #[inline(always)]
     fn finish(&mut self, n: usize) {
-        for index in 0..self.operations.len() {
-            let value = match n {
-                0 => self.value(index),
-                _ => self.coefficient(index, n),
-            };
-            let operation = &self.operations[index];
-            self.memory[operation.out + n] = value;
-            if let Some(place) = operation.out_backward
-                && n > 0
-            {
-                self.memory[place - n] = value;
+        let mut terms = self.code.terms.as_slice();
+        let mut copies = &self.code.copies[self.code.of_state..];
+        let mut rows = Rows { memory: &mut self.memory, n, copied: T::copied(self.orders, n) };
+        let by_n = self.inverses[n];
+        for finish in &self.code.finishes {
+            let mut value = finish.scale * self.inner[finish.inner as usize];
+            if let Order::Divides = finish.order {
+                value = value * by_n;
             }
+            for term in first(&mut terms, finish.terms) {
+                value = value.fused(term.slope, rows.at(term.x));
+            }
+            let mut value = value.settled();
+            if let Order::Multiplies = finish.order {
+                value = value * T::float(n as f64);
+            }
+            rows.put(finish.place, first(&mut copies, finish.copies), value);
         }
     }
 
     /// Order n + 1 of the state.
     #[inline(always)]
     fn next_order(&mut self, n: usize) {
-        for row in 0..self.rates.len() {
-            let value = self.memory[self.rates[row] + n] * self.inverses[n + 1];
-            let place = self.layout.forward(row);
-            self.memory[place + n + 1] = value;
-            if let Some(place) = self.layout.backward(row) {
-                self.memory[place - n - 1] = value;
-            }
+        let by_next = self.inverses[n + 1];
+        let mut copies = self.code.copies.as_slice();
+        let copied = T::copied(self.orders, n + 1);
+        for component in &self.code.state {
+            let value = self.memory[component.rate as usize + n] * by_next;
+            let mut rows = Rows { memory: &mut self.memory, n: n + 1, copied };
+            rows.put(component.place, first(&mut copies, component.copies), value);
         }
     }
 
-    /// Order 0 of an operation: the function itself.
+    /// Order 0 of every operation: the functions themselves.
     #[inline(always)]
-    fn value(&mut self, index: usize) -> T {
-        let operation = &mut self.operations[index];
-        let memory = &self.memory;
-        match &operation.rule {
-            Bound::Sum => {
-                let mut sum = operation.constant.unwrap_or(T::ZERO);
-                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()]
-                {
-                    sum = weight.add(sum, memory[*x]);
-                }
-                for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize]
-                {
-                    for product in &self.products[group.first as usize..group.last as usize] {
-                        sum = group.weight.add(sum, memory[product.a] * memory[product.b]);
+    fn values(&mut self) {
+        let mut copies = &self.code.copies[self.code.of_state..];
+        let copied = T::copied(self.orders, 0);
+        let mut rows = Rows { memory: &mut self.memory, n: 0, copied };
+        for (operation, finish) in self.code.operations.iter().zip(&self.code.finishes) {
+            let at = |x: &Place| rows.at(*x);
+            let value = match &operation.rule {
+                Bound::Sum => {
+                    let mut sum = operation.constant;
+                    for term in part(&self.code.terms, operation.terms) {
+                        sum = sum.fused(term.fixed, at(&term.x));
                     }
-                }
-                sum
-            }
-            Bound::Theta(_) => T::ZERO,
-            Bound::Recip(x) => memory[*x].recip(),
-            Bound::Sqrt(x) => {
-                let root = memory[*x].apply(Function::Sqrt);
-                operation.kept = (root + root).recip();
-                root
-            }
-            Bound::Exp { x, .. } => memory[*x].apply(Function::Exp),
-            Bound::Ln { x } => {
-                operation.kept = memory[*x].recip();
-                memory[*x].apply(Function::Ln)
-            }
-            Bound::Sin { x, .. } => memory[*x].apply(Function::Sin),
-            Bound::Cos { x, .. } => memory[*x].apply(Function::Cos),
-            Bound::Atan { x, square } => {
-                operation.kept = memory[*square].recip();
-                memory[*x].apply(Function::Atan)
-            }
-            Bound::Power { x, exponent, .. } => {
-                operation.kept = memory[*x].recip();
-                memory[*x].power(exponent)
-            }
-        }
-    }
-
-    /// Order n ≥ 1 of an operation.
-    #[inline(always)]
-    fn coefficient(&self, index: usize, n: usize) -> T {
-        let operation = &self.operations[index];
-        let memory = &self.memory;
-        // At order 1 there is no inner sum.
-        let inner = if n == 1 { T::ZERO } else { self.inner[index] };
-        let by_n = self.inverses[n];
-        match &operation.rule {
-            Bound::Sum => {
-                let mut sum = inner;
-                for (weight, x) in &self.linear[operation.linear.0 as usize..][..operation.terms()]
-                {
-                    sum = weight.add(sum, memory[*x + n]);
-                }
-                for group in &self.groups[operation.groups.0 as usize..operation.groups.1 as usize]
-                {
-                    let mut outer = T::ZERO;
-                    for product in &self.products[group.first as usize..group.last as usize] {
-                        outer = outer
-                            + (memory[product.a] * memory[product.b + n]
-                                + memory[product.a + n] * memory[product.b]);
+                    for factor in part(&self.code.factors, operation.factors) {
+                        let [x, y] = [factor.x, factor.y].map(|k| self.code.terms[k as usize].x);
+                        sum = sum.fused(factor.weight * at(&x), at(&y));
                     }
-                    sum = group.weight.add(sum, outer);
+                    sum.settled()
                 }
-                sum
-            }
-            Bound::Theta(x) => T::float(n as f64) * memory[*x + n],
-            Bound::Recip(x) => {
-                let z = memory[operation.out];
-                -(inner + memory[*x + n] * z) * z
-            }
-            Bound::Sqrt(x) => (memory[*x + n] - inner) * operation.kept,
-            Bound::Exp { theta, .. } => (inner + memory[*theta + n] * memory[operation.out]) * by_n,
-            Bound::Ln { x } | Bound::Atan { x, .. } => {
-                (memory[*x + n] - inner * by_n) * operation.kept
-            }
-            Bound::Sin { theta, cosine: other, .. } => {
-                (inner + memory[*theta + n] * memory[*other]) * by_n
-            }
-            Bound::Cos { theta, sine: other, .. } => {
-                -(inner + memory[*theta + n] * memory[*other]) * by_n
-            }
-            Bound::Power { theta, factor, .. } => {
-                let outer = *factor * memory[*theta + n] * memory[operation.out];
-                (inner + outer) * by_n * operation.kept
-            }
+                Bound::Theta => T::ZERO,
+                Bound::Recip(x) => at(x).recip(),
+                Bound::Sqrt(x) => at(x).apply(Function::Sqrt),
+                Bound::Exp(x) => at(x).apply(Function::Exp),
+                Bound::Ln(x) => at(x).apply(Function::Ln),
+                Bound::Sin { x, .. } => at(x).apply(Function::Sin),
+                Bound::Cos { x, .. } => at(x).apply(Function::Cos),
+                Bound::Atan { x, .. } => at(x).apply(Function::Atan),
+                Bound::Power { x, exponent, .. } => at(x).power(exponent),
+            };
+            // Order 0 is outside the inner sums: behind order 1 there are zeros.
+            rows.put(finish.place, &[], value);
         }
     }
 }
 
-impl<T> Operation<T> {
+/// The first entries of a list, which goes on with the others.
+#[inline(always)]
+fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
+    let (first, others) = list.split_at(count as usize);
+    *list = others;
+    first
+}
+
+/// Rows at one order.
+struct Rows<'m, T> {
+    memory: &'m mut [T],
+    n: usize,
+    /// How far the order stands behind the place of a copy.
+    copied: usize,
+}
+
+impl<T: Number> Rows<'_, T> {
+    // Places are below the length of the memory, and so is n: their sum does not overflow.
     #[inline(always)]
-    fn terms(&self) -> usize {
-        (self.linear.1 - self.linear.0) as usize
+    fn at(&self, place: Place) -> T {
+        self.memory[(place as usize).wrapping_add(self.n)]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, place: Place, copies: &[Copied<T>], value: T) {
+        self.memory[(place as usize).wrapping_add(self.n)] = value;
+        for copy in copies {
+            self.memory[(copy.place as usize).wrapping_add(self.copied)] = copy.weight * value;
+        }
+    }
+}
+
+impl<T: Number> Code<T> {
+    /// The slopes and scales, which are the same at all orders.
+    #[inline(always)]
+    fn slopes(&mut self, memory: &[T]) {
+        let at = |x: &Place| memory[*x as usize];
+        for (operation, finish) in self.operations.iter().zip(&mut self.finishes) {
+            let z = at(&finish.place);
+            let (scale, slope) = match &operation.rule {
+                Bound::Sum => {
+                    for term in part_mut(&mut self.terms, operation.terms) {
+                        term.slope = term.fixed;
+                    }
+                    for factor in part(&self.factors, operation.factors) {
+                        let (x, y) = (factor.x as usize, factor.y as usize);
+                        let values = [x, y].map(|k| at(&self.terms[k].x));
+                        for (term, other) in [(x, values[1]), (y, values[0])] {
+                            let slope = &mut self.terms[term].slope;
+                            *slope = slope.fused(factor.weight, other);
+                        }
+                    }
+                    for term in part_mut(&mut self.terms, operation.terms) {
+                        term.slope = term.slope.settled();
+                    }
+                    continue;
+                }
+                Bound::Theta => (T::ZERO, T::ONE),
+                Bound::Recip(_) => (-z, -(z * z)),
+                Bound::Sqrt(_) => {
+                    let half = (z + z).recip();
+                    (-half, half)
+                }
+                Bound::Exp(_) => (T::ONE, z),
+                Bound::Ln(x) => (-at(x).recip(), at(x).recip()),
+                Bound::Sin { cosine, .. } => (T::ONE, at(cosine)),
+                Bound::Cos { sine, .. } => (-T::ONE, -at(sine)),
+                Bound::Atan { square, .. } => (-at(square).recip(), at(square).recip()),
+                Bound::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
+            };
+            finish.scale = scale;
+            self.terms[operation.terms.0 as usize].slope = slope;
+        }
     }
 }

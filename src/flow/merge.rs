@@ -1,25 +1,28 @@
 //! Steps of a rolling body's field that are proportional on the level set are one step.
 //!
-//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are seen in exact arithmetic at
-//! a few states of the level. The level itself stays an integral near it, whatever is put for
-//! r, Ĩ and the torques: γ' is across γ, and the multiplier keeps (ω,γ).
+//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are seen modulo a prime at a few
+//! states of the level, and their factors computed exactly at one of them. The level itself stays an
+//! integral near it, whatever is put for r, Ĩ and the torques: γ' is across γ, and the multiplier keeps
+//! (ω,γ).
+
+use std::cell::RefCell;
 
 use super::error::FlowError;
 use crate::graph::{Choice, Evaluator, Expr, Graph, Step, Tape, record};
 use crate::mechanics::{Chart, Model};
-use crate::number::exact::Exact;
+use crate::number::exact::{Exact, square_root};
+use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
-use crate::number::{Domain, Function};
+use crate::number::{Domain, Function, Operation};
 
 /// At how many states relations are seen.
 const STATES: usize = 5;
-/// Values larger than that are not looked at.
+/// 2⁶¹ - 1: steps that are not proportional look so once in 10¹⁸ pairs.
+const PRIME: u64 = (1 << 61) - 1;
+/// Exact values larger than that are not looked at.
 const MAX_BITS: u64 = 4096;
 /// Factors larger than that are coincidences of constants, and bring nothing.
 const MAX_FACTOR_BITS: u64 = 256;
-
-/// The values of a step at all states; `None` where one is irrational, undefined or too large.
-type Values = Option<Vec<Rational>>;
 
 /// The same values over a graph in which steps that are proportional on the level are one.
 pub fn merged(
@@ -28,51 +31,140 @@ pub fn merged(
     wanted: &[Expr],
 ) -> Result<(Graph, Vec<Expr>), FlowError> {
     let reached = graph.reached(wanted.iter().copied());
-    let values = values(model, graph, &reached)?;
-    let direction = |own: &Vec<Rational>| -> Option<Vec<Rational>> {
-        if own.iter().all(Rational::is_zero) {
+    let states: Vec<Vec<Rational>> =
+        (0..STATES).map(|index| state(model, graph.inputs(), index)).collect::<Result<_, _>>()?;
+    let field = Modulus::new(PRIME);
+    let mut exact = FirstState { graph, state: &states[0], values: vec![None; graph.len()] };
+    let mut values = Vec::with_capacity(graph.len());
+    for (place, step) in graph.steps().enumerate() {
+        let is_looked_at = reached[place] || matches!(step, Step::Constant(_));
+        let residues =
+            if is_looked_at { residues(step, &values, &field, &states, &mut exact) } else { None };
+        values.push(residues.map(|residues| Seen { place, residues }));
+    }
+    let exact = RefCell::new(exact);
+    let direction = |own: &Seen| -> Option<[u64; STATES - 1]> {
+        let [first, others @ ..] = own.residues;
+        match own.is_zero() {
             // A multiple of 1.
-            return Some(vec![Rational::from(1); own.len() - 1]);
+            true => Some([field.one(); STATES - 1]),
+            false if first == 0 => None,
+            false => Some(others.map(|value| field.mul(value, field.inverse(first)))),
         }
-        let unit = own[0].recip()?;
-        Some(own[1..].iter().map(|value| value * &unit).collect())
     };
-    let factor = |own: &Vec<Rational>, other: &Vec<Rational>| {
-        let factor = &own[0] * &other[0].recip()?;
-        (factor.bits() <= MAX_FACTOR_BITS).then_some(factor)
+    let factor = |own: &Seen, other: &Seen| -> Option<Rational> {
+        let mut exact = exact.borrow_mut();
+        let factor = &exact.at(own.place)? * &exact.at(other.place)?.recip()?;
+        let image = field.rational(&factor)?;
+        let holds = (0..STATES).all(|k| field.mul(image, other.residues[k]) == own.residues[k]);
+        (holds && factor.bits() <= MAX_FACTOR_BITS).then_some(factor)
     };
     let members = graph.members(&values, direction, factor);
     Ok(graph.rebuilt(wanted, &members, Choice::First)?)
 }
 
-fn values(model: &Model, graph: &Graph, reached: &[bool]) -> Result<Vec<Values>, FlowError> {
-    let states: Vec<Vec<Rational>> =
-        (0..STATES).map(|index| state(model, graph.inputs(), index)).collect::<Result<_, _>>()?;
-    let mut values: Vec<Values> = Vec::with_capacity(graph.len());
-    for (place, step) in graph.steps().enumerate() {
-        let at = |index: usize| -> Option<Rational> {
-            let argument = |place: usize| Some(values[place].as_ref()?[index].clone());
-            let mut out = None;
-            match step {
-                Step::Constant(value) => out = Some(value.clone()),
-                Step::Input(input) => out = states[index].get(input).cloned(),
-                // What is not rational is not looked at.
-                Step::Unary(Function::Neg | Function::Recip | Function::Sqrt, a) => {
-                    let Step::Unary(function, _) = step else { return None };
-                    Exact.unary(function, &argument(a), &mut out);
-                }
-                Step::Unary(..) | Step::Power(..) => {}
-                Step::Binary(operation, a, b) => {
-                    Exact.binary(operation, &Some(argument(a)?), &Some(argument(b)?), &mut out);
-                }
-            }
-            out.filter(|value| value.bits() <= MAX_BITS)
-        };
-        let is_looked_at = reached[place] || matches!(step, Step::Constant(_));
-        let all = if is_looked_at { (0..STATES).map(at).collect() } else { None };
-        values.push(all);
+/// A step with its values modulo the prime at all states.
+struct Seen {
+    place: usize,
+    residues: [u64; STATES],
+}
+
+impl Seen {
+    fn is_zero(&self) -> bool {
+        self.residues == [0; STATES]
     }
-    Ok(values)
+
+    fn is_constant(&self) -> bool {
+        self.residues.iter().all(|value| *value == self.residues[0])
+    }
+}
+
+/// The values of a step modulo the prime; `None` where one is undefined, or no number of the field.
+/// A root is one of a constant: others are not looked at.
+fn residues(
+    step: Step<'_>,
+    earlier: &[Option<Seen>],
+    field: &Modulus,
+    states: &[Vec<Rational>],
+    exact: &mut FirstState<'_>,
+) -> Option<[u64; STATES]> {
+    let constant = |value: &Rational| Some([field.rational(value)?; STATES]);
+    let seen = |place: usize| earlier[place].as_ref();
+    match step {
+        Step::Constant(value) => constant(value),
+        Step::Input(input) => {
+            let mut values = [0; STATES];
+            for (value, state) in values.iter_mut().zip(states) {
+                *value = field.rational(state.get(input)?)?;
+            }
+            Some(values)
+        }
+        Step::Unary(Function::Neg, a) => Some(seen(a)?.residues.map(|x| field.sub(0, x))),
+        Step::Unary(Function::Recip, a) => {
+            let x = seen(a).filter(|x| x.residues.iter().all(|x| *x != 0))?;
+            Some(x.residues.map(|x| field.inverse(x)))
+        }
+        Step::Unary(Function::Sqrt, a) => {
+            let square = seen(a).filter(|x| x.is_constant())?;
+            constant(&square_root(&exact.at(square.place)?)?)
+        }
+        Step::Binary(operation, a, b) => {
+            let (x, y) = (seen(a)?.residues, seen(b)?.residues);
+            let combine: fn(&Modulus, u64, u64) -> u64 = match operation {
+                Operation::Add => Modulus::add,
+                Operation::Sub => Modulus::sub,
+                Operation::Mul => Modulus::mul,
+                Operation::Pow => return None,
+            };
+            Some(std::array::from_fn(|k| combine(field, x[k], y[k])))
+        }
+        Step::Unary(..) | Step::Power(..) => None,
+    }
+}
+
+/// Exact values of steps at the first state, where they are asked for.
+struct FirstState<'g> {
+    graph: &'g Graph,
+    state: &'g [Rational],
+    /// `Some(None)` where one is irrational, undefined or too large.
+    values: Vec<Option<Option<Rational>>>,
+}
+
+impl FirstState<'_> {
+    /// The value of a step, computed with all that it needs.
+    fn at(&mut self, place: usize) -> Option<Rational> {
+        let mut needed = vec![false; place + 1];
+        needed[place] = true;
+        for index in (0..=place).rev().filter(|index| self.values[*index].is_none()) {
+            if needed[index] {
+                self.graph.step(index).arguments().for_each(|argument| needed[argument] = true);
+            }
+        }
+        for index in (0..=place).filter(|index| needed[*index]) {
+            if self.values[index].is_none() {
+                self.values[index] = Some(self.computed(self.graph.step(index)));
+            }
+        }
+        self.values[place].clone().flatten()
+    }
+
+    fn computed(&self, step: Step<'_>) -> Option<Rational> {
+        let argument = |place: usize| self.values[place].clone().flatten();
+        let mut out = None;
+        match step {
+            Step::Constant(value) => out = Some(value.clone()),
+            Step::Input(input) => out = self.state.get(input).cloned(),
+            // What is not rational is not looked at.
+            Step::Unary(function @ (Function::Neg | Function::Recip | Function::Sqrt), a) => {
+                Exact.unary(function, &argument(a), &mut out);
+            }
+            Step::Unary(..) | Step::Power(..) => {}
+            Step::Binary(operation, a, b) => {
+                Exact.binary(operation, &Some(argument(a)?), &Some(argument(b)?), &mut out);
+            }
+        }
+        out.filter(|value| value.bits() <= MAX_BITS)
+    }
 }
 
 /// A state of the level in general position, and numbers for further inputs.

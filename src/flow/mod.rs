@@ -10,6 +10,7 @@
 
 mod andoyer;
 mod closed;
+mod code;
 mod compile;
 mod error;
 mod event;

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::number::float::Float;
-use crate::number::pair::{Pair, two_sum};
+use crate::number::pair::{Pair, two_product, two_sum};
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function};
 
@@ -23,6 +23,8 @@ pub trait Number:
     type One: Number<One = Self::One>;
     /// 0
     const ZERO: Self;
+    /// 1
+    const ONE: Self;
     /// How many orbits are side by side.
     const LANES: usize;
     /// How many coefficients a dot product takes at once; rows are padded to multiples of it.
@@ -46,6 +48,13 @@ pub trait Number:
     fn pair(self) -> Pair;
     /// A pair in all lanes, and what rounding leaves of it.
     fn split(value: Pair) -> (Self, Self);
+    /// self + x y, to be settled after the last term.
+    fn fused(self, x: Self, y: Self) -> Self;
+    /// A sum that is complete.
+    #[inline(always)]
+    fn settled(self) -> Self {
+        self
+    }
     /// 1/x
     fn recip(self) -> Self;
     /// f(x)
@@ -57,10 +66,14 @@ pub trait Number:
 
     /// No products yet.
     fn nothing() -> Self::Partial;
-    /// sum + Σ x_k y_k; both have the same length, a multiple of `WIDTH`.
+    /// How far order n of a copy stands behind its place.
+    #[inline(always)]
+    fn copied(orders: usize, n: usize) -> usize {
+        if Self::WIDTH > 1 { orders - n } else { n }
+    }
+    /// sum + Σ x_k y_k; both have the same length, a multiple of `WIDTH`; y is in the opposite order where
+    /// `WIDTH` is 1.
     fn dot(sum: Self::Partial, x: &[Self], y: &[Self]) -> Self::Partial;
-    /// sum + factor · part
-    fn weigh(sum: Self::Partial, factor: Self, part: Self::Partial) -> Self::Partial;
     /// The sums of all parts, of several products at once.
     fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
 }
@@ -87,6 +100,7 @@ pub(super) const BLOCK: usize = 8;
 impl Number for f64 {
     type One = f64;
     const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
     const LANES: usize = 1;
     const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = WIDTH;
@@ -118,6 +132,10 @@ impl Number for f64 {
         (value.hi, value.lo)
     }
     #[inline(always)]
+    fn fused(self, x: f64, y: f64) -> f64 {
+        x.mul_add(y, self)
+    }
+    #[inline(always)]
     fn recip(self) -> Self {
         1.0 / self
     }
@@ -140,31 +158,41 @@ impl Number for f64 {
     fn dot(mut sum: Lanes<WIDTH>, x: &[f64], y: &[f64]) -> Lanes<WIDTH> {
         let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
         for (x, y) in x.iter().zip(y) {
-            sum = sum + Lanes(*x) * Lanes(*y);
+            sum = sum.fused(Lanes(*x), Lanes(*y));
         }
         sum
     }
     #[inline(always)]
-    fn weigh(sum: Lanes<WIDTH>, factor: f64, part: Lanes<WIDTH>) -> Lanes<WIDTH> {
-        sum + Lanes([factor; WIDTH]) * part
-    }
-    #[inline(always)]
     fn totals(sums: &[Lanes<WIDTH>; BLOCK], totals: &mut [f64; BLOCK]) {
-        for (sum, total) in sums.iter().zip(totals) {
-            let s = &sum.0;
-            let [a, b, c, d] = [s[0] + s[4], s[1] + s[5], s[2] + s[6], s[3] + s[7]];
-            *total = (a + c) + (b + d);
-        }
+        // Halves of two sums, quarters of four, and so on, are added side by side:
+        // ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)) for each.
+        let [a, b, c, d] = std::array::from_fn(|k| folded::<4>(&sums[k].0, &sums[k + 4].0));
+        let [a, b] = [folded::<2>(&a, &c), folded::<2>(&b, &d)];
+        *totals = folded::<1>(&a, &b);
     }
+}
+
+/// Each run of 2H numbers folded in the middle: those of a, then those of b.
+#[inline(always)]
+fn folded<const H: usize>(a: &[f64; WIDTH], b: &[f64; WIDTH]) -> [f64; WIDTH] {
+    let (mut near, mut far) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for k in 0..WIDTH {
+        let (run, place) = (k / (2 * H), k % (2 * H));
+        let from = if place < H { a } else { b };
+        near[k] = from[run * 2 * H + place % H];
+        far[k] = from[run * 2 * H + place % H + H];
+    }
+    std::array::from_fn(|k| near[k] + far[k])
 }
 
 impl Number for Pair {
     type One = Pair;
     const ZERO: Pair = Pair { hi: 0.0, lo: 0.0 };
+    const ONE: Pair = Pair { hi: 1.0, lo: 0.0 };
     const LANES: usize = 1;
     const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
-    const WIDTH: usize = 1;
-    type Partial = Pair;
+    const WIDTH: usize = WIDTH;
+    type Partial = PairLanes;
 
     fn rational(value: &Rational) -> Self {
         Pair::from_rational(value)
@@ -192,6 +220,19 @@ impl Number for Pair {
         (value, Self::ZERO)
     }
     #[inline(always)]
+    fn fused(self, x: Pair, y: Pair) -> Pair {
+        // The rounding errors of products and sums are added up behind them (Ogita, Rump, Oishi 2005).
+        let (product, error) = two_product(x.hi, y.hi);
+        let (hi, rest) = two_sum(self.hi, product);
+        let cross = x.hi.mul_add(y.lo, x.lo.mul_add(y.hi, error));
+        Pair { hi, lo: self.lo + (rest + cross) }
+    }
+    #[inline(always)]
+    fn settled(self) -> Pair {
+        let (hi, lo) = two_sum(self.hi, self.lo);
+        Pair { hi, lo }
+    }
+    #[inline(always)]
     fn recip(self) -> Self {
         Pair::recip(self)
     }
@@ -210,21 +251,39 @@ impl Number for Pair {
         *hi = *hi + increment;
     }
     #[inline(always)]
-    fn nothing() -> Pair {
-        Pair::default()
+    fn nothing() -> PairLanes {
+        PairLanes { hi: [0.0; WIDTH], lo: [0.0; WIDTH] }
     }
     #[inline(always)]
-    fn dot(sum: Pair, x: &[Pair], y: &[Pair]) -> Pair {
-        x.iter().zip(y).fold(sum, |sum, (x, y)| sum + *x * *y)
+    fn dot(mut sum: PairLanes, x: &[Pair], y: &[Pair]) -> PairLanes {
+        let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
+        for (x, y) in x.iter().zip(y) {
+            for k in 0..WIDTH {
+                let next = Pair { hi: sum.hi[k], lo: sum.lo[k] }.fused(x[k], y[k]);
+                (sum.hi[k], sum.lo[k]) = (next.hi, next.lo);
+            }
+        }
+        sum
     }
     #[inline(always)]
-    fn weigh(sum: Pair, factor: Pair, part: Pair) -> Pair {
-        sum + factor * part
+    fn totals(sums: &[PairLanes; BLOCK], totals: &mut [Pair; BLOCK]) {
+        let (mut hi, mut lo) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for lane in 0..WIDTH {
+            for (k, sum) in sums.iter().enumerate() {
+                let (s, rest) = two_sum(hi[k], sum.hi[lane]);
+                (hi[k], lo[k]) = (s, lo[k] + (rest + sum.lo[lane]));
+            }
+        }
+        *totals = std::array::from_fn(|k| Pair { hi: hi[k], lo: lo[k] }.settled());
     }
-    #[inline(always)]
-    fn totals(sums: &[Pair; BLOCK], totals: &mut [Pair; BLOCK]) {
-        *totals = *sums;
-    }
+}
+
+/// Sums in double-double side by side, not settled.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub struct PairLanes {
+    hi: [f64; WIDTH],
+    lo: [f64; WIDTH],
 }
 
 /// `N` f64 side by side, one orbit a lane.
@@ -260,6 +319,7 @@ impl<const N: usize> Neg for Lanes<N> {
 impl<const N: usize> Number for Lanes<N> {
     type One = f64;
     const ZERO: Self = Self([0.0; N]);
+    const ONE: Self = Self([1.0; N]);
     const LANES: usize = N;
     const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = 1;
@@ -291,6 +351,13 @@ impl<const N: usize> Number for Lanes<N> {
         (Self([value.hi; N]), Self([value.lo; N]))
     }
     #[inline(always)]
+    fn fused(mut self, x: Self, y: Self) -> Self {
+        for lane in 0..N {
+            self.0[lane] = x.0[lane].mul_add(y.0[lane], self.0[lane]);
+        }
+        self
+    }
+    #[inline(always)]
     fn recip(self) -> Self {
         Self(self.0.map(|x| 1.0 / x))
     }
@@ -313,16 +380,10 @@ impl<const N: usize> Number for Lanes<N> {
     }
     #[inline(always)]
     fn dot(mut sum: Self, x: &[Self], y: &[Self]) -> Self {
-        for (x, y) in x.iter().zip(y) {
-            for lane in 0..N {
-                sum.0[lane] += x.0[lane] * y.0[lane];
-            }
+        for (x, y) in x.iter().zip(y.iter().rev()) {
+            sum = sum.fused(*x, *y);
         }
         sum
-    }
-    #[inline(always)]
-    fn weigh(sum: Self, factor: Self, part: Self) -> Self {
-        sum + factor * part
     }
     #[inline(always)]
     fn totals(sums: &[Self; BLOCK], totals: &mut [Self; BLOCK]) {

@@ -28,21 +28,14 @@ pub enum Rule {
     Theta(Row),
     Recip(Row),
     Sqrt(Row),
-    Exp {
-        x: Row,
-        theta: Row,
-    },
-    Ln {
-        x: Row,
-    },
+    Exp(Row),
+    Ln(Row),
     Sin {
         x: Row,
-        theta: Row,
         cosine: Row,
     },
     Cos {
         x: Row,
-        theta: Row,
         sine: Row,
     },
     Atan {
@@ -51,9 +44,24 @@ pub enum Rule {
     },
     Power {
         x: Row,
-        theta: Row,
         exponent: Rational,
     },
+}
+
+impl Rule {
+    /// The row that it is a function of; a sum has several.
+    pub(super) fn argument(&self) -> Option<Row> {
+        match self {
+            Rule::Sum => None,
+            Rule::Theta(x) | Rule::Recip(x) | Rule::Sqrt(x) | Rule::Exp(x) | Rule::Ln(x) => {
+                Some(*x)
+            }
+            Rule::Sin { x, .. }
+            | Rule::Cos { x, .. }
+            | Rule::Atan { x, .. }
+            | Rule::Power { x, .. } => Some(*x),
+        }
+    }
 }
 
 /// One row to be computed.

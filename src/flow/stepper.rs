@@ -10,6 +10,7 @@ use super::error::FlowError;
 use super::number::Number;
 use super::program::Program;
 use super::series::Series;
+use crate::graph::{Work, with_widest_vectors};
 use crate::number::pair::Pair;
 
 /// Order of the series, and κ.
@@ -66,6 +67,9 @@ impl<T: Number> Stepper<T> {
 
     /// Starts a motion at time 0 that goes on to time `until`, which may be negative.
     pub fn start(&mut self, lane: usize, state: &[Pair], until: Pair) {
+        if T::LANES == 1 {
+            self.series.clear();
+        }
         for (index, value) in state.iter().enumerate() {
             let (value, rest) = T::One::split(*value);
             set(&mut self.state[index], lane, value);
@@ -125,11 +129,7 @@ impl<T: Number> Stepper<T> {
 
     /// Takes the steps.
     pub fn advance(&mut self) {
-        let steps = T::from_lanes(|lane| self.lanes[lane].step);
-        for (row, (state, rest)) in self.state.iter_mut().zip(&mut self.rest).enumerate() {
-            let coefficients = self.series.component(row);
-            T::advance(state, rest, increment(coefficients, steps));
-        }
+        with_widest_vectors(Advance(self));
         for lane in &mut self.lanes {
             if lane.step.leading() != 0.0 {
                 lane.time = lane.time + lane.step.pair();
@@ -185,14 +185,29 @@ fn set<T: Number>(target: &mut T, lane: usize, value: T::One) {
     *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
 }
 
+/// The states at the ends of the steps.
+struct Advance<'s, T: Number>(&'s mut Stepper<T>);
+
+impl<T: Number> Work for Advance<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let stepper = self.0;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step);
+        for (row, (state, rest)) in stepper.state.iter_mut().zip(&mut stepper.rest).enumerate() {
+            let coefficients = stepper.series.component(row);
+            T::advance(state, rest, increment(coefficients, steps));
+        }
+    }
+}
+
 /// Σ x_k h^k from k = 1 on.
 #[inline(always)]
 fn increment<T: Number>(coefficients: &[T], step: T) -> T {
     let mut sum = T::ZERO;
     for coefficient in coefficients[1..].iter().rev() {
-        sum = (sum + *coefficient) * step;
+        sum = coefficient.fused(sum, step).settled();
     }
-    sum
+    sum * step
 }
 
 /// A motion between two steps, as polynomials in the time since the first.

@@ -46,7 +46,7 @@ fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// a b = p + e exactly, where e does not underflow.
 #[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     (p, a.mul_add(b, -p))
 }
