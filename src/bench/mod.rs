@@ -3,7 +3,8 @@
 //!
 //! | method | what runs |
 //! |---|---|
-//! | tape | the recorded residual, in each number domain |
+//! | tape | the recorded residual, in each number domain and by each engine of f64 |
+//! | floor | as many fused sums as the engine takes steps, at the speed this machine can reach |
 //! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
 //! | num-dual by hand | the same for the work items, written out without formulas |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
@@ -23,6 +24,7 @@ mod by_hand;
 mod candidate;
 mod central;
 mod complex_step;
+mod engines;
 mod items;
 mod measure;
 mod num_dual;
@@ -45,6 +47,9 @@ pub enum Method {
     /// The recorded residual.
     #[serde(rename = "tape")]
     Tape,
+    /// What the tape's steps would take if each were a fused sum that waits for nothing.
+    #[serde(rename = "floor")]
+    Floor,
     /// The definitions over num-dual's numbers.
     #[serde(rename = "num-dual")]
     NumDual,
@@ -61,8 +66,9 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 5] = [
+    pub const ALL: [Method; 6] = [
         Method::Tape,
+        Method::Floor,
         Method::NumDual,
         Method::NumDualByHand,
         Method::ComplexStep,
@@ -73,6 +79,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Method::Tape => "tape",
+            Method::Floor => "floor",
             Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
             Method::ComplexStep => "complex step",

@@ -23,10 +23,11 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
 pub use dispatch::vector_features;
-pub(crate) use dispatch::{Work, with_widest_vectors};
+pub(crate) use dispatch::{Vectors, Work, widest, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 pub use steps::Step;
+pub(crate) use tape::Instruction;
 pub use tape::Tape;
 
 /// A node's place in its graph; arguments come before their users.

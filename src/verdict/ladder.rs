@@ -15,7 +15,7 @@ use super::field::{Field, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
-use super::run::{Run, Values};
+use super::run::{Run, Values, waves};
 use super::sampler::{LANES, Sampler};
 use super::witness::witness;
 use crate::claim::Place;
@@ -261,7 +261,7 @@ impl Bench<'_> {
     /// Balls over f64 at the other blocks, for claims that the fields did not settle.
     fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let mut laid_out: Option<(Run, Vec<Span>, usize)> = None;
-        for block in 1..self.blocks() {
+        for blocks in waves(1..self.blocks()) {
             let mut left: Vec<_> = open
                 .iter_mut()
                 .filter(|(_, finding)| {
@@ -276,10 +276,14 @@ impl Bench<'_> {
                 laid_out = Some((run, spans, left.len()));
             }
             let Some((run, spans, _)) = &laid_out else { return };
-            let start = block * LANES as u64;
-            let values = run.at(&Ball::<LANES>, &sampler.balls(start));
-            for ((_, finding), span) in left.iter_mut().zip(spans) {
-                self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
+            let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
+            for (block, values) in blocks.zip(values) {
+                let start = block * LANES as u64;
+                for ((_, finding), span) in left.iter_mut().zip(spans) {
+                    if finding.settled.is_none() {
+                        self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
+                    }
+                }
             }
         }
     }
@@ -373,12 +377,12 @@ impl Bench<'_> {
         let mut states = 0;
         let (mut largest, mut scaled) = (0f64, 0f64);
         for lane in 0..D::LANES {
-            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
-            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
+            let enclosures = || residuals.iter().map(|block| D::enclosure(block, lane));
+            if enclosures().any(|enclosure| enclosure.is_none()) {
                 continue;
-            };
+            }
             states += 1;
-            for (mid, rad) in enclosures {
+            for (mid, rad) in enclosures().flatten() {
                 largest = largest.max(mid.abs());
                 scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
             }

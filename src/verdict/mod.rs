@@ -29,6 +29,7 @@ mod witness;
 pub use evidence::{ClaimReport, Evidence, Independence, Proof, Rung, Sign, Verdict, Witness};
 pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
 pub use mutants::{MutantReport, MutationReport};
+pub(crate) use point::named;
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
 pub use sampler::{LANES, Sampler};
 pub use state::{StateError, read_state};
