@@ -66,6 +66,7 @@
 pub mod bench;
 pub mod case;
 pub mod claim;
+pub mod engine;
 pub mod flow;
 pub mod formula;
 pub mod graph;
@@ -78,6 +79,7 @@ pub mod scalar;
 pub mod search;
 pub mod stress;
 pub mod survey;
+pub mod sweep;
 #[cfg(feature = "testing")]
 pub mod testing;
 pub mod verdict;

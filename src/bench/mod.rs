@@ -4,7 +4,8 @@
 //! | method | what runs |
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
-//! | merged tape | the same residual from fewer operations, in f64 |
+//! | merged tape | the same residual from fewer operations, by each engine of f64 |
+//! | floor | as many fused sums as the engine takes steps, at the speed this machine can reach |
 //! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
 //! | num-dual by hand | the same for the work items, written out plainly, without formulas |
 //! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
@@ -25,6 +26,7 @@ mod by_hand;
 mod candidate;
 mod central;
 mod complex_step;
+mod engines;
 mod items;
 mod measure;
 mod num_dual;
@@ -50,6 +52,9 @@ pub enum Method {
     /// The recorded residual, its nodes merged by value.
     #[serde(rename = "merged tape")]
     MergedTape,
+    /// What the tape's steps would take if each were a fused sum that waits for nothing.
+    #[serde(rename = "floor")]
+    Floor,
     /// The definitions over num-dual's numbers.
     #[serde(rename = "num-dual")]
     NumDual,
@@ -69,9 +74,10 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 7] = [
+    pub const ALL: [Method; 8] = [
         Method::Tape,
         Method::MergedTape,
+        Method::Floor,
         Method::NumDual,
         Method::NumDualByHand,
         Method::NumDualClosedForm,
@@ -84,6 +90,7 @@ impl Method {
         match self {
             Method::Tape => "tape",
             Method::MergedTape => "merged tape",
+            Method::Floor => "floor",
             Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
             Method::NumDualClosedForm => "num-dual, closed form",

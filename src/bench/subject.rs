@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::candidate::{Block, Candidate, states};
 use super::central::Central;
 use super::complex_step::ComplexStep;
+use super::engines;
 use super::num_dual::{OneByOne, by_definition};
 use super::tapes;
 use super::underived::{Reason, Underived};
@@ -108,6 +109,7 @@ impl<'i> Subject<'i> {
                 candidate: tapes::in_f64(&self.merged, &self.states),
             },
         );
+        entries.extend(engines::all(&self.merged, &self.states, self.merging));
         let mut at_f64 = |method, domain, operations, set_up, candidate| {
             entries.push(Entry { method, domain, operations, set_up, candidate });
         };

@@ -16,15 +16,19 @@ pub(crate) trait Work {
 }
 
 /// An instruction set that the work is compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "made on x86-64 only"))]
-enum Vectors {
+pub(crate) enum Vectors {
+    /// 512 bits, with conversions of 64-bit integers.
     Avx512,
+    /// 256 bits, with fused multiply-add.
     Avx2,
+    /// What every processor of the architecture has.
     Baseline,
 }
 
 /// The widest there is.
-fn widest() -> Vectors {
+pub(crate) fn widest() -> Vectors {
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {

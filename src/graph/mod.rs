@@ -26,12 +26,13 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
 pub use dispatch::vector_features;
-pub(crate) use dispatch::{Work, with_widest_vectors};
+pub(crate) use dispatch::{Vectors, Work, widest, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 use index::Index;
 pub(crate) use merge::{Choice, Member};
 pub use steps::Step;
+pub(crate) use tape::Instruction;
 pub use tape::Tape;
 
 /// A node's place in its graph; arguments come before their users.

@@ -5,11 +5,11 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
 /// A place for one block of values.
-pub(super) type Slot = u32;
+pub(crate) type Slot = u32;
 
 /// One step; the result slot may be one of the argument slots.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Instruction {
+pub(crate) enum Instruction {
     Unary {
         function: Function,
         a: Slot,
@@ -112,6 +112,26 @@ impl Tape {
     /// How many operations one run costs a state.
     pub fn operations(&self) -> usize {
         self.instructions.len()
+    }
+
+    /// The steps in order, over slots.
+    pub(crate) fn instructions(&self) -> &[Instruction] {
+        &self.instructions
+    }
+
+    /// The constants, whose slots follow those of the inputs.
+    pub(crate) fn constants(&self) -> &[Rational] {
+        &self.constants
+    }
+
+    /// The exponents that powers refer to.
+    pub(crate) fn exponents(&self) -> &[Rational] {
+        &self.exponents
+    }
+
+    /// The slot of each output after the last step.
+    pub(crate) fn output_slots(&self) -> &[Slot] {
+        &self.outputs
     }
 
     /// How many inputs a run needs.

@@ -51,9 +51,18 @@ impl Draws {
 
     /// The numbers of state `index`.
     pub fn state(&self, seed: u64, index: u64) -> Vec<Rational> {
+        self.picked(seed, index, Source::pick)
+    }
+
+    /// The f64 nearest to each of them, and whether it is that number.
+    pub fn nearest(&self, seed: u64, index: u64) -> Vec<(f64, bool)> {
+        self.picked(seed, index, Source::nearest)
+    }
+
+    fn picked<T>(&self, seed: u64, index: u64, pick: impl Fn(&Source, u64) -> T) -> Vec<T> {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(index);
-        self.sources.iter().map(|source| source.pick(stream.next_u64())).collect()
+        self.sources.iter().map(|source| pick(source, stream.next_u64())).collect()
     }
 }
 
@@ -70,6 +79,20 @@ impl Source {
         }
     }
 
+    /// What `pick` gives, in f64, without making a rational number of it where parts are small.
+    fn nearest(&self, bits: u64) -> (f64, bool) {
+        const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
+        if let Source::SmallGrid { low, step, denominator, count } = self {
+            let value = numerator(bits, *low, *step, *count);
+            if value.unsigned_abs() <= EXACT {
+                // Both are f64s, and division rounds correctly; a power of two divides exactly.
+                let odd = denominator >> denominator.trailing_zeros();
+                return (value as f64 / *denominator as f64, value % odd == 0);
+            }
+        }
+        self.pick(bits).to_f64()
+    }
+
     fn pick(&self, bits: u64) -> Rational {
         match self {
             Source::List(values) => {
@@ -77,9 +100,7 @@ impl Source {
                 values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
             }
             Source::SmallGrid { low, step, denominator, count } => {
-                let value = low + step * (1 + scale(bits, *count) as i64);
-                let value = if value == 0 { *step } else { value };
-                Rational::new(value, *denominator)
+                Rational::new(numerator(bits, *low, *step, *count), *denominator)
             }
             Source::Grid { low, step, count } => {
                 let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
@@ -88,6 +109,12 @@ impl Source {
             }
         }
     }
+}
+
+/// A number of a grid, times its denominator.
+fn numerator(bits: u64, low: i64, step: i64, count: u64) -> i64 {
+    let value = low + step * (1 + scale(bits, count) as i64);
+    if value == 0 { step } else { value }
 }
 
 /// Both numbers over one denominator, if a grid of them cannot overflow.
@@ -131,6 +158,19 @@ mod tests {
     }
 
     const FROZEN: [&str; 3] = ["0.772", "0.64", "1.967"];
+
+    #[test]
+    fn the_nearest_f64_is_that_of_the_number() {
+        let ends =
+            [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
+        let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
+        let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
+        let draws = Draws::new(&[&ranges[..], &[list]].concat());
+        for index in 0..2000 {
+            let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
+            assert_eq!(draws.nearest(5, index), exact, "state {index}");
+        }
+    }
 
     #[test]
     fn draws_stay_inside_and_off_zero() {

@@ -46,6 +46,15 @@ impl<const N: usize> Balls<N> {
         Self { mid, rad }
     }
 
+    /// Enclosures of numbers by the nearest f64, each with the word whether it is that number.
+    pub fn about(nearest: impl Fn(usize) -> (f64, bool)) -> Self {
+        let mut balls = Self { mid: [0.0; N], rad: [0.0; N] };
+        for lane in 0..N {
+            (balls.mid[lane], balls.rad[lane]) = about(nearest(lane));
+        }
+        balls
+    }
+
     /// Is there a finite enclosure in this lane?
     pub fn is_defined(&self, lane: usize) -> bool {
         self.mid[lane].is_finite() && self.rad[lane].is_finite()
@@ -76,7 +85,11 @@ fn growth(x: f64) -> f64 {
 
 /// An enclosure of an exact number.
 fn enclose(value: &Rational) -> (f64, f64) {
-    let (mid, exact) = value.to_f64();
+    about(value.to_f64())
+}
+
+/// An enclosure of a number by the nearest f64, which is that number or is not.
+fn about((mid, exact): (f64, bool)) -> (f64, f64) {
     (mid, if exact { 0.0 } else { mid.abs() * f64::EPSILON + TINY })
 }
 

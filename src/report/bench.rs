@@ -56,6 +56,9 @@ struct ItemEntry<'a> {
     claim: &'a str,
     kind: &'a str,
     ns_per_state: Option<f64>,
+    /// By the quickest engine.
+    engine_ns_per_state: Option<f64>,
+    floor_ns_per_state: Option<f64>,
     /// By hand where there is such code, else by the generic definitions.
     num_dual_ns_per_state: Option<f64>,
     /// The merged tape over num-dual by hand.
@@ -129,11 +132,15 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
     let tape = measured.row(Method::Tape, "f64");
     let merged = measured.row(Method::MergedTape, "f64");
     let time = |method| measured.row(method, "f64").map(|row| row.ns_per_state);
+    let engines =
+        ["f64, machine code", "f64, interpreter"].map(|domain| measured.row(Method::Tape, domain));
     ItemEntry {
         name: &measured.item,
         claim: &measured.claim,
         kind: measured.kind,
         ns_per_state: tape.map(|row| row.ns_per_state),
+        engine_ns_per_state: engines.into_iter().flatten().next().map(|row| row.ns_per_state),
+        floor_ns_per_state: time(Method::Floor),
         num_dual_ns_per_state: time(Method::NumDualByHand).or(time(Method::NumDual)),
         ratio_to_num_dual: measured.ratio_to_num_dual(),
         num_dual_generic_ns_per_state: time(Method::NumDual),

@@ -86,7 +86,7 @@ fn domains(measured: &[Measured]) -> Vec<&'static str> {
 fn methods(measured: &[Measured]) -> Vec<Method> {
     let used =
         |method: &Method| measured.iter().any(|m| m.rows.iter().any(|r| r.method == *method));
-    Method::ALL.into_iter().filter(used).collect()
+    Method::ALL.into_iter().filter(|method| *method != Method::Floor && used(method)).collect()
 }
 
 fn style(domains: usize) -> String {
@@ -197,7 +197,7 @@ fn marker(method: Method, class: &str, x: f64, y: f64) -> String {
         format!("<polygon class=\"{class}\" points=\"{}\"/>\n", corners.join(" "))
     };
     match method {
-        Method::Tape => {
+        Method::Tape | Method::Floor => {
             format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>\n")
         }
         Method::MergedTape => polygon(&[(-6.0, -2.0), (6.0, -2.0), (6.0, 2.0), (-6.0, 2.0)]),

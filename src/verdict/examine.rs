@@ -31,12 +31,12 @@ impl Bench<'_> {
         let mut states = 0;
         let (mut largest, mut scaled) = (0f64, 0f64);
         for lane in 0..D::LANES {
-            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
-            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
+            let enclosures = || residuals.iter().map(|block| D::enclosure(block, lane));
+            if enclosures().any(|enclosure| enclosure.is_none()) {
                 continue;
-            };
+            }
             states += 1;
-            for (mid, rad) in enclosures {
+            for (mid, rad) in enclosures().flatten() {
                 largest = largest.max(mid.abs());
                 scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
             }

@@ -16,7 +16,7 @@ use super::field::{Field, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Recorded, Span};
-use super::run::Run;
+use super::run::{Run, waves};
 use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
 use crate::graph::Expr;
@@ -196,7 +196,7 @@ impl Bench<'_> {
     /// Balls over f64 at the other blocks, for claims that the fields did not settle.
     fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let mut laid_out: Option<(Run, Vec<Span>, usize)> = None;
-        for block in 1..self.blocks() {
+        for blocks in waves(1..self.blocks()) {
             let mut left: Vec<_> = open
                 .iter_mut()
                 .filter(|(_, finding)| {
@@ -211,10 +211,14 @@ impl Bench<'_> {
                 laid_out = Some((run, spans, left.len()));
             }
             let Some((run, spans, _)) = &laid_out else { return };
-            let start = block * LANES as u64;
-            let values = run.at(&Ball::<LANES>, &sampler.balls(start));
-            for ((_, finding), span) in left.iter_mut().zip(spans) {
-                self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
+            let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
+            for (block, values) in blocks.zip(values) {
+                let start = block * LANES as u64;
+                for ((_, finding), span) in left.iter_mut().zip(spans) {
+                    if finding.settled.is_none() {
+                        self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
+                    }
+                }
             }
         }
     }

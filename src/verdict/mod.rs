@@ -33,6 +33,7 @@ pub use evidence::{
 };
 pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
 pub use mutants::{MutantReport, MutationReport};
+pub(crate) use point::named;
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
 pub use sampler::{LANES, Sampler};
 pub use state::{StateError, read_state};

@@ -212,7 +212,7 @@ impl<'c> Scene<'c> {
 }
 
 /// Values in the order of a tape's inputs, by the names of parameters and of state variables.
-pub(super) fn named(model: &Model, values: &[String]) -> (Vec<Named>, Vec<Named>) {
+pub(crate) fn named(model: &Model, values: &[String]) -> (Vec<Named>, Vec<Named>) {
     let mut rest = values;
     let mut take = |name: &str, count: usize| {
         let (own, others) = rest.split_at(count);

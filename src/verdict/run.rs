@@ -1,11 +1,15 @@
 //! A tape of residuals, run over blocks of states in any number domain.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use crate::graph::{Evaluator, Expr, Graph, Tape};
 use crate::number::Domain;
-use crate::number::ball::Ball;
+use crate::number::ball::{Ball, Balls};
 
 use super::antiderivative_value;
-use super::sampler::LANES;
+use super::sampler::{LANES, Maker, Sampler};
 
 /// Balls over f64, the first domain of the ladder.
 pub type Doubles = Ball<LANES>;
@@ -22,9 +26,22 @@ impl<D: Domain> Values<D> {
     }
 
     /// The outputs of a range.
-    pub fn range(&self, range: std::ops::Range<usize>) -> Vec<&D::Block> {
+    pub fn range(&self, range: Range<usize>) -> Vec<&D::Block> {
         self.blocks[range].iter().collect()
     }
+}
+
+/// Blocks that are computed together at most: enough for many threads, few to be kept.
+const MOST_BLOCKS: u64 = 64;
+
+/// Blocks in runs to be computed together, ever longer: what is settled early should cost little.
+pub fn waves(blocks: Range<u64>) -> impl Iterator<Item = Range<u64>> {
+    let (mut next, mut length) = (blocks.start, 1);
+    std::iter::from_fn(move || {
+        let wave = next..blocks.end.min(next + length);
+        (next, length) = (wave.end, MOST_BLOCKS.min(2 * length));
+        (!wave.is_empty()).then_some(wave)
+    })
 }
 
 /// Evaluates `outputs` of `graph` at each block of inputs.
@@ -42,7 +59,31 @@ impl Run {
 
     /// The outputs at one block of parameters and states.
     pub fn at<D: Domain + Clone>(&self, domain: &D, states: &[D::Block]) -> Values<D> {
-        let mut evaluator = Evaluator::new(&self.tape, domain.clone());
+        self.with(&mut Evaluator::new(&self.tape, domain.clone()), domain, states)
+    }
+
+    /// The outputs at some blocks of states as balls, computed by all threads, in the order of the
+    /// blocks: `make` gives the states of a block.
+    pub fn at_blocks(
+        &self,
+        sampler: &Sampler,
+        blocks: Range<u64>,
+        make: impl Fn(&mut Maker<'_>, u64) -> Vec<Balls<LANES>> + Sync,
+    ) -> Vec<Values<Doubles>> {
+        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<LANES>));
+        let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
+            let states = make(maker, block * LANES as u64);
+            self.with(evaluator, &Ball::<LANES>, &states)
+        };
+        blocks.into_par_iter().map_init(memory, one).collect()
+    }
+
+    fn with<D: Domain>(
+        &self,
+        evaluator: &mut Evaluator<'_, D>,
+        domain: &D,
+        states: &[D::Block],
+    ) -> Values<D> {
         let free = (0..self.antiderivatives).map(|k| domain.constant(&antiderivative_value(k)));
         let inputs: Vec<D::Block> = states.iter().cloned().chain(free).collect();
         evaluator.run(&inputs);

@@ -1,6 +1,6 @@
 //! States at a place: random draws, turned into parameters and a state inside the number domain.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::case::Case;
 use crate::claim::Place;
@@ -30,7 +30,7 @@ pub struct Sampler {
     draws: Draws,
     recipes: Vec<Draw>,
     /// From draws to parameters and state.
-    graph: Rc<Graph>,
+    graph: Arc<Graph>,
     made: Vec<Expr>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
@@ -64,7 +64,7 @@ impl Sampler {
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
         let made = outputs;
-        let graph = Rc::new(graph);
+        let graph = Arc::new(graph);
         Ok(Self { seed, draws, recipes, graph, made, parameter_draws, dimension, tape, newton })
     }
 
@@ -76,7 +76,12 @@ impl Sampler {
 
     /// Parameters and state of the states `start..start + LANES`, as balls.
     pub fn balls(&self, start: u64) -> Vec<Balls<LANES>> {
-        self.balls_of(|lane| self.draws.state(self.seed, start + lane as u64))
+        self.maker().balls(start)
+    }
+
+    /// What makes many blocks of balls.
+    pub(super) fn maker(&self) -> Maker<'_> {
+        Maker { sampler: self, evaluator: Evaluator::new(&self.tape, Ball::<LANES>) }
     }
 
     /// The same for `lanes` states in another domain; states found numerically are known in f64
@@ -183,12 +188,7 @@ impl Sampler {
         Ok(())
     }
 
-    /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
-    pub fn balls_sharing_parameters(&self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
-        self.balls_of(|lane| self.numbers_sharing_parameters(start, sets, lane))
-    }
-
-    /// The same in another domain.
+    /// States in another domain with few parameter sets: one for every `LANES / sets` states.
     pub fn states_sharing_parameters<D: Domain + Clone>(
         &self,
         domain: &D,
@@ -196,24 +196,22 @@ impl Sampler {
         sets: usize,
     ) -> Vec<D::Block> {
         let numbers: Vec<Vec<Rational>> =
-            (0..LANES).map(|lane| self.numbers_sharing_parameters(start, sets, lane)).collect();
+            (0..LANES).map(|lane| self.sharing(sets, lane, start, Draws::state)).collect();
         self.made_in(domain, &numbers)
     }
 
-    fn numbers_sharing_parameters(&self, start: u64, sets: usize, lane: usize) -> Vec<Rational> {
+    /// The draws of a state with the parameters of its set.
+    fn sharing<T: Clone>(
+        &self,
+        sets: usize,
+        lane: usize,
+        start: u64,
+        state: impl Fn(&Draws, u64, u64) -> Vec<T>,
+    ) -> Vec<T> {
         let set = lane * sets / LANES;
-        let mut values = self.draws.state(self.seed, set as u64);
-        let own = self.draws.state(self.seed, start + lane as u64);
+        let mut values = state(&self.draws, self.seed, set as u64);
+        let own = state(&self.draws, self.seed, start + lane as u64);
         values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
-        values
-    }
-
-    fn balls_of(&self, draws_of: impl Fn(usize) -> Vec<Rational>) -> Vec<Balls<LANES>> {
-        let lanes: Vec<Vec<Rational>> = (0..LANES).map(draws_of).collect();
-        let mut values = self.made_in(&Ball::<LANES>, &lanes);
-        if let Some(newton) = &self.newton {
-            newton.project(&mut values);
-        }
         values
     }
 
@@ -269,5 +267,37 @@ impl Sampler {
             None => format!("{:?}", balls[k].mid[lane]),
         };
         self.exact(index).into_iter().enumerate().map(text).collect()
+    }
+}
+
+/// Makes blocks of balls, with memory of its own.
+pub struct Maker<'s> {
+    sampler: &'s Sampler,
+    evaluator: Evaluator<'s, Ball<LANES>>,
+}
+
+impl Maker<'_> {
+    /// Parameters and state of the states `start..start + LANES`.
+    pub fn balls(&mut self, start: u64) -> Vec<Balls<LANES>> {
+        let Sampler { draws, seed, .. } = self.sampler;
+        self.made(|lane| draws.nearest(*seed, start + lane as u64))
+    }
+
+    /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
+    pub fn balls_sharing_parameters(&mut self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
+        let sampler = self.sampler;
+        self.made(|lane| sampler.sharing(sets, lane, start, Draws::nearest))
+    }
+
+    fn made(&mut self, draws_of: impl Fn(usize) -> Vec<(f64, bool)>) -> Vec<Balls<LANES>> {
+        let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(draws_of);
+        let column = |k: usize| Balls::about(|lane| lanes[lane][k]);
+        let columns: Vec<Balls<LANES>> = (0..self.sampler.draws.len()).map(column).collect();
+        self.evaluator.run(&columns);
+        let mut values: Vec<Balls<LANES>> = self.evaluator.outputs().cloned().collect();
+        if let Some(newton) = &self.sampler.newton {
+            newton.project(&mut values);
+        }
+        values
     }
 }

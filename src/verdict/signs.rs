@@ -4,12 +4,11 @@ use super::bench::Bench;
 use super::evidence::Sign;
 use super::finding::{Finding, undecide};
 use super::recorded::Recorded;
-use super::run::Values;
-use super::sampler::{LANES, Sampler};
+use super::run::{Values, waves};
+use super::sampler::{LANES, Maker, Sampler};
 use crate::claim::Kind;
 use crate::graph::Expr;
 use crate::number::Enclosing;
-use crate::number::ball::Ball;
 use crate::number::twofold::TwofoldBall;
 
 /// Parameter sets over which the sign of a density is observed.
@@ -32,9 +31,16 @@ impl Bench<'_> {
         }
         let run = self.run(&densities);
         let mut seen = vec![[[false; 2]; PARAMETER_SETS]; densities.len()];
-        for block in 0..self.blocks() {
-            let states = sampler.balls_sharing_parameters(block * LANES as u64, PARAMETER_SETS);
-            observe(&run.at(&Ball::<LANES>, &states), &mut seen);
+        for blocks in waves(0..self.blocks()) {
+            let sharing = |maker: &mut Maker<'_>, start| {
+                maker.balls_sharing_parameters(start, PARAMETER_SETS)
+            };
+            for values in run.at_blocks(sampler, blocks, sharing) {
+                observe(&values, &mut seen);
+            }
+            if seen.iter().all(|seen| sign(seen) == Some(Sign::Changes)) {
+                break;
+            }
         }
         if seen.iter().any(|seen| sign(seen).is_none()) && !sampler.is_numerical() {
             let domain = TwofoldBall::<LANES>;

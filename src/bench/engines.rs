@@ -1,0 +1,86 @@
+//! The merged residual in f64 by each engine, and the floor under them.
+
+use std::time::{Duration, Instant};
+
+use super::Method;
+use super::candidate::{Block, Candidate};
+use super::subject::Entry;
+use crate::engine::{Engine, Means, Runner};
+use crate::graph::{Expr, Tape, record};
+use crate::number::precise::Approximation;
+
+/// Sums that do not wait for each other: more than a processor has under way at once, and few
+/// enough to have a register each.
+const CHAINS: usize = 12;
+
+/// The engines that there are on this machine, and the floor; `laying_out` is what the tape took.
+pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<Entry<'s>> {
+    let mut entries = Vec::new();
+    let mut add = |method, domain, engine: &Engine, set_up, candidate| {
+        let operations = Some(engine.steps());
+        entries.push(Entry { method, domain, operations, set_up, candidate });
+    };
+    let kinds = [("f64, interpreter", Means::Interpreter), ("f64, machine code", Means::Quickest)];
+    for (domain, means) in kinds {
+        let started = Instant::now();
+        let engine = Engine::new(tape, means);
+        let set_up = laying_out + started.elapsed();
+        if means == Means::Interpreter || engine.is_machine_code() {
+            let candidate = Box::new(EngineRun { runner: engine.runner(), states });
+            add(Method::MergedTape, domain, &engine, set_up, candidate as Box<dyn Candidate>);
+            if let Some(floor) = floor(engine.steps()).filter(|_| engine.is_machine_code()) {
+                add(Method::Floor, "f64", &engine, Duration::ZERO, Box::new(floor));
+            }
+        }
+    }
+    entries
+}
+
+/// An engine at the states.
+struct EngineRun<'s> {
+    runner: Runner,
+    states: &'s [Block],
+}
+
+impl Candidate for EngineRun<'_> {
+    fn run(&mut self, block: usize) {
+        for (row, input) in self.runner.inputs().iter_mut().zip(&self.states[block]) {
+            row.0 = *input;
+        }
+        self.runner.run();
+    }
+
+    fn value(&self, lane: usize) -> Option<Approximation> {
+        Approximation::from_f64(self.runner.output(0).0[lane])
+    }
+}
+
+/// As many fused sums as a residual has steps, as fast as this machine does them: x ← x a + b in
+/// registers, nothing else. A division or a root takes longer than a sum, so this is below what any
+/// engine can reach.
+struct Floor(Runner);
+
+impl Candidate for Floor {
+    fn run(&mut self, _block: usize) {
+        self.0.run();
+    }
+
+    /// It computes nothing of interest.
+    fn value(&self, _lane: usize) -> Option<Approximation> {
+        None
+    }
+}
+
+fn floor(steps: usize) -> Option<Floor> {
+    let (graph, ends) = record(CHAINS + 2, |x| {
+        let (a, b) = (x[CHAINS] + x[0], x[CHAINS + 1] + x[0]);
+        let mut chains: Vec<Expr> = x[..CHAINS].to_vec();
+        for step in 0..steps {
+            let chain = &mut chains[step % CHAINS];
+            *chain = *chain * a + b;
+        }
+        chains
+    })
+    .ok()?;
+    Some(Floor(Engine::new(&Tape::new(&graph, &ends), Means::Quickest).runner()))
+}

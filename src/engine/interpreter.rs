@@ -1,0 +1,275 @@
+//! The interpreter: the reference of what a program computes, in f64.
+//!
+//! One step at a time over a row of lanes. The last result stays in registers; where the next step
+//! is the only one that reads it, it is never stored.
+
+use super::program::{Program, Step, Sum, Value};
+use super::vector::{Vector, Work, with_vectors};
+use super::{LANES, Row};
+use crate::graph::Vectors;
+use crate::number::{Function, Operation};
+
+/// Vectors that a result takes: there are registers for as many of an argument on every machine.
+const GROUP: usize = 8;
+
+/// What a step does with its arguments x, y, z; x may be the last result.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// x + y
+    Add,
+    /// x - y
+    Sub,
+    /// y - x
+    SubFrom,
+    /// x y
+    Mul,
+    /// x y + z
+    MulAdd,
+    /// x y - z
+    MulSub,
+    /// z - x y
+    MulSubFrom,
+    /// y z + x
+    AddMul,
+    /// y z - x
+    SubFromMul,
+    /// x - y z
+    SubMul,
+    /// A function of x, an instruction of its own or not.
+    Function(Function),
+    /// x^y
+    Pow,
+}
+
+/// One step over rows.
+#[derive(Clone, Copy, Debug)]
+struct Instruction {
+    kind: Kind,
+    /// The row of x; `None` for the last result.
+    x: Option<u32>,
+    y: u32,
+    z: u32,
+    /// Where the result goes; `None` where only the next step reads it.
+    out: Option<u32>,
+}
+
+/// A program over numbered rows: inputs, constants, results.
+#[derive(Debug)]
+pub(super) struct Code {
+    instructions: Vec<Instruction>,
+    constants: Vec<f64>,
+    inputs: usize,
+    outputs: Vec<u32>,
+    rows: usize,
+}
+
+impl Code {
+    /// Lays out a program.
+    pub(super) fn new(program: &Program) -> Self {
+        let (reads, is_output) = (program.reads(), program.is_output());
+        let arranged: Vec<Arranged> =
+            (0..program.steps.len()).map(|index| Arranged::new(program, index)).collect();
+        let is_stored = |step: usize| {
+            let is_carried = arranged.get(step + 1).is_some_and(|next| next.takes_last);
+            is_output[step] || !is_carried || reads[step].len() > 1
+        };
+        let first = (program.inputs + program.constants.len()) as u32;
+        let mut row_of = vec![0; program.steps.len()];
+        let (mut free, mut rows): (Vec<u32>, u32) = (Vec::new(), first);
+        let row = |value: Value, row_of: &[u32]| match value {
+            Value::Input(input) => input,
+            Value::Constant(constant) => program.inputs as u32 + constant,
+            Value::Step(step) => row_of[step as usize],
+        };
+        let mut instructions = Vec::with_capacity(arranged.len());
+        for (index, Arranged { kind, arguments, takes_last }) in arranged.iter().enumerate() {
+            let [x, y, z] = arguments.map(|argument| row(argument, &row_of));
+            for (k, argument) in arguments.iter().enumerate() {
+                let Value::Step(step) = *argument else { continue };
+                let step = step as usize;
+                let is_last = reads[step].last() == Some(&(index as u32));
+                let is_again = arguments[..k].contains(argument);
+                if is_last && !is_again && !is_output[step] && is_stored(step) {
+                    free.push(row_of[step]);
+                }
+            }
+            let out = is_stored(index).then(|| {
+                free.pop().unwrap_or_else(|| {
+                    rows += 1;
+                    rows - 1
+                })
+            });
+            row_of[index] = out.unwrap_or(0);
+            instructions.push(Instruction {
+                kind: *kind,
+                x: (!takes_last).then_some(x),
+                y,
+                z,
+                out,
+            });
+        }
+        Code {
+            instructions,
+            constants: program.constants.clone(),
+            inputs: program.inputs,
+            outputs: program.outputs.iter().map(|output| row(*output, &row_of)).collect(),
+            rows: rows as usize,
+        }
+    }
+
+    /// The memory of a run, with the constants in place.
+    pub(super) fn rows(&self) -> Vec<Row> {
+        let mut rows = vec![Row([0.0; LANES]); self.rows];
+        for (row, constant) in rows[self.inputs..].iter_mut().zip(&self.constants) {
+            row.0 = [*constant; LANES];
+        }
+        rows
+    }
+
+    /// The row of an output.
+    pub(super) fn output(&self, index: usize) -> usize {
+        self.outputs[index] as usize
+    }
+
+    /// Runs the program once over its rows.
+    pub(super) fn run(&self, vectors: Vectors, rows: &mut [Row]) {
+        with_vectors(vectors, Run { instructions: &self.instructions, rows });
+    }
+}
+
+/// A step whose first argument is the last result, if it can be.
+struct Arranged {
+    kind: Kind,
+    arguments: [Value; 3],
+    takes_last: bool,
+}
+
+impl Arranged {
+    fn new(program: &Program, index: usize) -> Self {
+        let last = index.checked_sub(1).map(|last| Value::Step(last as u32));
+        let is_last = |value: Value| Some(value) == last;
+        // What is not read is the first argument once more.
+        let (kind, arguments) = match program.steps[index] {
+            Step::Unary(function, a) => (Kind::Function(function), [a; 3]),
+            Step::Binary(operation, a, b) => match operation {
+                Operation::Pow => (Kind::Pow, [a, b, a]),
+                Operation::Add if is_last(b) => (Kind::Add, [b, a, b]),
+                Operation::Add => (Kind::Add, [a, b, a]),
+                Operation::Sub if is_last(b) => (Kind::SubFrom, [b, a, b]),
+                Operation::Sub => (Kind::Sub, [a, b, a]),
+                Operation::Mul if is_last(b) => (Kind::Mul, [b, a, b]),
+                Operation::Mul => (Kind::Mul, [a, b, a]),
+            },
+            Step::Fused(sum, [a, b, c]) if is_last(c) => match sum {
+                Sum::Plus => (Kind::AddMul, [c, a, b]),
+                Sum::Minus => (Kind::SubFromMul, [c, a, b]),
+                Sum::From => (Kind::SubMul, [c, a, b]),
+            },
+            Step::Fused(sum, [a, b, c]) => {
+                let kind = match sum {
+                    Sum::Plus => Kind::MulAdd,
+                    Sum::Minus => Kind::MulSub,
+                    Sum::From => Kind::MulSubFrom,
+                };
+                (kind, if is_last(b) { [b, a, c] } else { [a, b, c] })
+            }
+        };
+        let read_twice =
+            program.steps[index].arguments().filter(|a| *a == arguments[0]).count() > 1;
+        Self { kind, arguments, takes_last: is_last(arguments[0]) && !read_twice }
+    }
+}
+
+/// Instructions over rows, with vectors still to be chosen.
+struct Run<'r> {
+    instructions: &'r [Instruction],
+    rows: &'r mut [Row],
+}
+
+impl Work for Run<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { instructions, rows } = self;
+        for start in (0..LANES).step_by(GROUP * V::LANES) {
+            let mut last = [V::splat(0.0); GROUP];
+            for instruction in instructions {
+                let x = match instruction.x {
+                    Some(row) => read(rows, row, start),
+                    None => last,
+                };
+                let y = || read::<V>(rows, instruction.y, start);
+                let z = || read::<V>(rows, instruction.z, start);
+                last = match instruction.kind {
+                    Kind::Add => zip(x, y(), V::add),
+                    Kind::Sub => zip(x, y(), V::sub),
+                    Kind::SubFrom => zip(y(), x, V::sub),
+                    Kind::Mul => zip(x, y(), V::mul),
+                    Kind::MulAdd => zip3(x, y(), z(), V::mul_add),
+                    Kind::MulSub => zip3(x, y(), z(), V::mul_sub),
+                    Kind::MulSubFrom => zip3(x, y(), z(), V::neg_mul_add),
+                    Kind::AddMul => zip3(y(), z(), x, V::mul_add),
+                    Kind::SubFromMul => zip3(y(), z(), x, V::mul_sub),
+                    Kind::SubMul => zip3(y(), z(), x, V::neg_mul_add),
+                    Kind::Function(function) => match function {
+                        Function::Neg => x.map(V::neg),
+                        Function::Recip => x.map(|x| V::splat(1.0).div(x)),
+                        Function::Sqrt => x.map(V::sqrt),
+                        Function::Abs => x.map(V::abs),
+                        Function::Exp => by_lane(x, libm::exp),
+                        Function::Ln => by_lane(x, libm::log),
+                        Function::Sin => by_lane(x, libm::sin),
+                        Function::Cos => by_lane(x, libm::cos),
+                        Function::Atan => by_lane(x, libm::atan),
+                    },
+                    Kind::Pow => by_lanes(x, y(), libm::pow),
+                };
+                if let Some(row) = instruction.out {
+                    let to = &mut rows[row as usize].0[start..][..GROUP * V::LANES];
+                    for (vector, lanes) in last.iter().zip(to.chunks_exact_mut(V::LANES)) {
+                        vector.store(lanes);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn read<V: Vector>(rows: &[Row], row: u32, start: usize) -> [V; GROUP] {
+    let lanes = &rows[row as usize].0[start..][..GROUP * V::LANES];
+    std::array::from_fn(|k| V::load(&lanes[k * V::LANES..]))
+}
+
+#[inline(always)]
+fn zip<V: Vector>(x: [V; GROUP], y: [V; GROUP], f: impl Fn(V, V) -> V) -> [V; GROUP] {
+    std::array::from_fn(|k| f(x[k], y[k]))
+}
+
+#[inline(always)]
+fn zip3<V: Vector>(
+    x: [V; GROUP],
+    y: [V; GROUP],
+    z: [V; GROUP],
+    f: impl Fn(V, V, V) -> V,
+) -> [V; GROUP] {
+    std::array::from_fn(|k| f(x[k], y[k], z[k]))
+}
+
+/// A function that is no instruction, one lane after the other.
+#[inline(always)]
+fn by_lane<V: Vector>(x: [V; GROUP], f: fn(f64) -> f64) -> [V; GROUP] {
+    by_lanes(x, x, |x, _| f(x))
+}
+
+#[inline(always)]
+fn by_lanes<V: Vector>(x: [V; GROUP], y: [V; GROUP], f: impl Fn(f64, f64) -> f64) -> [V; GROUP] {
+    zip(x, y, |x, y| {
+        let (mut of_x, mut of_y) = ([0.0; LANES], [0.0; LANES]);
+        x.store(&mut of_x);
+        y.store(&mut of_y);
+        for lane in 0..V::LANES {
+            of_x[lane] = f(of_x[lane], of_y[lane]);
+        }
+        V::load(&of_x)
+    })
+}

@@ -1,0 +1,234 @@
+//! Registers for a program, by one scan over its steps.
+//!
+//! Inputs and constants stay in memory: one operand of an instruction may be there, which costs
+//! nothing as long as there are two loads for two instructions. A result is given a register; where
+//! none is free, the one whose next use is furthest goes to the frame, and is read from there.
+
+use super::super::program::{Program, Step, Sum, Value};
+use super::encode::{Area, Assembler, Assembly, Order, Pair, Place, Register, Signs, Width};
+use crate::number::{Function, Operation};
+
+/// The instructions of a program, and the constants its frame begins with; `None` where it has a
+/// function that is no instruction.
+pub(super) fn assemble(program: &Program, width: Width) -> Option<(Assembly, Vec<f64>)> {
+    let mut scan = Scan::new(program, width);
+    for (index, step) in program.steps.iter().enumerate() {
+        scan.step(index, step)?;
+    }
+    for (index, output) in program.outputs.iter().enumerate() {
+        if !matches!(output, Value::Step(_)) {
+            // After the last step all registers are free.
+            scan.assembler.load(0, scan.place(*output));
+            scan.assembler.store(Area::Outputs, index as u32, 0);
+        }
+    }
+    Some((scan.assembler.finish(), scan.constants))
+}
+
+/// Where the scan stands.
+struct Scan<'p> {
+    program: &'p Program,
+    assembler: Assembler,
+    constants: Vec<f64>,
+    /// The steps that read each result.
+    reads: Vec<Vec<u32>>,
+    /// The outputs that each result is.
+    outputs: Vec<Vec<u32>>,
+    /// Where each result is, once it was made.
+    places: Vec<Place>,
+    /// The result in each register.
+    held: Vec<Option<u32>>,
+    /// The next free vector of the frame.
+    spills: u32,
+    free_spills: Vec<u32>,
+}
+
+/// Constants that the instructions need beside those of the program.
+const ONE: f64 = 1.0;
+const SIGN_BIT: f64 = -0.0;
+const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
+
+impl<'p> Scan<'p> {
+    fn new(program: &'p Program, width: Width) -> Self {
+        let steps = program.steps.len();
+        let mut outputs = vec![Vec::new(); steps];
+        for (index, output) in program.outputs.iter().enumerate() {
+            if let Value::Step(step) = *output {
+                outputs[step as usize].push(index as u32);
+            }
+        }
+        let constants = [&program.constants[..], &[ONE, SIGN_BIT, ALL_BUT_SIGN]].concat();
+        Self {
+            program,
+            assembler: Assembler::new(width),
+            spills: constants.len() as u32,
+            constants,
+            reads: program.reads(),
+            outputs,
+            places: vec![Place::Register(0); steps],
+            held: vec![None; width.registers()],
+            free_spills: Vec::new(),
+        }
+    }
+
+    fn step(&mut self, index: usize, step: &Step) -> Option<()> {
+        let extra = |number: usize| Value::Constant((self.program.constants.len() + number) as u32);
+        let target = match *step {
+            Step::Unary(function, a) => match function {
+                Function::Neg => self.pair(index, Pair::Xor, a, extra(1)),
+                Function::Abs => self.pair(index, Pair::And, a, extra(2)),
+                Function::Recip => self.pair(index, Pair::Div, extra(0), a),
+                Function::Sqrt => {
+                    let source = self.place(a);
+                    self.release(index, &[a]);
+                    let target = self.take(index, &[]);
+                    self.assembler.square_root(target, source);
+                    target
+                }
+                Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+                    return None;
+                }
+            },
+            Step::Binary(operation, a, b) => match operation {
+                Operation::Add => self.pair(index, Pair::Add, a, b),
+                Operation::Sub => self.pair(index, Pair::Sub, a, b),
+                Operation::Mul => self.pair(index, Pair::Mul, a, b),
+                Operation::Pow => return None,
+            },
+            Step::Fused(sum, arguments) => self.fused(index, sum, arguments),
+        };
+        // Not before the instruction: it may read what another value is spilled over.
+        self.release_spills(index, step);
+        self.places[index] = Place::Register(target);
+        for output in &self.outputs[index] {
+            self.assembler.store(Area::Outputs, *output, target);
+        }
+        self.held[target as usize] = (!self.reads[index].is_empty()).then_some(index as u32);
+        Some(())
+    }
+
+    /// `a op b` in a register.
+    fn pair(&mut self, index: usize, pair: Pair, a: Value, b: Value) -> Register {
+        let (mut x, mut y) = (self.place(a), self.place(b));
+        let commutes = !matches!(pair, Pair::Sub | Pair::Div);
+        if commutes && matches!((x, y), (Place::Memory(..), Place::Register(_))) {
+            (x, y) = (y, x);
+        }
+        if let Place::Register(first) = x {
+            self.release(index, &[a, b]);
+            let target = self.take(index, &[]);
+            self.assembler.pair(pair, target, first, y);
+            return target;
+        }
+        let target = self.take(index, &[y]);
+        self.release(index, &[a, b]);
+        self.assembler.load(target, x);
+        self.assembler.pair(pair, target, target, y);
+        target
+    }
+
+    /// `a b ± c` in a register, one of whose sources it replaces.
+    fn fused(&mut self, index: usize, sum: Sum, arguments: [Value; 3]) -> Register {
+        let signs = match sum {
+            Sum::Plus => Signs::Add,
+            Sum::Minus => Signs::Sub,
+            Sum::From => Signs::NegAdd,
+        };
+        let places = arguments.map(|argument| self.place(argument));
+        let in_memory = |k: &usize| matches!(places[*k], Place::Memory(..));
+        // The source that the result replaces: one that nobody reads again; else one that must be
+        // brought to a register anyway; else a copy of the third.
+        let dying = (0..3).find(|k| !in_memory(k) && self.is_last_read(arguments[*k], index));
+        let replaced = dying.or_else(|| (0..3).find(in_memory)).unwrap_or(2);
+        let target = match places[replaced] {
+            Place::Register(register) if dying.is_some() => register,
+            place => {
+                let target = self.take(index, &places);
+                self.assembler.load(target, place);
+                target
+            }
+        };
+        // Of the other two, one may be in memory.
+        let [u, v] = if replaced == 2 { [0, 1] } else { [1 - replaced, 2] };
+        let (second, third, is_swapped) = match (places[u], places[v]) {
+            (Place::Register(second), third) => (second, third, false),
+            (third, Place::Register(second)) => (second, third, true),
+            (first, third) => {
+                let taken = [places[replaced], Place::Register(target)];
+                let second = self.take(index, &taken);
+                self.assembler.load(second, first);
+                (second, third, false)
+            }
+        };
+        let order = match (replaced, is_swapped) {
+            (2, _) => Order::O231,
+            (_, false) => Order::O213,
+            (_, true) => Order::O132,
+        };
+        self.assembler.fused(order, signs, target, second, third);
+        self.release(index, &arguments);
+        target
+    }
+
+    fn place(&self, value: Value) -> Place {
+        match value {
+            Value::Input(input) => Place::Memory(Area::Inputs, input),
+            Value::Constant(constant) => Place::Memory(Area::Frame, constant),
+            Value::Step(step) => self.places[step as usize],
+        }
+    }
+
+    fn is_last_read(&self, value: Value, index: usize) -> bool {
+        match value {
+            Value::Step(step) => self.reads[step as usize].last() == Some(&(index as u32)),
+            _ => false,
+        }
+    }
+
+    /// Gives back the registers of values that are read for the last time.
+    fn release(&mut self, index: usize, arguments: &[Value]) {
+        for argument in arguments {
+            if self.is_last_read(*argument, index)
+                && let Place::Register(register) = self.place(*argument)
+            {
+                self.held[register as usize] = None;
+            }
+        }
+    }
+
+    /// Gives back the vectors of the frame whose values were read for the last time.
+    fn release_spills(&mut self, index: usize, step: &Step) {
+        for argument in step.arguments() {
+            if self.is_last_read(argument, index)
+                && let Place::Memory(_, spill) = self.place(argument)
+                && !self.free_spills.contains(&spill)
+            {
+                self.free_spills.push(spill);
+            }
+        }
+    }
+
+    /// A register for a result, none of those in `taken`.
+    fn take(&mut self, index: usize, taken: &[Place]) -> Register {
+        let may_be = |register: &usize| !taken.contains(&Place::Register(*register as Register));
+        let registers = || (0..self.held.len()).filter(may_be);
+        if let Some(free) = registers().find(|register| self.held[*register].is_none()) {
+            return free as Register;
+        }
+        let next_read = |register: &usize| {
+            let reads = self.held[*register].map(|step| &self.reads[step as usize])?;
+            reads.get(reads.partition_point(|read| *read as usize <= index)).copied()
+        };
+        // There are more registers than an instruction has operands.
+        let register = registers().max_by_key(next_read).unwrap_or(0) as Register;
+        if let Some(step) = self.held[register as usize].take() {
+            let spill = self.free_spills.pop().unwrap_or_else(|| {
+                self.spills += 1;
+                self.spills - 1
+            });
+            self.assembler.store(Area::Frame, spill, register);
+            self.places[step as usize] = Place::Memory(Area::Frame, spill);
+        }
+        register
+    }
+}

@@ -1,0 +1,424 @@
+//! The few x86-64 instructions that a program needs, as bytes.
+//!
+//! AVX-512 has its own prefix (EVEX, Intel SDM vol. 2A, 2.7), with 32 registers of 8 lanes; AVX2 the
+//! older one (VEX, 2.3), with 16 of 4. Opcodes are the same. The tests read everything back with a
+//! disassembler.
+
+/// Vectors of one instruction set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Width {
+    /// AVX2 and FMA: 4 lanes.
+    Four,
+    /// AVX-512F and AVX-512DQ: 8 lanes.
+    Eight,
+}
+
+impl Width {
+    pub(super) fn lanes(self) -> usize {
+        match self {
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
+
+    pub(super) fn registers(self) -> usize {
+        match self {
+            Width::Four => 16,
+            Width::Eight => 32,
+        }
+    }
+
+    fn bytes(self) -> i32 {
+        8 * self.lanes() as i32
+    }
+}
+
+/// A vector register.
+pub(super) type Register = u8;
+
+/// An area of memory, by the register that points to it. Rows are rows of lanes of which one vector
+/// after the other is taken; the frame holds the same vectors in every turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Area {
+    Inputs,
+    Outputs,
+    Frame,
+}
+
+/// Where a vector is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Register(Register),
+    Memory(Area, u32),
+}
+
+/// Instructions with two sources.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pair {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    And,
+    Xor,
+}
+
+impl Pair {
+    fn opcode(self) -> u8 {
+        match self {
+            Pair::Add => 0x58,
+            Pair::Sub => 0x5c,
+            Pair::Mul => 0x59,
+            Pair::Div => 0x5e,
+            Pair::And => 0x54,
+            Pair::Xor => 0x57,
+        }
+    }
+}
+
+/// Which of the three sources the result replaces, by the order in which they are multiplied and
+/// added (the first is the target, the third may be in memory).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// target · third ± second
+    O132,
+    /// second · target ± third
+    O213,
+    /// second · third ± target
+    O231,
+}
+
+/// Signs of a fused sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Signs {
+    /// x y + z
+    Add,
+    /// x y - z
+    Sub,
+    /// -x y + z
+    NegAdd,
+}
+
+/// Opcodes in the map 0F.
+const LOAD: u8 = 0x10;
+const STORE: u8 = 0x11;
+const SQUARE_ROOT: u8 = 0x51;
+/// Maps of opcodes.
+const MAP_0F: u8 = 1;
+const MAP_0F38: u8 = 2;
+/// The prefix 66 in compressed form: packed doubles.
+const PACKED_DOUBLE: u8 = 1;
+/// Bytes between the same lanes of two rows.
+const ROW_BYTES: i32 = 8 * super::super::LANES as i32;
+
+/// Bytes of a loop under construction, and how much memory they touch.
+#[derive(Debug)]
+pub(super) struct Assembler {
+    width: Width,
+    bytes: Vec<u8>,
+    extent: Extent,
+}
+
+/// How much memory of each area is touched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Extent {
+    /// Rows of inputs.
+    pub(super) inputs: usize,
+    /// Rows of outputs.
+    pub(super) outputs: usize,
+    /// Vectors of the frame.
+    pub(super) frame: usize,
+}
+
+/// A function of the areas and the number of turns, `extern "sysv64"`, whose only effect is to read
+/// and write what its extent says.
+#[derive(Debug)]
+pub(super) struct Assembly {
+    pub(super) bytes: Vec<u8>,
+    pub(super) width: Width,
+    pub(super) extent: Extent,
+}
+
+impl Assembler {
+    pub(super) fn new(width: Width) -> Self {
+        Self { width, bytes: Vec::new(), extent: Extent::default() }
+    }
+
+    /// `target = source`
+    pub(super) fn load(&mut self, target: Register, source: Place) {
+        self.vector(MAP_0F, LOAD, target, 0, source);
+    }
+
+    /// `target = source`, to memory.
+    pub(super) fn store(&mut self, area: Area, index: u32, source: Register) {
+        self.vector(MAP_0F, STORE, source, 0, Place::Memory(area, index));
+    }
+
+    /// `target = x op y`
+    pub(super) fn pair(&mut self, pair: Pair, target: Register, x: Register, y: Place) {
+        self.vector(MAP_0F, pair.opcode(), target, x, y);
+    }
+
+    /// `target = √x`
+    pub(super) fn square_root(&mut self, target: Register, x: Place) {
+        self.vector(MAP_0F, SQUARE_ROOT, target, 0, x);
+    }
+
+    /// A fused sum of target, second and third.
+    pub(super) fn fused(
+        &mut self,
+        order: Order,
+        signs: Signs,
+        target: Register,
+        second: Register,
+        third: Place,
+    ) {
+        let order = match order {
+            Order::O132 => 0x98,
+            Order::O213 => 0xa8,
+            Order::O231 => 0xb8,
+        };
+        let signs = match signs {
+            Signs::Add => 0,
+            Signs::Sub => 2,
+            Signs::NegAdd => 4,
+        };
+        self.vector(MAP_0F38, order + signs, target, second, third);
+    }
+
+    /// Closes the loop: one vector further in every row, as often as was asked for.
+    pub(super) fn finish(mut self) -> Assembly {
+        let step = self.width.bytes() as u8;
+        // add rdi, step; add rdx, step; dec rcx; jnz to the beginning; vzeroupper; ret
+        self.bytes.extend([0x48, 0x83, 0xc7, step, 0x48, 0x83, 0xc2, step, 0x48, 0xff, 0xc9]);
+        self.bytes.extend([0x0f, 0x85]);
+        let back = -(self.bytes.len() as i32 + 4);
+        self.bytes.extend(back.to_le_bytes());
+        self.bytes.extend([0xc5, 0xf8, 0x77, 0xc3]);
+        Assembly { bytes: self.bytes, width: self.width, extent: self.extent }
+    }
+
+    /// One vector instruction: `register` and `place` in the ModRM byte, `second` in the prefix.
+    fn vector(&mut self, map: u8, opcode: u8, register: u8, second: u8, place: Place) {
+        // Bits 3 and 4 of the register in the place.
+        let (low, bit3, bit4) = match place {
+            Place::Register(r) => (r & 7, r >> 3 & 1, r >> 4 & 1),
+            Place::Memory(area, index) => {
+                self.touch(area, index);
+                (base(area), 0, 0)
+            }
+        };
+        // Register bits in prefixes are inverted.
+        let not = |bit: u8| (bit & 1) ^ 1;
+        match self.width {
+            Width::Eight => self.bytes.extend([
+                0x62,
+                not(register >> 3) << 7
+                    | not(bit4) << 6
+                    | not(bit3) << 5
+                    | not(register >> 4) << 4
+                    | map,
+                0x80 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
+                // Bits 6 and 5: 512 bits.
+                0b10 << 5 | not(second >> 4) << 3,
+            ]),
+            Width::Four => self.bytes.extend([
+                0xc4,
+                not(register >> 3) << 7 | 1 << 6 | not(bit3) << 5 | map,
+                0x80 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
+            ]),
+        }
+        self.bytes.push(opcode);
+        let register = (register & 7) << 3;
+        match place {
+            Place::Register(_) => self.bytes.push(0b11 << 6 | register | low),
+            Place::Memory(area, index) => self.memory(area, index, register | low),
+        }
+    }
+
+    /// ModRM and displacement of a place in memory.
+    fn memory(&mut self, area: Area, index: u32, fields: u8) {
+        let width = self.width.bytes();
+        let offset = index as i32 * if area == Area::Frame { width } else { ROW_BYTES };
+        // In EVEX a displacement of one byte counts vectors.
+        let unit = if self.width == Width::Eight { width } else { 1 };
+        match i8::try_from(offset / unit) {
+            Ok(short) => self.bytes.extend([0b01 << 6 | fields, short as u8]),
+            Err(_) => {
+                self.bytes.push(0b10 << 6 | fields);
+                self.bytes.extend(offset.to_le_bytes());
+            }
+        }
+    }
+
+    fn touch(&mut self, area: Area, index: u32) {
+        let extent = match area {
+            Area::Inputs => &mut self.extent.inputs,
+            Area::Outputs => &mut self.extent.outputs,
+            Area::Frame => &mut self.extent.frame,
+        };
+        *extent = (*extent).max(index as usize + 1);
+    }
+}
+
+/// The register that points to an area: rdi, rdx, rsi.
+fn base(area: Area) -> u8 {
+    match area {
+        Area::Inputs => 7,
+        Area::Outputs => 2,
+        Area::Frame => 6,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register as Iced};
+
+    use super::*;
+
+    const WIDTHS: [Width; 2] = [Width::Four, Width::Eight];
+    const PAIRS: [(Pair, Mnemonic); 6] = [
+        (Pair::Add, Mnemonic::Vaddpd),
+        (Pair::Sub, Mnemonic::Vsubpd),
+        (Pair::Mul, Mnemonic::Vmulpd),
+        (Pair::Div, Mnemonic::Vdivpd),
+        (Pair::And, Mnemonic::Vandpd),
+        (Pair::Xor, Mnemonic::Vxorpd),
+    ];
+    const FUSED: [(Order, Signs, Mnemonic); 9] = [
+        (Order::O132, Signs::Add, Mnemonic::Vfmadd132pd),
+        (Order::O213, Signs::Add, Mnemonic::Vfmadd213pd),
+        (Order::O231, Signs::Add, Mnemonic::Vfmadd231pd),
+        (Order::O132, Signs::Sub, Mnemonic::Vfmsub132pd),
+        (Order::O213, Signs::Sub, Mnemonic::Vfmsub213pd),
+        (Order::O231, Signs::Sub, Mnemonic::Vfmsub231pd),
+        (Order::O132, Signs::NegAdd, Mnemonic::Vfnmadd132pd),
+        (Order::O213, Signs::NegAdd, Mnemonic::Vfnmadd213pd),
+        (Order::O231, Signs::NegAdd, Mnemonic::Vfnmadd231pd),
+    ];
+
+    fn decoded(bytes: &[u8]) -> Instruction {
+        let mut decoder = Decoder::with_ip(64, bytes, 0, DecoderOptions::NONE);
+        let instruction = decoder.decode();
+        assert!(!instruction.is_invalid(), "{bytes:02x?}");
+        assert_eq!(instruction.len(), bytes.len(), "one instruction: {bytes:02x?}");
+        instruction
+    }
+
+    fn vector(width: Width, register: Register) -> Iced {
+        let first = match width {
+            Width::Four => Iced::YMM0,
+            Width::Eight => Iced::ZMM0,
+        };
+        first + u32::from(register)
+    }
+
+    fn places(width: Width) -> Vec<Place> {
+        let registers = (0..width.registers() as u8).map(Place::Register);
+        let indices = [0, 1, 3, 4, 15, 16, 17, 127, 128, 100_000];
+        let areas = [Area::Inputs, Area::Outputs, Area::Frame];
+        let memory = areas.iter().flat_map(|area| indices.map(|index| Place::Memory(*area, index)));
+        registers.chain(memory).collect()
+    }
+
+    fn assert_operand(width: Width, found: &Instruction, operand: u32, place: Place) {
+        match place {
+            Place::Register(register) => {
+                assert_eq!(found.op_register(operand), vector(width, register), "{place:?}");
+            }
+            Place::Memory(area, index) => {
+                let (register, distance) = match area {
+                    Area::Inputs => (Iced::RDI, 512),
+                    Area::Outputs => (Iced::RDX, 512),
+                    Area::Frame => (Iced::RSI, 8 * width.lanes() as u64),
+                };
+                assert_eq!(found.op_kind(operand), OpKind::Memory, "{place:?}");
+                assert_eq!(found.memory_base(), register, "{place:?}");
+                assert_eq!(found.memory_index(), Iced::None, "{place:?}");
+                assert!(!found.is_broadcast(), "{place:?}");
+                assert_eq!(found.memory_displacement64(), u64::from(index) * distance, "{place:?}");
+            }
+        }
+        assert_eq!(found.op_mask(), Iced::None, "no lane is masked");
+    }
+
+    /// The only instruction that `emit` writes.
+    fn one(width: Width, emit: impl FnOnce(&mut Assembler)) -> Instruction {
+        let mut assembler = Assembler::new(width);
+        emit(&mut assembler);
+        decoded(&assembler.bytes)
+    }
+
+    #[test]
+    fn a_disassembler_reads_what_was_meant() {
+        for width in WIDTHS {
+            let registers = 0..width.registers() as u8;
+            for (place, target) in places(width)
+                .into_iter()
+                .flat_map(|place| registers.clone().step_by(3).map(move |target| (place, target)))
+            {
+                let second = (target * 7 + 5) % width.registers() as u8;
+                let found = one(width, |to| to.load(target, place));
+                assert_eq!(found.mnemonic(), Mnemonic::Vmovupd, "load");
+                assert_operand(width, &found, 0, Place::Register(target));
+                assert_operand(width, &found, 1, place);
+                let found = one(width, |to| to.square_root(target, place));
+                assert_eq!(found.mnemonic(), Mnemonic::Vsqrtpd, "square root");
+                assert_operand(width, &found, 0, Place::Register(target));
+                assert_operand(width, &found, 1, place);
+                if let Place::Memory(area, index) = place {
+                    let found = one(width, |to| to.store(area, index, target));
+                    assert_eq!(found.mnemonic(), Mnemonic::Vmovupd, "store");
+                    assert_operand(width, &found, 0, place);
+                    assert_operand(width, &found, 1, Place::Register(target));
+                }
+                let three = |found: &Instruction| {
+                    assert_operand(width, found, 0, Place::Register(target));
+                    assert_operand(width, found, 1, Place::Register(second));
+                    assert_operand(width, found, 2, place);
+                };
+                for (pair, mnemonic) in PAIRS {
+                    let found = one(width, |to| to.pair(pair, target, second, place));
+                    assert_eq!(found.mnemonic(), mnemonic, "{pair:?}");
+                    three(&found);
+                }
+                for (order, signs, mnemonic) in FUSED {
+                    let found = one(width, |to| to.fused(order, signs, target, second, place));
+                    assert_eq!(found.mnemonic(), mnemonic, "{order:?} {signs:?}");
+                    three(&found);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_loop_ends_and_goes_back_to_its_beginning() {
+        for width in WIDTHS {
+            let mut assembler = Assembler::new(width);
+            assembler.load(3, Place::Memory(Area::Inputs, 4));
+            assembler.store(Area::Outputs, 2, 3);
+            assembler.pair(Pair::Add, 1, 3, Place::Memory(Area::Frame, 9));
+            let assembly = assembler.finish();
+            let extent = Extent { inputs: 5, outputs: 3, frame: 10 };
+            assert_eq!(assembly.extent, extent, "all memory that is touched");
+            let decoder = Decoder::with_ip(64, &assembly.bytes, 0, DecoderOptions::NONE);
+            let found: Vec<Instruction> = decoder.into_iter().collect();
+            let mnemonics: Vec<Mnemonic> = found[3..].iter().map(|one| one.mnemonic()).collect();
+            let expected = [
+                Mnemonic::Add,
+                Mnemonic::Add,
+                Mnemonic::Dec,
+                Mnemonic::Jne,
+                Mnemonic::Vzeroupper,
+                Mnemonic::Ret,
+            ];
+            assert_eq!(mnemonics, expected, "the end of the loop");
+            for (add, register) in found[3..5].iter().zip([Iced::RDI, Iced::RDX]) {
+                assert_eq!(add.op_register(0), register, "rows go on");
+                assert_eq!(add.immediate(1), 8 * width.lanes() as u64, "by one vector");
+            }
+            assert_eq!(found[5].op_register(0), Iced::RCX, "turns are counted");
+            assert_eq!(found[6].near_branch_target(), 0, "back to the beginning");
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! A tape as single assignments: every step has a name of its own, and products that only a sum
+//! reads are fused with it.
+//!
+//! ```text
+//! a b + c,  a b - c,  c - a b      rounded once
+//! ```
+//!
+//! A negated difference is the opposite one: 0 where the tape has -0, and nothing else. Which products are fused depends on the tape alone, and an engine without such an instruction
+//! computes the same correctly rounded value: all engines give the same bits. A fused sum has one
+//! rounding less than the tape in the domain `Float`.
+
+use crate::graph::{Instruction, Tape};
+use crate::number::{Function, Operation};
+
+/// What a step may read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Value {
+    Input(u32),
+    Constant(u32),
+    /// The result of an earlier step.
+    Step(u32),
+}
+
+/// How a product and a third value are added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sum {
+    /// a b + c
+    Plus,
+    /// a b - c
+    Minus,
+    /// c - a b
+    From,
+}
+
+/// One step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Step {
+    Unary(Function, Value),
+    Binary(Operation, Value, Value),
+    Fused(Sum, [Value; 3]),
+}
+
+impl Step {
+    /// What it reads, in order.
+    pub(super) fn arguments(&self) -> impl Iterator<Item = Value> {
+        let arguments = match *self {
+            Step::Unary(_, a) => [Some(a), None, None],
+            Step::Binary(_, a, b) => [Some(a), Some(b), None],
+            Step::Fused(_, arguments) => arguments.map(Some),
+        };
+        arguments.into_iter().flatten()
+    }
+
+    fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
+        match self {
+            Step::Unary(function, a) => Step::Unary(function, renamed(a)),
+            Step::Binary(operation, a, b) => Step::Binary(operation, renamed(a), renamed(b)),
+            Step::Fused(sum, arguments) => Step::Fused(sum, arguments.map(renamed)),
+        }
+    }
+}
+
+/// Steps that compute outputs from inputs.
+#[derive(Clone, Debug)]
+pub(super) struct Program {
+    pub(super) inputs: usize,
+    pub(super) constants: Vec<f64>,
+    pub(super) steps: Vec<Step>,
+    pub(super) outputs: Vec<Value>,
+}
+
+impl Program {
+    /// The program of a tape.
+    pub(super) fn new(tape: &Tape) -> Self {
+        let inputs = tape.inputs();
+        let fixed = inputs + tape.constants().len();
+        let mut held: Vec<Value> = (0..fixed)
+            .map(|slot| match slot.checked_sub(inputs) {
+                None => Value::Input(slot as u32),
+                Some(constant) => Value::Constant(constant as u32),
+            })
+            .collect();
+        let mut constants: Vec<f64> =
+            tape.constants().iter().map(|value| value.to_f64().0).collect();
+        let mut steps = Vec::with_capacity(tape.operations());
+        for instruction in tape.instructions() {
+            let at = |slot: u32| held[slot as usize];
+            let (step, out) = match *instruction {
+                Instruction::Unary { function, a, out } => (Step::Unary(function, at(a)), out),
+                Instruction::Binary { operation, a, b, out } => {
+                    (Step::Binary(operation, at(a), at(b)), out)
+                }
+                Instruction::Power { a, exponent, out } => {
+                    constants.push(tape.exponents()[exponent as usize].to_f64().0);
+                    let exponent = Value::Constant(constants.len() as u32 - 1);
+                    (Step::Binary(Operation::Pow, at(a), exponent), out)
+                }
+            };
+            let out = out as usize;
+            if held.len() <= out {
+                held.resize(out + 1, Value::Input(0));
+            }
+            held[out] = Value::Step(steps.len() as u32);
+            steps.push(step);
+        }
+        let outputs = tape.output_slots().iter().map(|slot| held[*slot as usize]).collect();
+        Self { inputs, constants, steps, outputs }.fused().without_negations()
+    }
+
+    /// The steps that read each step's result, in order; one that reads it twice stands there twice.
+    pub(super) fn reads(&self) -> Vec<Vec<u32>> {
+        let mut reads = vec![Vec::new(); self.steps.len()];
+        for (index, step) in self.steps.iter().enumerate() {
+            for argument in step.arguments() {
+                if let Value::Step(step) = argument {
+                    reads[step as usize].push(index as u32);
+                }
+            }
+        }
+        reads
+    }
+
+    /// Is each step's result an output?
+    pub(super) fn is_output(&self) -> Vec<bool> {
+        let mut is_output = vec![false; self.steps.len()];
+        for output in &self.outputs {
+            if let Value::Step(step) = *output {
+                is_output[step as usize] = true;
+            }
+        }
+        is_output
+    }
+
+    /// Products that are read once, by a sum or a difference, become a part of it.
+    fn fused(mut self) -> Self {
+        let (reads, is_output) = (self.reads(), self.is_output());
+        let mut absorbed = vec![false; self.steps.len()];
+        for index in 0..self.steps.len() {
+            let Step::Binary(operation @ (Operation::Add | Operation::Sub), a, b) =
+                self.steps[index]
+            else {
+                continue;
+            };
+            let product = |value: Value| match value {
+                Value::Step(step) => match self.steps[step as usize] {
+                    Step::Binary(Operation::Mul, x, y)
+                        if reads[step as usize].len() == 1 && !is_output[step as usize] =>
+                    {
+                        Some((step as usize, x, y))
+                    }
+                    _ => None,
+                },
+                _ => None,
+            };
+            let (of_a, of_b) = (product(a), product(b));
+            // Of two, the later: its factors need not be kept for long.
+            let later = of_a.map(|found| found.0) < of_b.map(|found| found.0);
+            let (step, sum, [x, y, z]) = match (of_a, of_b) {
+                (_, Some((step, x, y))) if later => {
+                    let sum = if operation == Operation::Add { Sum::Plus } else { Sum::From };
+                    (step, sum, [x, y, a])
+                }
+                (Some((step, x, y)), _) => {
+                    let sum = if operation == Operation::Add { Sum::Plus } else { Sum::Minus };
+                    (step, sum, [x, y, b])
+                }
+                _ => continue,
+            };
+            absorbed[step] = true;
+            self.steps[index] = Step::Fused(sum, [x, y, z]);
+        }
+        self.without(&absorbed)
+    }
+
+    /// A difference that is only read to be negated becomes the opposite difference.
+    fn without_negations(mut self) -> Self {
+        let (reads, is_output) = (self.reads(), self.is_output());
+        let mut absorbed = vec![false; self.steps.len()];
+        for index in 0..self.steps.len() {
+            let Step::Unary(Function::Neg, Value::Step(negated)) = self.steps[index] else {
+                continue;
+            };
+            let negated = negated as usize;
+            if reads[negated].len() > 1 || is_output[negated] {
+                continue;
+            }
+            self.steps[index] = match self.steps[negated] {
+                Step::Binary(Operation::Sub, a, b) => Step::Binary(Operation::Sub, b, a),
+                Step::Fused(Sum::Minus, arguments) => Step::Fused(Sum::From, arguments),
+                Step::Fused(Sum::From, arguments) => Step::Fused(Sum::Minus, arguments),
+                _ => continue,
+            };
+            absorbed[negated] = true;
+        }
+        self.without(&absorbed)
+    }
+
+    /// Leaves out steps that nobody reads any more.
+    fn without(self, left_out: &[bool]) -> Self {
+        let mut place = Vec::with_capacity(left_out.len());
+        let mut kept = 0;
+        for left_out in left_out {
+            place.push(Value::Step(kept));
+            kept += u32::from(!left_out);
+        }
+        let renamed = |value: Value| match value {
+            Value::Step(step) => place[step as usize],
+            other => other,
+        };
+        let steps = self.steps.iter().zip(left_out).filter(|(_, left_out)| !**left_out);
+        let steps = steps.map(|(step, _)| step.with_arguments(renamed)).collect();
+        let outputs = self.outputs.iter().map(|output| renamed(*output)).collect();
+        Self { steps, outputs, ..self }
+    }
+}

@@ -1,0 +1,196 @@
+//! All engines against each other, bit for bit, and against the tape's evaluator.
+
+use super::*;
+use crate::graph::{Evaluator, Expr, record};
+use crate::number::float::Float;
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::scalar::Scalar;
+
+/// Numbers at which operations differ most: zeros, infinities, NaN, tiny and huge ones.
+const CORNERS: [f64; 16] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+    f64::MIN_POSITIVE,
+    -f64::MIN_POSITIVE,
+    5e-324,
+    f64::MAX,
+    -f64::MAX,
+    0.1,
+    -1.0 / 3.0,
+    1e200,
+    1e-200,
+];
+
+/// A sequence of numbers; the same one every time.
+struct Sequence(u64);
+
+impl Sequence {
+    fn next(&mut self, below: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % below
+    }
+
+    fn number(&mut self) -> f64 {
+        match self.next(4) {
+            0 => CORNERS[self.next(CORNERS.len())],
+            _ => self.next(2000) as f64 / 700.0 - 1.4,
+        }
+    }
+}
+
+/// All ways to run a tape on this machine.
+fn engines(tape: &Tape) -> Vec<Engine> {
+    let all = [Vectors::Baseline, Vectors::Avx2, Vectors::Avx512];
+    let pairs = all.iter().flat_map(|vectors| {
+        [Means::Interpreter, Means::Quickest]
+            .map(|means| Engine::with_vectors(tape, means, *vectors))
+    });
+    pairs.collect()
+}
+
+/// Bits of all outputs; every NaN is the same.
+fn bits(engine: &Engine, inputs: &[Row], outputs: usize) -> Vec<[u64; LANES]> {
+    let mut runner = engine.runner();
+    runner.inputs().copy_from_slice(inputs);
+    // A second run must not see the first.
+    runner.run();
+    runner.run();
+    let bits = |x: f64| if x.is_nan() { u64::MAX } else { x.to_bits() };
+    (0..outputs).map(|index| runner.output(index).0.map(bits)).collect()
+}
+
+fn assert_all_equal(tape: &Tape, inputs: &[Row], what: &str) {
+    let engines = engines(tape);
+    let outputs = tape.outputs();
+    let reference = bits(&engines[0], inputs, outputs);
+    for engine in &engines[1..] {
+        let (vectors, is_code) = (engine.0.vectors, engine.is_machine_code());
+        let found = bits(engine, inputs, outputs);
+        assert!(found == reference, "{what}: {vectors:?}, machine code: {is_code}");
+    }
+}
+
+const FUNCTIONS: [Function; 9] = [
+    Function::Neg,
+    Function::Recip,
+    Function::Sqrt,
+    Function::Abs,
+    Function::Exp,
+    Function::Ln,
+    Function::Sin,
+    Function::Cos,
+    Function::Atan,
+];
+const OPERATIONS: [Operation; 4] = [Operation::Add, Operation::Sub, Operation::Mul, Operation::Pow];
+
+#[test]
+fn every_operation_has_the_bits_of_the_domain() {
+    let (graph, values) = record(2, |x| {
+        let mut all: Vec<Expr> = FUNCTIONS.iter().map(|f| x[0].apply(*f)).collect();
+        all.extend(OPERATIONS.iter().map(|operation| x[0].combine(*operation, x[1])));
+        all.push(x[1].combine(Operation::Sub, x[0]));
+        all.push(x[0].power(&Rational::new(5, 3)));
+        all.push(x[0]);
+        all.push(Expr::rational(&Rational::new(1, 3)));
+        all
+    })
+    .expect("records");
+    // One by one, so that those that are instructions are machine code; and all in one.
+    let single = values.iter().map(|value| Tape::new(&graph, &[*value]));
+    for (index, tape) in single.chain([Tape::new(&graph, &values)]).enumerate() {
+        for turn in 0..CORNERS.len() / 4 {
+            let x = Row(std::array::from_fn(|lane| CORNERS[lane % 16]));
+            let y = Row(std::array::from_fn(|lane| CORNERS[4 * turn + lane / 16]));
+            assert_all_equal(&tape, &[x, y], &format!("operation {index}"));
+            let mut domain = Evaluator::new(&tape, Float::<LANES>);
+            domain.run(&[x.0, y.0]);
+            let engine = Engine::new(&tape, Means::Interpreter);
+            for (output, found) in bits(&engine, &[x, y], tape.outputs()).iter().enumerate() {
+                let expected = domain.output(output);
+                let same = (0..LANES).all(|lane| match expected[lane] {
+                    value if value.is_nan() => found[lane] == u64::MAX,
+                    // The sign of 0 may differ: a negated difference is the opposite one.
+                    0.0 => f64::from_bits(found[lane]) == 0.0,
+                    value => found[lane] == value.to_bits(),
+                });
+                assert!(same, "operation {index}, output {output}");
+            }
+        }
+    }
+}
+
+/// A tape of random operations on a few inputs, with as many live values as asked for.
+fn random_tape(sequence: &mut Sequence, length: usize, live: usize) -> Tape {
+    let (graph, values) = record(5, |x| {
+        let mut values: Vec<Expr> = x.to_vec();
+        values.push(Expr::rational(&Rational::new(2, 7)));
+        for _ in 0..length {
+            let first = values.len().saturating_sub(live);
+            let mut pick = || values[first + sequence.next(values.len() - first)];
+            let (a, b, c) = (pick(), pick(), pick());
+            values.push(match sequence.next(12) {
+                0 => a.apply(Function::Neg),
+                1 => a.apply(Function::Abs),
+                2 => a.apply(Function::Sqrt),
+                3 => a.apply(Function::Recip),
+                4 => a + b,
+                5 => a - b,
+                6 | 7 => a * b,
+                8 => a * b + c,
+                9 => c - a * b,
+                10 => a * a - b,
+                _ => a * b - b * c,
+            });
+        }
+        let count = values.len();
+        [values[count - 1], values[count - 2], values[count / 2], values[count / 3], values[2]]
+            .to_vec()
+    })
+    .expect("records");
+    Tape::new(&graph, &values)
+}
+
+#[test]
+fn random_tapes_have_the_same_bits_in_all_engines() {
+    let mut sequence = Sequence(1);
+    for turn in 0..300 {
+        let length = 1 + sequence.next(if turn % 10 == 0 { 1500 } else { 120 });
+        // Up to ten times as many values as there are registers.
+        let live = 2 + sequence.next(if turn % 3 == 0 { 320 } else { 30 });
+        let tape = random_tape(&mut sequence, length, live);
+        let inputs = [(); 5].map(|_| Row(std::array::from_fn(|_| sequence.number())));
+        assert_all_equal(&tape, &inputs, &format!("tape {turn}"));
+    }
+}
+
+#[test]
+fn a_sum_of_products_is_rounded_once() {
+    let (graph, value) = record(2, |x| x[0] * x[0] - x[1]).expect("records");
+    let tape = Tape::new(&graph, &[value]);
+    let x = 1.0 + f64::EPSILON;
+    for engine in engines(&tape) {
+        assert_eq!(engine.steps(), 1, "the product is a part of the difference");
+        let mut runner = engine.runner();
+        runner.inputs().copy_from_slice(&[Row([x; LANES]), Row([x * x; LANES])]);
+        runner.run();
+        let left = runner.output(0).0[LANES - 1];
+        assert_eq!(left, f64::EPSILON * f64::EPSILON, "what rounding took from x²");
+    }
+}
+
+#[test]
+fn machine_code_is_made_where_it_can_be() {
+    let (graph, [plain, other]) =
+        record(1, |x| [x[0] * x[0], x[0].apply(Function::Sin)]).expect("records");
+    let is_code =
+        |value| Engine::new(&Tape::new(&graph, &[value]), Means::Quickest).is_machine_code();
+    let expected = widest() != Vectors::Baseline;
+    assert_eq!(is_code(plain), expected, "a product is an instruction");
+    assert!(!is_code(other), "a sine is none");
+}

@@ -1,0 +1,262 @@
+//! Sweeps: the residual of a claim in f64 at as many states as one likes.
+//!
+//! ```text
+//! seed, i ─ generator ─▶ draws ─ chart ─▶ state ─ residual/scale ─▶ the largest, and where
+//!                        └───────────── one tape, by the engine ─┘
+//! ```
+//!
+//! Draws, chart and residual are one tape: no state is ever stored, and memory does not grow with
+//! their number. The result is the same for any number of threads. It is no verdict: a number in f64
+//! has no bound. [`judge`](crate::verdict::judge) proves and refutes; a sweep looks where a formula
+//! that has no proof is off most, or maps a quantity over ranges of parameters.
+//!
+//! ```
+//! use liouville::case::Case;
+//! use liouville::sweep::Sweep;
+//!
+//! let case = Case::parse(
+//!     r#"
+//!     title = "Euler's top, with a slip in the exponent"
+//!     system = "rubber-plane"
+//!     [parameters]
+//!     m = "0.5..2"
+//!     R = "1..3"
+//!     I = "inertia(0.5..5)"
+//!     [body]
+//!     shape = "ball"
+//!     [[claim]]
+//!     integral = "|J*ω × γ|²"
+//!     [[claim]]
+//!     density = "(γ,J⁻¹*γ)"
+//!     "#,
+//!     &[],
+//! )?;
+//! let [right, wrong] = [0, 1].map(|k| Sweep::new(&case, &case.claims[k], 1).expect("it has a chart"));
+//! let peak = right.run(0..100_000, f64::INFINITY).peak.expect("it has values");
+//! assert!(peak.ratio < 1e-13, "rounding at most, at state {}", peak.index);
+//!
+//! // A wrong formula is off by more than rounding: one look is enough.
+//! let found = wrong.run(0..100_000_000, 1e-6);
+//! let peak = found.peak.expect("it has values");
+//! assert!(peak.ratio > 1e-6 && found.states < 100_000_000);
+//! let (parameters, state) = wrong.state(peak.index);
+//! assert_eq!((parameters[0].0.as_str(), state[0].0.as_str()), ("m", "ω"));
+//! # Ok::<(), liouville::case::CaseError>(())
+//! ```
+
+mod generator;
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::case::{Case, Claim};
+use crate::engine::{Engine, LANES, Means, Row, Runner};
+use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::Jet;
+use crate::number::float::Float;
+use crate::scalar::Scalar;
+use crate::verdict::{Named, Sampler, antiderivative_value, named};
+use generator::Generator;
+
+/// States a thread takes at a time: so many that giving them out costs nothing.
+const PORTION: u64 = 1 << 14;
+/// States after which it is asked whether enough was seen; the same for any number of threads.
+const WAVE: u64 = 1 << 20;
+
+/// Why there is no sweep.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum SweepError {
+    /// A formula asked a recorded value for its magnitude.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+    /// States that Newton's method finds, one by one.
+    #[error("the level set has no parametrisation to make states from")]
+    NoChart,
+    /// A claim that no number decides.
+    #[error("a claim of this kind has no residual")]
+    NoResidual,
+}
+
+impl SweepError {
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            SweepError::Fault(_) => "write the formula with operations that hold for every number",
+            SweepError::NoChart => "give the case a [level.chart]",
+            SweepError::NoResidual => "leave this claim to `liouville check`",
+        }
+    }
+}
+
+/// A claim made ready to be computed at many states.
+#[derive(Debug)]
+pub struct Sweep<'c> {
+    case: &'c Case,
+    generator: Generator,
+    engine: Engine,
+    /// How many numbers vanish where the claim holds.
+    components: usize,
+    /// From draws to parameters and state.
+    point: Tape,
+}
+
+/// What a sweep saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extremes {
+    /// States that were looked at.
+    pub states: u64,
+    /// Those of them at which the residual has a value.
+    pub defined: u64,
+    /// Where it is largest; the first of several.
+    pub peak: Option<Peak>,
+}
+
+/// A state and its residual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// The number of the state under the sweep's seed.
+    pub index: u64,
+    /// |residual|/scale, the largest of all components; the scale is what the residual is small
+    /// against ([`crate::claim::Context::scale`]), 1 for kinds of claims that have none.
+    pub ratio: f64,
+}
+
+impl Extremes {
+    /// What two sweeps saw together, `self` being of earlier states.
+    fn and(self, later: Self) -> Self {
+        let peak = match (self.peak, later.peak) {
+            (Some(a), Some(b)) => Some(if b.ratio > a.ratio { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        Self { states: self.states + later.states, defined: self.defined + later.defined, peak }
+    }
+}
+
+impl<'c> Sweep<'c> {
+    /// Records a claim from the draws of its states on.
+    pub fn new(case: &'c Case, claim: &Claim, seed: u64) -> Result<Self, SweepError> {
+        Self::by(case, claim, seed, Means::Quickest)
+    }
+
+    /// The same with an engine of one's choice: no number changes with it.
+    pub fn by(case: &'c Case, claim: &Claim, seed: u64, means: Means) -> Result<Self, SweepError> {
+        let sampler = Sampler::new(case, &claim.place, seed)?;
+        if sampler.is_numerical() {
+            return Err(SweepError::NoChart);
+        }
+        let free = case.model.free_components();
+        let (graph, groups) = record(free + case.model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            let jet = Jet::new(Phase::new(&case.model, parameters, state));
+            let residual = claim.kind.residual(&jet, &claim.place.kept);
+            let scale = claim.kind.context(&jet, &claim.place.kept).scale;
+            let ratio = |residual: crate::graph::Expr| {
+                let size = residual.modulus();
+                scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
+            };
+            vec![residual.into_iter().map(ratio).collect(), inputs.to_vec()]
+        })?;
+        if groups[0].is_empty() {
+            return Err(SweepError::NoResidual);
+        }
+        let recipes = sampler.recipes();
+        let (graph, groups) = sampler.compose(&graph, &groups, &vec![None; recipes.len()])?;
+        Ok(Self {
+            case,
+            generator: Generator::new(recipes, seed),
+            engine: Engine::new(&Tape::new(&graph, &groups[0]), means),
+            components: groups[0].len(),
+            point: Tape::new(&graph, &groups[1]),
+        })
+    }
+
+    /// Looks at states until the residual is `enough` times its scale at one of them, which is
+    /// asked for after every 2²⁰ of them.
+    pub fn run(&self, states: Range<u64>, enough: f64) -> Extremes {
+        let mut found = Extremes::default();
+        let mut wave = states.start..states.start;
+        while wave.end < states.end && found.peak.is_none_or(|peak| peak.ratio < enough) {
+            wave = wave.end..wave.end.saturating_add(WAVE).min(states.end);
+            let portions = (wave.end - wave.start).div_ceil(PORTION);
+            let portion = |runner: &mut Runner, number: u64| {
+                let start = wave.start + number * PORTION;
+                self.look(runner, start..(start + PORTION).min(wave.end))
+            };
+            let of_wave = (0..portions)
+                .into_par_iter()
+                .map_init(|| self.runner(), portion)
+                .reduce(Extremes::default, Extremes::and);
+            found = found.and(of_wave);
+        }
+        found
+    }
+
+    /// Parameters and state of state `index`, by name, as `eval` takes them.
+    pub fn state(&self, index: u64) -> (Vec<Named>, Vec<Named>) {
+        let mut draws = vec![Row([0.0; LANES]); self.point.inputs()];
+        self.fix_antiderivatives(&mut draws);
+        self.generator.fill(index, &mut draws);
+        let mut evaluator = Evaluator::new(&self.point, Float::<1>);
+        evaluator.run(&draws.iter().map(|row| [row.0[0]]).collect::<Vec<_>>());
+        let values = evaluator.outputs().map(|value| format!("{:?}", value[0]));
+        named(&self.case.model, &values.collect::<Vec<String>>())
+    }
+
+    /// The engine, and what it is made of.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    fn runner(&self) -> Runner {
+        let mut runner = self.engine.runner();
+        self.fix_antiderivatives(runner.inputs());
+        runner
+    }
+
+    /// Their rows follow those of the draws.
+    fn fix_antiderivatives(&self, inputs: &mut [Row]) {
+        for (number, row) in inputs.iter_mut().skip(self.generator.draws()).enumerate() {
+            row.0 = [antiderivative_value(number).to_f64().0; LANES];
+        }
+    }
+
+    /// What a few states show, one after the other.
+    fn look(&self, runner: &mut Runner, states: Range<u64>) -> Extremes {
+        let mut found = Extremes::default();
+        for start in states.clone().step_by(LANES) {
+            self.generator.fill(start, runner.inputs());
+            runner.run();
+            let lanes = (states.end - start).min(LANES as u64) as usize;
+            let mut ratios = *runner.output(0);
+            for component in 1..self.components {
+                worse(&mut ratios, runner.output(component));
+            }
+            found = found.and(peak(&ratios.0[..lanes], start));
+        }
+        found
+    }
+}
+
+/// The larger of two, undefined where one of them is.
+fn worse(ratios: &mut Row, others: &Row) {
+    for (ratio, other) in ratios.0.iter_mut().zip(&others.0) {
+        if *other > *ratio || other.is_nan() {
+            *ratio = *other;
+        }
+    }
+}
+
+/// The largest of some numbers, in two passes without a branch on any of them.
+fn peak(ratios: &[f64], start: u64) -> Extremes {
+    let (mut defined, mut most) = (0, f64::NEG_INFINITY);
+    for ratio in ratios {
+        let is_defined = *ratio < f64::INFINITY;
+        defined += u64::from(is_defined);
+        most = if is_defined && *ratio > most { *ratio } else { most };
+    }
+    let place = ratios.iter().position(|ratio| *ratio == most);
+    let peak = place.map(|lane| Peak { index: start + lane as u64, ratio: most });
+    Extremes { states: ratios.len() as u64, defined, peak }
+}
