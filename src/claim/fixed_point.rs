@@ -2,17 +2,16 @@
 
 use num_dual::Dual;
 
+use super::components::Components;
 use super::{Reader, Statement, difference};
 use crate::formula::Formula;
-use crate::mechanics::Meaning;
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::scalar::Scalar;
 
 /// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
-    /// One entry a state variable; 0 where none is given.
-    point: Vec<Option<Formula>>,
+    point: Components,
     spectrum: Option<Vec<Formula>>,
 }
 
@@ -23,20 +22,7 @@ impl Statement for FixedPoint {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let model = from.model();
-        let parameters = model.vocabulary.only_parameters();
-        let mut point = vec![None; model.state.len()];
-        let given = from.table_in(Self::NAME, &parameters)?;
-        for (name, formula) in given.ok_or_else(|| from.missing(Self::NAME))? {
-            let entry = model.vocabulary.find(&name);
-            let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
-                let message = format!("`{name}` is no state variable");
-                return Err(from.complaint(Self::NAME, message, "name state variables"));
-            };
-            if model.state[index].kind != formula.value_type() {
-                return Err(from.unlike(Self::NAME, model.state[index].kind, formula.value_type()));
-            }
-            point[index] = Some(formula);
-        }
+        let point = Components::read(from, Self::NAME, &model.vocabulary.only_parameters())?;
         let spectrum = from.list("spectrum")?;
         if let Some(eigenvalues) = &spectrum
             && eigenvalues.len() > model.dimension()
@@ -45,8 +31,8 @@ impl Statement for FixedPoint {
             let remedy = "list those that are not 0, each as often as it occurs";
             return Err(from.complaint("spectrum", message, remedy));
         }
-        let given = point.iter().flatten().chain(spectrum.iter().flatten());
-        if given.into_iter().any(|formula| model.has_antiderivative(formula)) {
+        let open = |formula: &Formula| model.has_antiderivative(formula);
+        if point.formulas().chain(spectrum.iter().flatten()).any(open) {
             let message = "a point has no ∫ in it: its constant is open".to_string();
             return Err(from.complaint(Self::NAME, message, "write the antiderivative out"));
         }
@@ -54,13 +40,7 @@ impl Statement for FixedPoint {
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
-        let mut state = Vec::new();
-        for (formula, variable) in self.point.iter().zip(&jet.phase.model().state) {
-            match formula {
-                Some(formula) => state.extend(jet.phase.evaluate(formula).components()),
-                None => state.extend(vec![T::zero(); variable.len()]),
-            }
-        }
+        let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
         let mut residual = at.field().to_vec();
         residual.extend(jet.level_at(&at, kept));
