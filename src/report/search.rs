@@ -14,6 +14,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
         "second_opinions": report.opinions,
         "conditions": report.conditions,
         "remarks": report.remarks,
+        "unreached": report.unreached,
     }))
 }
 
@@ -53,7 +54,7 @@ pub fn text(title: &str, report: &Report) -> String {
             out.push_str(&format!("  a function of what the case claims: {known}\n"));
         }
     }
-    if report.found.is_empty() {
+    if report.found.is_empty() && report.unreached.is_empty() {
         out.push_str("\nnothing was found among the terms that were tried\n");
     }
     for excluded in &report.excluded {
@@ -77,6 +78,10 @@ pub fn text(title: &str, report: &Report) -> String {
     }
     for remark in &report.remarks {
         out.push_str(&format!("\nnote: {remark}\n"));
+    }
+    if !report.unreached.is_empty() {
+        out.push_str("\nthe search was stopped; it did not reach:\n");
+        report.unreached.iter().for_each(|part| out.push_str(&format!("  {part}\n")));
     }
     out.trim_end().to_string()
 }

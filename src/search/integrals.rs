@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::ask::{claimed, holds, independent, judged, quoted};
+use super::ask::{holds, independent, judged, quoted};
 use super::library;
 use super::linear::Functions;
 use super::second_opinion::second_opinion;
@@ -29,6 +29,7 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
     // Of functions that depend on each other, the shortest is told.
     proved.sort_by_key(|(formula, _)| formula.chars().count());
     for (formula, found) in proved {
+        effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
     }
     Ok(())
@@ -47,9 +48,10 @@ pub fn tell(
         return Ok(());
     }
     let mut known = None;
-    for (name, own) in claimed(case, effort)? {
-        if independent(case, &[own], formula, effort)?.is_none() {
-            known = Some(name);
+    for own in &report.claimed {
+        let formulas = std::slice::from_ref(&own.formula);
+        if independent(case, formulas, formula, effort)?.is_none() {
+            known = Some(own.name.clone());
             break;
         }
     }
@@ -78,6 +80,7 @@ fn candidates(
         return Ok(candidates);
     }
     for denominator in read(library::denominators(model), vocabulary) {
+        effort.halt.check()?;
         let (graph, rates) = recorded(case, |jet| {
             let moved = jet.along_field();
             let below: Dual<Expr> = moved.scalar(&denominator.formula);

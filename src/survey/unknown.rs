@@ -34,10 +34,9 @@ impl Unknown {
         let effort = Effort {
             degree: DEGREE,
             blind: true,
-            terms: Vec::new(),
-            conditions: None,
             seconds: SECONDS,
             options: *options,
+            ..Effort::default()
         };
         // The families have the symmetry fields of bodies.
         let is_body = !matches!(case.model.system, System::Field(_) | System::Lagrangian(_));
