@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use super::jets::{self, Asked};
+use super::jets::{self, Asked, Count};
 use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, Report, SearchError};
@@ -90,7 +90,7 @@ pub fn count(
 }
 
 /// The same body without potential and gyrostat, where it is known what they are.
-fn free_motion(case: &Case) -> Option<Case> {
+pub fn free_motion(case: &Case) -> Option<Case> {
     let system = case.model.system.without_forces()?;
     let mut free = case.clone();
     free.model.system = system;
@@ -121,21 +121,8 @@ impl<'c> Motion<'c> {
         report: &mut Report,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
-        let mut locals = Vec::new();
-        for fixed in listed(&self.case.model.parameter_draws()) {
-            match Local::of(self.case, &fixed) {
-                Ok(local) => locals.push(local),
-                Err(error @ SearchError::Unsplit(_)) => {
-                    report.remark(error.to_string());
-                    return Ok(());
-                }
-                Err(error) => return Err(error),
-            }
-        }
-        let Some(first) = locals.first() else {
-            report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
-            return Ok(());
-        };
+        let Some(locals) = locals(self.case, report)? else { return Ok(()) };
+        let Some(first) = locals.first() else { return Ok(()) };
         for degree in degrees {
             let (unknowns, seconds) = size(first, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
@@ -151,13 +138,13 @@ impl<'c> Motion<'c> {
             }
             match self.of_degree(&locals, degree, effort) {
                 // A bound below what there is would be a defect of the tool: nothing is concluded.
-                Ok(Some(count)) if count.dimension < count.known => {
+                Ok(count) if count.dimension < count.known => {
                     report.remark(format!(
                         "degree {degree}: fewer integrals are counted than are known"
                     ));
                     return Ok(());
                 }
-                Ok(count) => report.counts.extend(count),
+                Ok(count) => report.counts.push(count),
                 Err(SearchError::Stopped) => {
                     report.unreached.push(format!("integrals of degree {degree} and more"));
                     return Ok(());
@@ -171,29 +158,53 @@ impl<'c> Motion<'c> {
         Ok(())
     }
 
-    /// The largest count over the values of the lists: the theorem is about all of them.
     fn of_degree(
         &self,
         locals: &[Local],
         degree: u32,
         effort: &Effort,
-    ) -> Result<Option<CountReport>, SearchError> {
+    ) -> Result<CountReport, SearchError> {
         let known = self.energy.products(degree, self.mixed);
         let asked = Asked { degree, mixed: self.mixed };
-        let zero = Rational::from(0);
-        let counts: Result<Vec<jets::Count>, SearchError> =
-            locals.iter().map(|local| jets::count(local, asked, &zero, known, effort)).collect();
-        let largest = counts?.into_iter().max_by_key(|count| count.dimension);
-        Ok(largest.map(|jets::Count { dimension, size: (unknowns, equations) }| CountReport {
-            degree,
-            mixed: self.mixed,
-            free: self.free,
-            dimension,
-            known,
-            unknowns,
-            equations,
-        }))
+        let found = largest(locals, asked, &Rational::from(0), known, effort)?;
+        let Count { dimension, size: (unknowns, equations) } = found;
+        let (mixed, free) = (self.mixed, self.free);
+        Ok(CountReport { degree, mixed, free, dimension, known, unknowns, equations })
     }
+}
+
+/// The equations of motion for each combination of the values of lists; nothing, and a remark, where
+/// there are too many, or nothing can be counted.
+pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, SearchError> {
+    let mut locals = Vec::new();
+    for fixed in listed(&case.model.parameter_draws()) {
+        match Local::of(case, &fixed) {
+            Ok(local) => locals.push(local),
+            Err(error @ SearchError::Unsplit(_)) => {
+                report.remark(error.to_string());
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    if locals.is_empty() {
+        report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
+        return Ok(None);
+    }
+    Ok(Some(locals))
+}
+
+/// The largest count over the values of the lists: a theorem is about all of them.
+pub fn largest(
+    locals: &[Local],
+    asked: Asked,
+    weight: &Rational,
+    least: usize,
+    effort: &Effort,
+) -> Result<Count, SearchError> {
+    let counts: Result<Vec<Count>, SearchError> =
+        locals.iter().map(|local| jets::count(local, asked, weight, least, effort)).collect();
+    counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
 }
 
 /// The combinations of the values of parameters that have a list, if they are few.

@@ -3,7 +3,7 @@
 //! ```text
 //! count      how many integrals polynomial in the velocities there are, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
-//! densities  relations between div v and L_v ln f for factors f
+//! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is a claim like any other, and climbs the same ladder
 //! ```
 
@@ -19,6 +19,7 @@ mod jets;
 mod library;
 mod linear;
 mod local;
+mod multipliers;
 mod products;
 mod second_opinion;
 mod series;
@@ -36,6 +37,7 @@ use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
 pub use halt::Halt;
+pub use multipliers::MultiplierReport;
 pub use second_opinion::SecondOpinion;
 
 /// Why a search cannot be made.
@@ -86,6 +88,12 @@ pub enum SearchError {
 }
 
 impl SearchError {
+    /// Does it say that something cannot be counted, and nothing about the rest of a search?
+    fn is_of_count(&self) -> bool {
+        use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+    }
+
     /// What to do about it.
     pub fn help(&self) -> &'static str {
         match self {
@@ -206,6 +214,8 @@ pub struct Excluded {
 pub struct Report {
     /// The numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
+    /// The numbers of polynomials whose powers are densities.
+    pub multipliers: Vec<MultiplierReport>,
     /// What was found.
     pub found: Vec<Found>,
     /// What cannot be.
@@ -283,6 +293,9 @@ pub fn search(
         symmetries::symmetries(case, effort, report)
     })?;
     counts::conclude(case, effort, &mut report)?;
+    report.stage("densities that depend on the velocities", effort, |report| {
+        multipliers::multipliers(case, effort, report, progress)
+    })?;
     if let Some(wanted) = &effort.conditions {
         report.stage("conditions on the parameters", effort, |report| {
             conditions::conditions(case, wanted, effort, report, progress)
