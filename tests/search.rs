@@ -4,19 +4,11 @@
 use std::path::Path;
 
 use liouville::case::{Case, Setting};
-use liouville::search::{Ansatz, Effort, Report, Wanted, search};
-use liouville::verdict::{Options, Verdict};
+use liouville::search::{Effort, Halt, Report, Wanted, search};
+use liouville::verdict::Verdict;
 
 fn effort(degree: u32) -> Effort {
-    Effort {
-        degree,
-        blind: false,
-        seconds: 60.0,
-        terms: Vec::new(),
-        conditions: None,
-        ansatz: Ansatz::default(),
-        options: Options::default(),
-    }
+    Effort { degree, ..Effort::default() }
 }
 
 fn searched(path: &str, effort: &Effort) -> Report {
@@ -308,4 +300,29 @@ fn what_takes_no_forces_is_told_so() {
     for what in ["no potential", "no rotor"] {
         assert!(report.remarks.iter().any(|one| one.starts_with(what)), "{:?}", report.remarks);
     }
+}
+
+#[test]
+fn a_search_that_is_stopped_tells_what_it_reached() {
+    let path = Path::new("cases/plane/unbalanced-ball.toml");
+    let case = Case::read(path, &[]).1.expect("a case of the catalogue");
+    let effort = effort(4);
+    let switch = effort.halt.switch();
+    let mut progress = |what: &str| {
+        if what.starts_with("integrals of degree 3") {
+            switch.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    };
+    let report = search(&case, &effort, &mut progress).expect("it can be searched");
+    let degrees: Vec<u32> = report.counts.iter().map(|count| count.degree).collect();
+    assert_eq!(degrees, [1, 2], "what was counted before");
+    assert_eq!(report.unreached[0], "integrals of degree 3 and more");
+    assert!(report.unreached.iter().any(|part| part == "integrals among the terms"));
+    let theorem = &report.excluded[0].theorem;
+    assert!(theorem.contains("of degree at most 2 is a polynomial in energy and"), "{theorem}");
+
+    let none = Effort { halt: Halt::within(std::time::Duration::ZERO), ..effort };
+    let report = search(&case, &none, &mut |_| {}).expect("it can be searched");
+    assert!(report.found.is_empty() && report.counts.is_empty() && report.excluded.is_empty());
+    assert_eq!(report.unreached[0], "the number of integrals");
 }

@@ -23,21 +23,29 @@ pub struct AnalyticDensity;
 #[derive(Clone, Debug)]
 pub struct PositionDensity;
 
+/// What both statements have in common: the word they are read from, and what has to vanish.
+macro_rules! decided_by_criterion {
+    () => {
+        const WIDENS: bool = false;
+
+        fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+            from.word(Self::NAME, "exists").map(|()| Self)
+        }
+
+        fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+            jet.phase.model().system.criterion(&jet.phase).into_iter().collect()
+        }
+
+        fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+            let scale = jet.phase.model().system.criterion_scale(&jet.phase);
+            Context { scale: Some(scale), ..Context::default() }
+        }
+    };
+}
+
 impl Statement for AnalyticDensity {
     const NAME: &'static str = "analytic-density";
-    const WIDENS: bool = false;
-
-    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        from.word(Self::NAME, "exists").map(|()| Self)
-    }
-
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-        residual(&jet.phase)
-    }
-
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
-        context(&jet.phase)
-    }
+    decided_by_criterion!();
 
     fn objection(&self, model: &Model) -> Option<Objection> {
         objection(model, Self::NAME).or_else(|| {
@@ -61,19 +69,7 @@ impl Statement for AnalyticDensity {
 
 impl Statement for PositionDensity {
     const NAME: &'static str = "position-density";
-    const WIDENS: bool = false;
-
-    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        from.word(Self::NAME, "exists").map(|()| Self)
-    }
-
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-        residual(&jet.phase)
-    }
-
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
-        context(&jet.phase)
-    }
+    decided_by_criterion!();
 
     fn objection(&self, model: &Model) -> Option<Objection> {
         objection(model, Self::NAME).or_else(|| {
@@ -87,14 +83,6 @@ impl Statement for PositionDensity {
             })
         })
     }
-}
-
-fn residual<T: Scalar>(phase: &Phase<'_, T>) -> Vec<T> {
-    phase.model().system.criterion(phase).into_iter().collect()
-}
-
-fn context(phase: &Phase<'_, Expr>) -> Context {
-    Context { scale: Some(phase.model().system.criterion_scale(phase)), ..Context::default() }
 }
 
 /// Why the criterion says nothing about a model: it is derived for the divergence of a body's own

@@ -2,7 +2,8 @@
 
 use num_dual::Dual;
 
-use super::point::{Point, read_point};
+use super::components::Components;
+use super::point::read_point;
 use super::{Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
@@ -11,7 +12,7 @@ use crate::scalar::Scalar;
 /// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
-    point: Point,
+    point: Components,
     spectrum: Option<Vec<Formula>>,
 }
 
@@ -39,7 +40,7 @@ impl Statement for FixedPoint {
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
-        let state = self.point.components(&jet.phase);
+        let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
         let mut residual = at.field().to_vec();
         residual.extend(jet.level_at(&at, kept));

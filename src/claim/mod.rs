@@ -3,6 +3,7 @@
 //! Each kind of claim is one file that says what its residual is; sampling, the ladder, verdicts and
 //! reports are written once for all of them.
 
+mod components;
 mod criterion;
 mod density;
 mod fixed_point;
@@ -25,6 +26,7 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
 use crate::scalar::Scalar;
 
+pub use components::Components;
 pub use criterion::{AnalyticDensity, PositionDensity};
 pub use density::Density;
 pub use fixed_point::FixedPoint;
@@ -34,7 +36,7 @@ pub use independence::Independent;
 pub use integral::Integral;
 pub use limit::Limit;
 pub use place::Place;
-pub use point::Point;
+
 pub use reader::Reader;
 pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;

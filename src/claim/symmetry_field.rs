@@ -1,16 +1,15 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
+use super::components::Components;
 use super::{Reader, Statement};
 use crate::formula::{Formula, Type};
-use crate::mechanics::Meaning;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
 /// `[u,v] = c v`; c = 0 unless a weight is given.
 #[derive(Clone, Debug)]
 pub struct SymmetryField {
-    /// One entry a state variable; 0 where none is given.
-    components: Vec<Option<Formula>>,
+    components: Components,
     weight: Option<Formula>,
 }
 
@@ -19,42 +18,19 @@ impl Statement for SymmetryField {
     const COMPANIONS: &'static [&'static str] = &["weight"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let model = from.model();
-        let mut components = vec![None; model.state.len()];
-        for (name, formula) in from.table(Self::NAME)? {
-            let entry = model.vocabulary.find(&name);
-            let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
-                let message = format!("`{name}` is no state variable");
-                return Err(from.complaint(Self::NAME, message, "name state variables"));
-            };
-            if model.state[index].kind != formula.value_type() {
-                return Err(from.unlike(Self::NAME, model.state[index].kind, formula.value_type()));
-            }
-            components[index] = Some(formula);
-        }
+        let components = Components::read(from, Self::NAME, &from.model().vocabulary)?
+            .ok_or_else(|| from.missing(Self::NAME))?;
         Ok(Self { components, weight: from.formula("weight", Some(Type::Scalar))? })
     }
 
     fn formulas(&self) -> Vec<&Formula> {
-        self.components.iter().flatten().chain(&self.weight).collect()
+        self.components.formulas().chain(&self.weight).collect()
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let moved = jet.along_field();
-        let (mut field, mut rate) = (Vec::new(), Vec::new());
-        for (formula, variable) in self.components.iter().zip(&jet.phase.model().state) {
-            match formula {
-                Some(formula) => {
-                    let values = moved.evaluate(formula).components();
-                    field.extend(values.iter().map(|x| x.re));
-                    rate.extend(values.iter().map(|x| x.eps));
-                }
-                None => {
-                    field.extend(vec![T::zero(); variable.len()]);
-                    rate.extend(vec![T::zero(); variable.len()]);
-                }
-            }
-        }
+        let (field, rate): (Vec<T>, Vec<T>) =
+            self.components.at(moved).iter().map(|x| (x.re, x.eps)).unzip();
         let weight = self.weight.as_ref().map_or_else(T::zero, |c| jet.phase.scalar(c));
         let beside = jet.phase.lift(&field);
         let commutator = beside.field().iter().zip(rate);

@@ -16,6 +16,7 @@ pub mod table;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -116,6 +117,11 @@ fn parse_digits(text: &str) -> Result<usize, String> {
     (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
 }
 
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or("write a number of seconds".to_string())
+}
+
 #[derive(Debug, Args)]
 pub struct Eval {
     /// A case file
@@ -214,6 +220,9 @@ pub struct Search {
     /// Leave out a count or an ansatz that may take longer than this
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,
+    /// Stop after this many seconds, and tell what was reached; so does Ctrl-C. The exit code is then 3
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub within: Option<Duration>,
     /// Seed of primes, points and states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

@@ -1,13 +1,22 @@
 //! `liouville search`
 
 use std::io::IsTerminal;
+use std::sync::Arc;
 
 use indicatif::ProgressBar;
 use liouville::report::{diagnostic, search as written};
-use liouville::search::{self, Effort, Wanted};
+use liouville::search::{self, Effort, Halt, Wanted};
+use signal_hook::consts::SIGINT;
+use signal_hook::flag;
 
 use super::eval::open;
 use super::{Answer, Search, colour};
+
+/// The exit code of a search that was stopped.
+const STOPPED: u8 = 3;
+
+/// The exit code of a program that Ctrl-C ends.
+const INTERRUPTED: i32 = 130;
 
 pub fn run(options: &Search) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;
@@ -27,6 +36,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             gyrostats: options.gyrostats,
             megabytes: options.megabytes,
         },
+        halt: options.within.map_or_else(Halt::default, Halt::within),
         options: liouville::verdict::Options {
             seed: options.seed,
             ..liouville::verdict::Options::default()
@@ -44,6 +54,11 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         spinner.set_message(what.to_string());
         spinner.tick();
     };
+    // A second Ctrl-C ends the program.
+    let switch = effort.halt.switch();
+    flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
+        .and_then(|_| flag::register(SIGINT, switch))
+        .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;
     let report = search::search(&case, &effort, &mut progress);
     spinner.finish_and_clear();
     let report = report.map_err(|error| {
@@ -55,5 +70,6 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         true => written::json(&case.title, &report).map_err(|error| format!("error: {error}"))?,
         false => written::text(&case.title, &report),
     };
-    Ok(Answer { text: text + "\n", code: 0 })
+    let code = if report.unreached.is_empty() { 0 } else { STOPPED };
+    Ok(Answer { text: text + "\n", code })
 }

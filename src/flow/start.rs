@@ -6,7 +6,7 @@ use super::error::FlowError;
 use super::motion::point;
 use super::number::Number;
 use crate::case::Case;
-use crate::claim::{Place, Point};
+use crate::claim::{Components, Place};
 use crate::graph::{Evaluator, Tape, record};
 use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -62,11 +62,10 @@ impl Start {
     pub fn at(
         model: &Model,
         parameters: Vec<Rational>,
-        claimed: &Point,
+        claimed: &Components,
     ) -> Result<Self, FlowError> {
-        let (graph, components) = record(model.dimension(), |state| {
-            claimed.components(&point(model, &parameters, state))
-        })?;
+        let (graph, components) =
+            record(model.dimension(), |state| claimed.at(&point(model, &parameters, state)))?;
         let tape = Tape::new(&graph, &components);
         let mut evaluator = Evaluator::new(&tape, Pairs);
         evaluator.run(&vec![Pair::default(); model.dimension()]);

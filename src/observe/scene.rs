@@ -3,7 +3,7 @@
 use std::cell::{OnceCell, RefCell};
 
 use crate::case::{Case, SectionPlan};
-use crate::claim::Point;
+use crate::claim::Components;
 use crate::claim::motion::{Beginning, Stated};
 use crate::flow::{
     Exponents, FlowError, SectionMap, SectionOrbit, SectionRequest, Start, Variational,
@@ -51,7 +51,7 @@ impl<'c> Scene<'c> {
     }
 
     /// A state that a claim names, with these free parameters.
-    pub fn state(&self, point: &Point, parameters: Vec<Rational>) -> Result<Start, FlowError> {
+    pub fn state(&self, point: &Components, parameters: Vec<Rational>) -> Result<Start, FlowError> {
         Start::at(&self.case.model, parameters, point)
     }
 

@@ -2,18 +2,20 @@
 
 use serde_json::json;
 
-use crate::search::Report;
+use crate::search::{MultiplierReport, Report};
 
 /// The report as JSON.
 pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(&json!({
         "title": title,
         "counts": report.counts,
+        "multipliers": report.multipliers,
         "found": report.found,
         "excluded": report.excluded,
         "second_opinions": report.opinions,
         "conditions": report.conditions,
         "remarks": report.remarks,
+        "unreached": report.unreached,
     }))
 }
 
@@ -41,6 +43,7 @@ pub fn text(title: &str, report: &Report) -> String {
             count.dimension, count.unknowns, count.equations
         ));
     }
+    out.push_str(&multipliers(&report.multipliers));
     for found in &report.found {
         out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
         for (what, text) in &found.with {
@@ -56,7 +59,7 @@ pub fn text(title: &str, report: &Report) -> String {
             out.push_str(&format!("  a function of what the case claims: {known}\n"));
         }
     }
-    if report.found.is_empty() {
+    if report.found.is_empty() && report.unreached.is_empty() {
         out.push_str("\nnothing was found among the terms that were tried\n");
     }
     for excluded in &report.excluded {
@@ -81,5 +84,47 @@ pub fn text(title: &str, report: &Report) -> String {
     for remark in &report.remarks {
         out.push_str(&format!("\nnote: {remark}\n"));
     }
+    if !report.unreached.is_empty() {
+        out.push_str("\nthe search was stopped; it did not reach:\n");
+        report.unreached.iter().for_each(|part| out.push_str(&format!("  {part}\n")));
+    }
     out.trim_end().to_string()
+}
+
+/// The counts of densities P^(1/α): those that leave one each, the others together.
+fn multipliers(counts: &[MultiplierReport]) -> String {
+    let mut out = String::new();
+    if !counts.is_empty() {
+        out.push_str(
+            "\ndensities P^(1/α), P polynomial in the velocities, with any smooth coefficients:\n",
+        );
+    }
+    for free in [true, false] {
+        let own = || counts.iter().filter(move |count| count.free == free);
+        let motion = if free { "free motion, " } else { "" };
+        // The count ends with the degree at which there is one.
+        let excess = own().find(|count| count.dimension > 0).map(|count| count.degree);
+        let last = own().map(|count| count.degree).max();
+        let empty = match excess {
+            Some(degree) => degree.checked_sub(1),
+            None => last,
+        };
+        out.push_str(&match empty {
+            None => String::new(),
+            Some(0) => format!("  {motion}of the configuration: none\n"),
+            Some(degree) => {
+                format!("  {motion}of degree at most {degree}, α = ±1, ±2, ±3, ±4: none\n")
+            }
+        });
+        for count in own().filter(|count| count.dimension > 0) {
+            out.push_str(&match count.alpha {
+                None => format!("  {motion}of the configuration: at most {}\n", count.dimension),
+                Some(alpha) => format!(
+                    "  {motion}of degree {}, α = {alpha}: at most {}\n",
+                    count.degree, count.dimension
+                ),
+            });
+        }
+    }
+    out
 }

@@ -42,30 +42,64 @@ pub fn independent(
     Ok(reports.into_iter().find(proved).map(|report| report.evidence))
 }
 
-/// The scalar integrals that a case claims and that hold, by name, less functions of the energy.
-pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<(String, String)>, SearchError> {
+/// An integral that a case claims.
+#[derive(Clone, Debug)]
+pub struct Claimed {
+    /// The name of the claim.
+    pub name: String,
+    /// A scalar: the integral, or a component of it.
+    pub formula: String,
+}
+
+/// The integrals that a case claims and that hold, component by component, less functions of the
+/// energy.
+pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError> {
     if effort.blind {
         return Ok(Vec::new());
     }
-    let expected = case.claims.iter().filter(|claim| claim.expect == Expect::Holds);
-    let (mut names, mut texts) = (Vec::new(), Vec::new());
-    for claim in expected {
-        if let Kind::Integral(Integral(own)) = &claim.kind
-            && own.value_type() == Type::Scalar
-        {
-            names.push(claim.name.clone());
-            texts.push(own.text().to_string());
+    let mut all = Vec::new();
+    for claim in case.claims.iter().filter(|claim| claim.expect == Expect::Holds) {
+        if let Kind::Integral(Integral(own)) = &claim.kind {
+            let formulas = components(own.text(), own.value_type()).into_iter();
+            all.extend(formulas.map(|formula| Claimed { name: claim.name.clone(), formula }));
         }
     }
     let statements: Vec<String> =
-        texts.iter().map(|text| format!("integral = {}", quoted(text))).collect();
+        all.iter().map(|one| format!("integral = {}", quoted(&one.formula))).collect();
     let mut found = Vec::new();
-    for ((name, text), report) in
-        names.into_iter().zip(texts).zip(judged(case, &statements, effort)?)
-    {
-        if holds(&report) && independent(case, &[], &text, effort)?.is_some() {
-            found.push((name, text));
+    for (one, report) in all.into_iter().zip(judged(case, &statements, effort)?) {
+        if holds(&report) && independent(case, &[], &one.formula, effort)?.is_some() {
+            found.push(one);
         }
     }
     Ok(found)
+}
+
+/// The components of a formula as formulas of their own.
+fn components(text: &str, kind: Type) -> Vec<String> {
+    match kind {
+        Type::Scalar => vec![text.to_string()],
+        Type::Vector => (1..=3).map(|i| format!("({text})[{i}]")).collect(),
+        Type::Matrix => {
+            let pairs = (1..=3).flat_map(|i| (1..=3).map(move |j| (i, j)));
+            pairs.map(|(i, j)| format!("({text})[{i},{j}]")).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_are_known_by_their_components() {
+        let text = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nq = 'vector(1..2)'\n\
+                    \"q'\" = 'vector(1..2)'\n[lagrangian]\nkinetic = \"(q',q')/2\"\n\
+                    potential = '(q,q)²'\n[[claim]]\nname = 'L'\nintegral = \"q × q'\"\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let known = claimed(&case, &Effort::default()).expect("judged");
+        let formulas: Vec<&str> = known.iter().map(|one| one.formula.as_str()).collect();
+        assert_eq!(formulas, ["(q × q')[1]", "(q × q')[2]", "(q × q')[3]"]);
+        assert!(known.iter().all(|one| one.name == "L"), "all come from one claim");
+    }
 }

@@ -1,8 +1,10 @@
 //! Integrals counted degree by degree, and the theorems that follow.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
-use super::jets;
+use super::jets::{self, Asked, Count};
 use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, Report, SearchError};
@@ -71,14 +73,11 @@ pub fn count(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let inhomogeneous = case.model.system.energy_is_inhomogeneous();
-    let bare = case.model.system.without_forces().filter(|_| inhomogeneous);
+    let mixed = case.model.system.energy_is_inhomogeneous();
     let mut undecided = 1..=effort.degree;
-    if let Some(system) = bare {
-        let mut free = case.clone();
-        free.model.system = system;
-        let energy = Generators::energy(&free, effort)?;
-        series(&free, false, true, 1..=effort.degree, &energy, effort, report, progress)?;
+    if let Some(free) = free_motion(case).filter(|_| mixed) {
+        let motion = Motion::of(&free, false, true, effort)?;
+        motion.series(undecided.clone(), effort, report, progress)?;
         let excess = report.counts.iter().find(|count| count.dimension > count.known);
         match excess {
             // Each leading form is a power of the energy: nothing is left to count.
@@ -87,80 +86,125 @@ pub fn count(
             Some(excess) => undecided = excess.degree..=effort.degree,
         }
     }
-    let energy = Generators::energy(case, effort)?;
-    series(case, inhomogeneous, false, undecided, &energy, effort, report, progress)
+    Motion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
 }
 
-#[expect(clippy::too_many_arguments, reason = "what is counted, of what, and where it goes")]
-fn series(
-    case: &Case,
+/// The same body without potential and gyrostat, where it is known what they are.
+pub fn free_motion(case: &Case) -> Option<Case> {
+    let system = case.model.system.without_forces()?;
+    let mut free = case.clone();
+    free.model.system = system;
+    Some(free)
+}
+
+/// The motion whose integrals are counted.
+struct Motion<'c> {
+    case: &'c Case,
+    /// All degrees up to one together?
     mixed: bool,
+    /// Are potential and gyrostat left out?
     free: bool,
-    degrees: std::ops::RangeInclusive<u32>,
-    energy: &Generators,
-    effort: &Effort,
-    report: &mut Report,
-    progress: &mut dyn FnMut(&str),
-) -> Result<(), SearchError> {
+    /// Its energy, which is known.
+    energy: Generators,
+}
+
+impl<'c> Motion<'c> {
+    fn of(case: &'c Case, mixed: bool, free: bool, effort: &Effort) -> Result<Self, SearchError> {
+        Ok(Self { case, mixed, free, energy: Generators::energy(case, effort)? })
+    }
+
+    /// Counts degree by degree; why that ends early is a remark.
+    fn series(
+        &self,
+        degrees: RangeInclusive<u32>,
+        effort: &Effort,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        let Some(locals) = locals(self.case, report)? else { return Ok(()) };
+        let Some(first) = locals.first() else { return Ok(()) };
+        for degree in degrees {
+            let (unknowns, seconds) = size(first, degree, self.mixed);
+            let seconds = seconds * locals.len() as f64;
+            progress(&format!(
+                "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {} MB",
+                megabytes(unknowns)
+            ));
+            if seconds > effort.seconds {
+                report.remark(format!(
+                    "degree {degree} was not counted: {unknowns} unknowns may take {seconds:.0} s; raise --seconds"
+                ));
+                return Ok(());
+            }
+            match self.of_degree(&locals, degree, effort) {
+                // A bound below what there is would be a defect of the tool: nothing is concluded.
+                Ok(count) if count.dimension < count.known => {
+                    report.remark(format!(
+                        "degree {degree}: fewer integrals are counted than are known"
+                    ));
+                    return Ok(());
+                }
+                Ok(count) => report.counts.push(count),
+                Err(SearchError::Stopped) => {
+                    report.unreached.push(format!("integrals of degree {degree} and more"));
+                    return Ok(());
+                }
+                Err(error) => {
+                    report.remark(error.to_string());
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn of_degree(
+        &self,
+        locals: &[Local],
+        degree: u32,
+        effort: &Effort,
+    ) -> Result<CountReport, SearchError> {
+        let known = self.energy.products(degree, self.mixed);
+        let asked = Asked { degree, mixed: self.mixed };
+        let found = largest(locals, asked, &Rational::from(0), known, effort)?;
+        let Count { dimension, size: (unknowns, equations) } = found;
+        let (mixed, free) = (self.mixed, self.free);
+        Ok(CountReport { degree, mixed, free, dimension, known, unknowns, equations })
+    }
+}
+
+/// The equations of motion for each combination of the values of lists; nothing, and a remark, where
+/// there are too many, or nothing can be counted.
+pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, SearchError> {
     let mut locals = Vec::new();
     for fixed in listed(&case.model.parameter_draws()) {
         match Local::of(case, &fixed) {
             Ok(local) => locals.push(local),
             Err(error @ SearchError::Unsplit(_)) => {
                 report.remark(error.to_string());
-                return Ok(());
+                return Ok(None);
             }
             Err(error) => return Err(error),
         }
     }
-    let Some(first) = locals.first() else {
+    if locals.is_empty() {
         report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
-        return Ok(());
-    };
-    for degree in degrees {
-        let (unknowns, seconds) = size(first, degree, mixed);
-        let seconds = seconds * locals.len() as f64;
-        progress(&format!(
-            "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {} MB",
-            megabytes(unknowns)
-        ));
-        if seconds > effort.seconds {
-            report.remark(format!(
-                "degree {degree} was not counted: {unknowns} unknowns may take {seconds:.0} s; raise --seconds"
-            ));
-            return Ok(());
-        }
-        let known = energy.products(degree, mixed);
-        let seed = effort.options.seed;
-        // The theorem is about all values of the lists.
-        let counts: Result<Vec<jets::Count>, SearchError> =
-            locals.iter().map(|local| jets::count(local, degree, mixed, known, seed)).collect();
-        match counts.map(|counts| counts.into_iter().max_by_key(|count| count.dimension)) {
-            // A bound below what there is would be a defect of the tool: nothing is concluded.
-            Ok(Some(count)) if count.dimension < known => {
-                report
-                    .remark(format!("degree {degree}: fewer integrals are counted than are known"));
-                return Ok(());
-            }
-            Ok(None) => {}
-            Ok(Some(jets::Count { dimension, size: (unknowns, equations), .. })) => {
-                report.counts.push(CountReport {
-                    degree,
-                    mixed,
-                    free,
-                    dimension,
-                    known,
-                    unknowns,
-                    equations,
-                });
-            }
-            Err(error) => {
-                report.remark(error.to_string());
-                return Ok(());
-            }
-        }
+        return Ok(None);
     }
-    Ok(())
+    Ok(Some(locals))
+}
+
+/// The largest count over the values of the lists: a theorem is about all of them.
+pub fn largest(
+    locals: &[Local],
+    asked: Asked,
+    weight: &Rational,
+    least: usize,
+    effort: &Effort,
+) -> Result<Count, SearchError> {
+    let counts: Result<Vec<Count>, SearchError> =
+        locals.iter().map(|local| jets::count(local, asked, weight, least, effort)).collect();
+    counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
 }
 
 /// The combinations of the values of parameters that have a list, if they are few.

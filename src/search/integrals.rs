@@ -2,19 +2,23 @@
 
 use num_dual::Dual;
 
-use super::ask::{claimed, holds, independent, judged, quoted};
+use super::ask::{holds, independent, judged, quoted};
 use super::library;
 use super::linear::Functions;
 use super::second_opinion::second_opinion;
 use super::terms::{Term, read, recorded, sum};
 use super::{Effort, Found, Report, SearchError};
 use crate::case::Case;
+use crate::claim::Place;
 use crate::graph::Expr;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 use crate::verdict::{ClaimReport, Independence};
 
 /// Looks for integrals; what is found and proved goes into the report.
 pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
-    let candidates = candidates(case, effort, report)?;
+    let terms = terms(case, effort, report)?;
+    let candidates = over_denominators(case, &terms, &Rational::from(0), effort, report)?;
     let statements: Vec<String> =
         candidates.iter().map(|formula| format!("integral = {}", quoted(formula))).collect();
     let reports = judged(case, &statements, effort)?;
@@ -29,6 +33,7 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
     // Of functions that depend on each other, the shortest is told.
     proved.sort_by_key(|(formula, _)| formula.chars().count());
     for (formula, found) in proved {
+        effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
     }
     Ok(())
@@ -47,9 +52,10 @@ pub fn tell(
         return Ok(());
     }
     let mut known = None;
-    for (name, own) in claimed(case, effort)? {
-        if independent(case, &[own], formula, effort)?.is_none() {
-            known = Some(name);
+    for own in &report.claimed {
+        let formulas = std::slice::from_ref(&own.formula);
+        if independent(case, formulas, formula, effort)?.is_none() {
+            known = Some(own.name.clone());
             break;
         }
     }
@@ -57,12 +63,8 @@ pub fn tell(
     Ok(())
 }
 
-/// Sums of terms, over the denominators that can occur, whose rate is zero at random points.
-fn candidates(
-    case: &Case,
-    effort: &Effort,
-    report: &mut Report,
-) -> Result<Vec<String>, SearchError> {
+/// The terms that the user gives and the system offers, less those that depend on others.
+pub fn terms(case: &Case, effort: &Effort, report: &mut Report) -> Result<Vec<Term>, SearchError> {
     let model = &case.model;
     let vocabulary = &model.vocabulary;
     let own = read(effort.terms.clone(), vocabulary);
@@ -72,16 +74,35 @@ fn candidates(
         return Err(SearchError::NoTerm(text));
     }
     let offered = read(library::integrals(model), vocabulary);
-    let terms = distinct(case, [own, offered].concat(), effort, report)?;
+    distinct(case, [own, offered].concat(), effort, report)
+}
+
+/// Sums P of terms, over the denominators that can occur, with L_vP + α div v P = 0 at random points;
+/// α, the weight, is 0 for integrals.
+pub fn over_denominators(
+    case: &Case,
+    terms: &[Term],
+    weight: &Rational,
+    effort: &Effort,
+    report: &mut Report,
+) -> Result<Vec<String>, SearchError> {
+    let model = &case.model;
+    let kept = Place::level(model).kept;
     let mut candidates = Vec::new();
     if terms.is_empty() {
         return Ok(candidates);
     }
-    for denominator in read(library::denominators(model), vocabulary) {
+    for denominator in read(library::denominators(model), &model.vocabulary) {
+        effort.halt.check()?;
         let (graph, rates) = recorded(case, |jet| {
             let moved = jet.along_field();
             let below: Dual<Expr> = moved.scalar(&denominator.formula);
-            let rate = |term: &Term| (moved.scalar(&term.formula) / below).eps;
+            let growth = (!weight.is_zero())
+                .then(|| Expr::rational(weight) * (jet.divergence() - jet.level_cofactor(&kept)));
+            let rate = |term: &Term| {
+                let value: Dual<Expr> = moved.scalar(&term.formula) / below;
+                growth.map_or(value.eps, |growth| value.eps + growth * value.re)
+            };
             terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
         })?;
         let seed = effort.options.seed;

@@ -9,19 +9,17 @@
 
 use rustc_hash::FxHashMap;
 
-use super::SearchError;
 use super::echelon::Echelon;
+use super::expansion::{Expansion, Taylor};
 use super::local::Local;
-use super::series::{Series, exponents};
-use crate::graph::{Evaluator, Tape};
+use super::series::exponents;
+use super::{Effort, Halt, SearchError};
 use crate::number::prime::Modulus;
+use crate::number::rational::Rational;
 use crate::proof::Chance;
 
 /// Points that are drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
-
-/// Velocity exponents with a series each.
-type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
 
 /// A power of the velocities and the number of a monomial of the positions.
 pub type RowKey = (Vec<u32>, usize);
@@ -29,68 +27,64 @@ pub type RowKey = (Vec<u32>, usize);
 /// Columns and values of a sparse row.
 type Entries = Vec<(usize, u64)>;
 
-/// The rates at a point of the velocities, if they have a value.
-type Rates<'a> = dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>> + 'a;
-
-/// The field's Taylor series: polynomials in the velocities with series as coefficients.
-pub struct Expansion {
-    /// For each position: velocity exponents and coefficient of its rate.
-    positions: Vec<Polynomial>,
-    /// The same for each velocity.
-    velocities: Vec<Polynomial>,
-}
-
-/// The number of integrals of one degree, as an upper bound for generic parameters.
+/// Which polynomials in the velocities are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Count {
+pub struct Asked {
     /// The degree in the velocities.
     pub degree: u32,
     /// All degrees up to it together, as a gyrostat or a potential asks for?
     pub mixed: bool,
+}
+
+/// How many there are, as an upper bound for generic parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
     /// The dimension.
     pub dimension: usize,
     /// Unknowns and equations.
     pub size: (usize, usize),
 }
 
-/// Counts integrals of a degree, of which `least` are known to be there; the order of the Taylor
-/// coefficients rises until the count stands still.
+/// Counts the polynomials P with L_vP + α div v P = 0, of which `least` are known to be there;
+/// integrals for α = 0. The order of the Taylor coefficients rises until the count stands still.
 pub fn count(
     local: &Local,
-    degree: u32,
-    mixed: bool,
+    asked: Asked,
+    weight: &Rational,
     least: usize,
-    seed: u64,
+    effort: &Effort,
 ) -> Result<Count, SearchError> {
     let mut last = None;
-    for order in [2 * degree + 2, 2 * degree + 3, 2 * degree + 5, 2 * degree + 7] {
-        let found = count_to_order(local, degree, mixed, order, seed)?;
+    let lowest = 2 * asked.degree + 2;
+    for order in [lowest, lowest + 1, lowest + 3, lowest + 5] {
+        let found = count_to_order(local, asked, weight, order, effort)?;
         if found.dimension <= least || last == Some(found.dimension) {
             return Ok(found);
         }
         last = Some(found.dimension);
     }
-    Err(SearchError::Unsettled(degree))
+    Err(SearchError::Unsettled(asked.degree))
 }
 
 fn count_to_order(
     local: &Local,
-    degree: u32,
-    mixed: bool,
+    asked: Asked,
+    weight: &Rational,
     order: u32,
-    seed: u64,
+    effort: &Effort,
 ) -> Result<Count, SearchError> {
-    let mut chance = Chance::new(seed, 40);
+    let mut chance = Chance::new(effort.options.seed, 40);
     let modulus = chance.prime(&[], &[]);
+    let weight = modulus.rational(weight).ok_or(SearchError::NoSeries)?;
     let mut taylor = Taylor::new(local, modulus, order);
     for _ in 0..MOST_POINTS {
         let parameters = local.parameters(&modulus, &mut chance);
         let positions = taylor.positions(&mut chance);
         if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
-            let system = Equations::of(&expansion, &taylor, degree, mixed);
-            let dimension = system.dimension(&system.solved().0);
+            let system = Equations::of(&expansion, &taylor, asked, weight);
+            let dimension = system.dimension(&system.solved(&effort.halt)?.0);
             let size = (system.columns.len(), system.rows.len());
-            return Ok(Count { degree, mixed, dimension, size });
+            return Ok(Count { dimension, size });
         }
     }
     Err(SearchError::NoSeries)
@@ -120,11 +114,16 @@ impl Equations {
     }
 
     /// All equations in echelon form, and what the independent rows belong to.
-    pub fn solved(&self) -> (Echelon, Vec<RowKey>) {
+    pub fn solved(&self, halt: &Halt) -> Result<(Echelon, Vec<RowKey>), SearchError> {
         let mut echelon = Echelon::new(self.columns.len(), self.modulus);
-        let independent = self.rows().filter(|(_, row)| echelon.push(row.clone()));
-        let keys = independent.map(|(key, _)| key.clone()).collect();
-        (echelon, keys)
+        let mut keys = Vec::new();
+        for (key, row) in self.rows() {
+            halt.check()?;
+            if echelon.push(row) {
+                keys.push(key.clone());
+            }
+        }
+        Ok((echelon, keys))
     }
 
     /// How many integrals the equations leave, as they are determined by coefficients of low order.
@@ -134,9 +133,14 @@ impl Equations {
         (0..self.columns.len()).filter(free).count()
     }
 
-    /// The equations at a point, for integrals of a degree.
-    pub fn of(expansion: &Expansion, taylor: &Taylor<'_>, degree: u32, mixed: bool) -> Self {
+    /// The equations at a point for L_vP + α div v P = 0, α the weight.
+    pub fn of(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked, weight: u64) -> Self {
         let (modulus, order) = (taylor.modulus, taylor.order);
+        let Asked { degree, mixed } = asked;
+        let divergence = match weight {
+            0 => Vec::new(),
+            _ => expansion.divergence(&taylor.series),
+        };
         let velocities = taylor.local.coordinates.velocities;
         let m = &modulus;
         let lowest = if mixed { 0 } else { degree };
@@ -187,146 +191,14 @@ impl Equations {
                     add(raised, monomial, coefficient, factor);
                 }
             }
+            for (w, coefficient) in &divergence {
+                let raised = power.iter().zip(w).map(|(x, y)| x + y).collect();
+                add(raised, monomial, coefficient, weight);
+            }
         }
         let mut rows: Vec<_> = rows.into_iter().collect();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));
         let columns = columns.into_iter().map(|(_, k)| total(&monomials[k])).collect();
         Self { columns, degree, rows, modulus }
     }
-}
-
-/// The field's Taylor series up to an order, at points of the configuration.
-pub struct Taylor<'l> {
-    local: &'l Local,
-    modulus: Modulus,
-    order: u32,
-    series: Series,
-    tape: Tape,
-}
-
-impl<'l> Taylor<'l> {
-    /// Series modulo a prime.
-    pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
-        let series = Series::new(modulus, local.coordinates.positions, order);
-        let tape = Tape::new(&local.graph, &local.rates);
-        Self { local, modulus, order, series, tape }
-    }
-
-    /// Random positions.
-    pub fn positions(&self, chance: &mut Chance) -> Vec<u64> {
-        (0..self.local.coordinates.positions).map(|_| chance.element(&self.modulus)).collect()
-    }
-
-    /// The series about a point; nothing where the field has none.
-    pub fn at(
-        &mut self,
-        parameters: &[u64],
-        positions: &[u64],
-        chance: &mut Chance,
-    ) -> Result<Option<Expansion>, SearchError> {
-        let (modulus, series) = (self.modulus, &self.series);
-        let velocities = self.local.coordinates.velocities;
-        let mut evaluator = Evaluator::new(&self.tape, series.clone());
-        let mut inputs: Vec<Vec<u64>> = parameters.iter().map(|x| series.number(*x)).collect();
-        inputs.extend(positions.iter().enumerate().map(|(k, x)| series.variable(k, *x)));
-        let mut rates_at = |point: &[u64]| -> Option<Vec<Vec<u64>>> {
-            let mut inputs = inputs.clone();
-            inputs.extend(point.iter().map(|w| series.number(*w)));
-            evaluator.run(&inputs);
-            let found: Vec<Vec<u64>> = evaluator.outputs().cloned().collect();
-            found.iter().all(|rate| !rate.is_empty()).then_some(found)
-        };
-        let check: Vec<u64> = (0..velocities).map(|_| chance.element(&modulus)).collect();
-        let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else {
-            return Ok(None);
-        };
-        let Some(found) = rates_at(&check) else { return Ok(None) };
-        if !agrees(&polynomials, &check, &found, &modulus) {
-            return Err(SearchError::NotQuadratic);
-        }
-        if !spans(&polynomials[..positions.len()], velocities, modulus) {
-            return Err(SearchError::NotSpanned);
-        }
-        let mut rates = polynomials.into_iter();
-        Ok(Some(Expansion {
-            positions: rates.by_ref().take(positions.len()).collect(),
-            velocities: rates.collect(),
-        }))
-    }
-}
-
-/// Do the rates of the positions take all directions? Then Σ w_i X_i C = 0 determines the
-/// coefficients of degree n by their n-jets, as for Killing tensors.
-fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
-    let mut echelon = Echelon::new(velocities, modulus);
-    rates.iter().all(|rate| {
-        let slope = |i: usize| {
-            let is_unit = |e: &Vec<u32>| e[i] == 1 && e.iter().sum::<u32>() == 1;
-            rate.iter().find(|(exponent, _)| is_unit(exponent)).map_or(0, |(_, series)| series[0])
-        };
-        echelon.push((0..velocities).map(slope).collect())
-    })
-}
-
-/// Polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.
-fn quadratic(velocities: usize, m: &Modulus, rates_at: &mut Rates<'_>) -> Option<Vec<Polynomial>> {
-    let unit = |entries: &[(usize, u64)]| -> Vec<u64> {
-        let mut point = vec![0; velocities];
-        entries.iter().for_each(|(i, value)| point[*i] = *value);
-        point
-    };
-    let exponent = |entries: &[usize]| -> Vec<u32> {
-        let mut exponent = vec![0; velocities];
-        entries.iter().for_each(|i| exponent[*i] += 1);
-        exponent
-    };
-    let (one, half) = (m.one(), m.inverse(m.integer(2)));
-    let combine = |a: &[u64], b: &[u64], f: &dyn Fn(u64, u64) -> u64| -> Vec<u64> {
-        a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect()
-    };
-    let at_zero = rates_at(&unit(&[]))?;
-    let mut polynomials: Vec<Polynomial> =
-        at_zero.iter().map(|constant| vec![(exponent(&[]), constant.clone())]).collect();
-    let mut at_unit = Vec::new();
-    for i in 0..velocities {
-        let (plus, minus) =
-            (rates_at(&unit(&[(i, one)]))?, rates_at(&unit(&[(i, m.sub(0, one))]))?);
-        for (k, polynomial) in polynomials.iter_mut().enumerate() {
-            let linear = combine(&plus[k], &minus[k], &|a, b| m.mul(half, m.sub(a, b)));
-            let even = combine(&plus[k], &minus[k], &|a, b| m.mul(half, m.add(a, b)));
-            polynomial.push((exponent(&[i]), linear));
-            polynomial.push((exponent(&[i, i]), combine(&even, &at_zero[k], &|a, b| m.sub(a, b))));
-        }
-        at_unit.push(plus);
-    }
-    for i in 0..velocities {
-        for j in i + 1..velocities {
-            let both = rates_at(&unit(&[(i, one), (j, one)]))?;
-            for (k, polynomial) in polynomials.iter_mut().enumerate() {
-                let rest = combine(&both[k], &at_unit[i][k], &|a, b| m.sub(a, b));
-                let rest = combine(&rest, &at_unit[j][k], &|a, b| m.sub(a, b));
-                polynomial
-                    .push((exponent(&[i, j]), combine(&rest, &at_zero[k], &|a, b| m.add(a, b))));
-            }
-        }
-    }
-    for polynomial in &mut polynomials {
-        polynomial.retain(|(_, coefficient)| coefficient.iter().any(|x| *x != 0));
-    }
-    Some(polynomials)
-}
-
-/// Are these the values of the polynomials at a further point?
-fn agrees(polynomials: &[Polynomial], point: &[u64], values: &[Vec<u64>], m: &Modulus) -> bool {
-    polynomials.iter().zip(values).all(|(polynomial, value)| {
-        let mut sum = vec![0; value.len()];
-        for (exponent, coefficient) in polynomial {
-            let powers = point.iter().zip(exponent).map(|(w, e)| m.power(*w, u64::from(*e)));
-            let factor = powers.fold(m.one(), |a, b| m.mul(a, b));
-            for (entry, x) in sum.iter_mut().zip(coefficient) {
-                *entry = m.add(*entry, m.mul(factor, *x));
-            }
-        }
-        sum == *value
-    })
 }

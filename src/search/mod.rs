@@ -3,7 +3,7 @@
 //! ```text
 //! count      how many integrals polynomial in the velocities there are, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
-//! densities  relations between div v and L_v ln f for factors f
+//! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is a claim like any other, and climbs the same ladder
 //! ```
 
@@ -13,11 +13,14 @@ mod conditions;
 mod counts;
 mod densities;
 mod echelon;
+mod expansion;
+mod halt;
 mod integrals;
 mod jets;
 mod library;
 mod linear;
 mod local;
+mod multipliers;
 mod products;
 mod second_opinion;
 mod series;
@@ -26,7 +29,7 @@ mod terms;
 
 use serde::Serialize;
 
-use self::ask::quoted;
+use self::ask::{Claimed, quoted};
 use crate::case::{Case, CaseError};
 use crate::graph::Fault;
 use crate::mechanics::Model;
@@ -35,6 +38,8 @@ use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 pub use ansatz::Ansatz;
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
+pub use halt::Halt;
+pub use multipliers::MultiplierReport;
 pub use second_opinion::SecondOpinion;
 
 /// Why a search cannot be made.
@@ -64,6 +69,9 @@ pub enum SearchError {
     /// The count did not come to rest.
     #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
     Unsettled(u32),
+    /// It was time to stop: no fault, and told in the report.
+    #[error("the search was stopped")]
+    Stopped,
     /// States cannot be made inside a prime field.
     #[error("the level set has no parametrisation")]
     NoChart,
@@ -82,6 +90,12 @@ pub enum SearchError {
 }
 
 impl SearchError {
+    /// Does it say that something cannot be counted, and nothing about the rest of a search?
+    fn is_of_count(&self) -> bool {
+        use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+    }
+
     /// What to do about it.
     pub fn help(&self) -> &'static str {
         match self {
@@ -109,8 +123,26 @@ pub struct Effort {
     pub seconds: f64,
     /// What is looked for in a global ansatz.
     pub ansatz: Ansatz,
+    /// When to stop before the end.
+    pub halt: Halt,
     /// How finds are judged.
     pub options: Options,
+}
+
+impl Default for Effort {
+    /// Integrals up to degree 4, a minute for each count, and no end before that.
+    fn default() -> Self {
+        Self {
+            degree: 4,
+            blind: false,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: 60.0,
+            ansatz: Ansatz::default(),
+            halt: Halt::default(),
+            options: Options::default(),
+        }
+    }
 }
 
 /// Something that was found.
@@ -191,6 +223,8 @@ pub struct Excluded {
 pub struct Report {
     /// The numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
+    /// The numbers of polynomials whose powers are densities.
+    pub multipliers: Vec<MultiplierReport>,
     /// What was found.
     pub found: Vec<Found>,
     /// What cannot be.
@@ -202,6 +236,11 @@ pub struct Report {
     pub conditions: Vec<Condition>,
     /// What could not be done, and why.
     pub remarks: Vec<String>,
+    /// What a search that was stopped did not reach; nothing where it came to its end.
+    pub unreached: Vec<String>,
+    /// The integrals that the case claims, which finds are compared with.
+    #[serde(skip)]
+    claimed: Vec<Claimed>,
 }
 
 impl Report {
@@ -217,11 +256,28 @@ impl Report {
             self.remarks.push(remark);
         }
     }
+
+    /// Runs a part of a search; one that is stopped is noted by its name.
+    fn stage(
+        &mut self,
+        name: &str,
+        effort: &Effort,
+        run: impl FnOnce(&mut Self) -> Result<(), SearchError>,
+    ) -> Result<(), SearchError> {
+        match effort.halt.check().and_then(|()| run(self)) {
+            Err(SearchError::Stopped) => {
+                self.unreached.push(name.to_string());
+                Ok(())
+            }
+            other => other,
+        }
+    }
 }
 
-/// Searches a case for integrals and densities.
+/// Searches a case for integrals, densities and symmetries.
 ///
-/// `progress` is told what comes next, with its size.
+/// `progress` is told what comes next, with its size. A search that is stopped reports what it has
+/// reached until then, and what it has not.
 pub fn search(
     case: &Case,
     effort: &Effort,
@@ -229,18 +285,34 @@ pub fn search(
 ) -> Result<Report, SearchError> {
     let mut report = Report::default();
     let case = &abbreviated(case)?;
-    counts::count(case, effort, &mut report, progress)?;
+    report.claimed = ask::claimed(case, effort)?;
+    report.stage("the number of integrals", effort, |report| {
+        counts::count(case, effort, report, progress)
+    })?;
     // Integrals of degree 1 come first: those of degree 2 may be functions of them.
-    progress("factors of densities");
-    densities::densities(case, effort, &mut report)?;
-    progress("terms of integrals");
-    integrals::integrals(case, effort, &mut report)?;
-    progress("linear symmetry fields");
-    symmetries::symmetries(case, effort, &mut report)?;
-    ansatz::search(case, effort, &mut report, progress)?;
+    report.stage("products of factors", effort, |report| {
+        progress("factors of densities");
+        densities::densities(case, effort, report)
+    })?;
+    report.stage("integrals among the terms", effort, |report| {
+        progress("terms of integrals");
+        integrals::integrals(case, effort, report)
+    })?;
+    report.stage("linear symmetry fields", effort, |report| {
+        progress("linear symmetry fields");
+        symmetries::symmetries(case, effort, report)
+    })?;
+    report.stage("a global ansatz", effort, |report| {
+        ansatz::search(case, effort, report, progress)
+    })?;
     counts::conclude(case, effort, &mut report)?;
+    report.stage("densities that depend on the velocities", effort, |report| {
+        multipliers::multipliers(case, effort, report, progress)
+    })?;
     if let Some(wanted) = &effort.conditions {
-        report.conditions = conditions::conditions(case, wanted, effort, progress)?;
+        report.stage("conditions on the parameters", effort, |report| {
+            conditions::conditions(case, wanted, effort, report, progress)
+        })?;
     }
     Ok(report)
 }

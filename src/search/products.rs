@@ -38,9 +38,9 @@ impl Generators {
     pub fn all(case: &Case, effort: &Effort, report: &Report) -> Result<Self, SearchError> {
         let mut generators = Self::energy(case, effort)?;
         let mut told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
-        for (_, formula) in ask::claimed(case, effort)? {
-            if ask::independent(case, &told, &formula, effort)?.is_some() {
-                told.push(formula);
+        for ask::Claimed { formula, .. } in &report.claimed {
+            if ask::independent(case, &told, formula, effort)?.is_some() {
+                told.push(formula.clone());
             }
         }
         for formula in told {
@@ -102,9 +102,10 @@ fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchEr
     let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
     let Ok(formula) = Formula::parse(formula, &model.vocabulary) else { return Ok(None) };
+    let all = model.vocabulary.with_abbreviations(&formula, &model.abbreviations);
     let draws = model.parameter_draws();
     let inputs = draws.len() + coordinates.count() + 1;
-    let (graph, outputs) = record(inputs, |inputs| {
+    let (graph, (outputs, moving)) = record(inputs, |inputs| {
         let (given, point) = inputs.split_at(draws.len());
         let (scale, point) = (point[point.len() - 1], &point[..point.len() - 1]);
         let (parameters, _) = model.make_parameters(given);
@@ -120,9 +121,15 @@ fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchEr
         let growing = Phase::new(model, &lifted, &state);
         // (w,∂ ln F/∂w) = n for a homogeneous F
         let growth = formula.logarithmic_derivative(&mut |symbol| growing.value(symbol));
+        // An ∫ whose variable changes with the velocities has a degree that is not seen here.
+        let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| growing.value(s)));
+        let moving: Vec<Expr> = integrals.map(|(_, variable)| variable.eps).collect();
         let (state, lifted) = at(velocities.iter().map(|w| Dual::from_re(*w * scale)).collect());
-        [growth, Phase::new(model, &lifted, &state).scalar(&formula).re]
+        ([growth, Phase::new(model, &lifted, &state).scalar(&formula).re], moving)
     })?;
+    if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
+        return Ok(None);
+    }
     let mut chance = Chance::new(seed, 42);
     let modulus = chance.prime(&[3, 5], &[2, 3]);
     let tape = Tape::new(&graph, &outputs);

@@ -89,6 +89,26 @@ impl Series {
         series
     }
 
+    /// The derivative by x_k, without its terms of the highest degree.
+    pub fn derivative(&self, k: usize, series: &[u64]) -> Vec<u64> {
+        let m = &self.modulus;
+        let place: rustc_hash::FxHashMap<&[u32], usize> =
+            self.monomials.iter().enumerate().map(|(j, e)| (e.as_slice(), j)).collect();
+        let of = |monomial: &Vec<u32>| {
+            let mut raised = monomial.clone();
+            raised[k] += 1;
+            let from = place.get(raised.as_slice());
+            from.map_or(0, |j| m.mul(m.integer(u64::from(raised[k])), series[*j]))
+        };
+        self.monomials.iter().map(of).collect()
+    }
+
+    /// A multiple.
+    pub fn multiple(&self, factor: u32, series: &[u64]) -> Vec<u64> {
+        let factor = self.modulus.integer(u64::from(factor));
+        series.iter().map(|x| self.modulus.mul(factor, *x)).collect()
+    }
+
     fn product(&self, x: &[u64], y: &[u64]) -> Vec<u64> {
         let m = &self.modulus;
         let term = |(i, j): &(u32, u32)| m.mul(x[*i as usize], y[*j as usize]);

@@ -103,7 +103,7 @@ pub fn powers(coefficients: &[Rational], factors: &[Term], exponents: &[&str]) -
 }
 
 /// Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
-fn exponent(coefficients: &[Rational], exponents: &[&str]) -> String {
+pub fn exponent(coefficients: &[Rational], exponents: &[&str]) -> String {
     let (multiples, below) = cleared(coefficients);
     let above = written(&multiples, exponents);
     let is_number = multiples.iter().zip(exponents).all(|(a, e)| a.is_zero() || *e == "1");

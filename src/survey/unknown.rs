@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::question::{Finding, define};
 use crate::case::Case;
 use crate::mechanics::System;
-use crate::search::{Ansatz, CountReport, Effort, Excluded, Found, search};
+use crate::search::{CountReport, Effort, Excluded, Found, search};
 use crate::verdict::{ClaimReport, Options};
 
 /// Integrals are counted up to this degree in the velocities: a fraction of a second.
@@ -34,11 +34,9 @@ impl Unknown {
         let effort = Effort {
             degree: DEGREE,
             blind: true,
-            terms: Vec::new(),
-            conditions: None,
             seconds: SECONDS,
-            ansatz: Ansatz::default(),
             options: *options,
+            ..Effort::default()
         };
         // The families have the symmetry fields of bodies.
         let is_body = !matches!(case.model.system, System::Field(_) | System::Lagrangian(_));

@@ -2,7 +2,8 @@
 
 use super::{Stated, point};
 use crate::claim::Reader;
-use crate::claim::point::{Point, read_point};
+use crate::claim::components::Components;
+use crate::claim::point::read_point;
 
 /// The start of a motion.
 #[derive(Clone, Debug)]
@@ -10,7 +11,7 @@ pub enum Beginning {
     /// The state over (l, L/G) on the section of the case, at its energy.
     Section([Stated; 2]),
     /// A state by its variables.
-    State(Point),
+    State(Components),
 }
 
 impl Beginning {

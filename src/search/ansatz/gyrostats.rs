@@ -51,6 +51,7 @@ pub fn gyrostats(
     let offered = ["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"].map(str::to_string);
     let below = read(offered.to_vec(), &case.model.vocabulary);
     for (name, degree) in own {
+        effort.halt.check()?;
         let Some(integral) = read(vec![name], &case.model.vocabulary).pop() else { continue };
         let rotors = Rotors {
             case,

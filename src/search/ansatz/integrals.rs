@@ -154,6 +154,7 @@ impl Search<'_> {
         let Some(at) = system.at(0, 0) else { return Ok(false) };
         let mut found: Vec<Vec<u64>> = Vec::new();
         for block in &blocks {
+            self.effort.halt.check()?;
             let Some(vectors) = system.null_space(&at, block) else { return Ok(false) };
             found.extend(vectors.into_iter().map(|vector| {
                 let mut full = vec![0; system.columns.len()];
@@ -291,17 +292,13 @@ impl Search<'_> {
 mod tests {
     use super::*;
     use crate::search::Ansatz;
-    use crate::verdict::Options;
 
     fn effort(degree: u32, positions: u32) -> Effort {
         Effort {
             degree,
             blind: true,
-            terms: Vec::new(),
-            conditions: None,
-            seconds: 60.0,
             ansatz: Ansatz { wanted: true, positions, ..Ansatz::default() },
-            options: Options::default(),
+            ..Effort::default()
         }
     }
 

@@ -49,6 +49,7 @@ pub fn potentials(
         );
     }
     for integral in read(own, &case.model.vocabulary) {
+        effort.halt.check()?;
         let family = Family { case, effort, variables: &variables, unit: &unit, integral };
         family.search(report, progress)?;
     }

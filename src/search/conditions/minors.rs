@@ -11,9 +11,10 @@ use crate::mechanics::{Draw, Origin, Recipe};
 use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
 use crate::proof::{Chance, reconstruct};
-use crate::search::SearchError;
-use crate::search::jets::{Equations, RowKey, Taylor};
+use crate::search::expansion::Taylor;
+use crate::search::jets::{Asked, Equations, RowKey};
 use crate::search::local::Local;
+use crate::search::{Effort, SearchError};
 
 /// Points whose minors are compared.
 const POINTS: usize = 2;
@@ -44,15 +45,14 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
 pub fn relations(
     case: &Case,
     local: &Local,
-    degree: u32,
-    mixed: bool,
+    asked: Asked,
     (name, draw): &(String, usize),
-    seed: u64,
+    effort: &Effort,
 ) -> Result<Vec<String>, SearchError> {
     let others = scalars(case);
     let mut rounds = Vec::new();
     for round in 0..ROUNDS {
-        let mut search = Minors::new(local, degree, mixed, *draw, seed + round);
+        let mut search = Minors::new(local, asked, *draw, round, effort);
         let values = search.special_values()?;
         rounds.push((values, search.parameters.clone(), search.modulus));
         if rounds[0].0.is_empty() {
@@ -103,8 +103,8 @@ fn is_simple(value: &Rational) -> bool {
 /// Minors as functions of one draw of the parameters.
 struct Minors<'l> {
     taylor: Taylor<'l>,
-    degree: u32,
-    mixed: bool,
+    effort: &'l Effort,
+    asked: Asked,
     draw: usize,
     parameters: Vec<u64>,
     modulus: Modulus,
@@ -112,8 +112,8 @@ struct Minors<'l> {
 }
 
 impl<'l> Minors<'l> {
-    fn new(local: &'l Local, degree: u32, mixed: bool, draw: usize, seed: u64) -> Self {
-        let mut chance = Chance::new(seed, 46);
+    fn new(local: &'l Local, asked: Asked, draw: usize, round: u64, effort: &'l Effort) -> Self {
+        let mut chance = Chance::new(effort.options.seed + round, 46);
         let modulus = chance.prime(&[], &[]);
         let small = |chance: &mut Chance| 2 + modulus.to_integer(chance.element(&modulus)) % 97;
         let parameters = local.parameters(&modulus, &mut chance);
@@ -125,8 +125,8 @@ impl<'l> Minors<'l> {
                 Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut chance)),
             })
             .collect();
-        let taylor = Taylor::new(local, modulus, 2 * degree + 2);
-        Self { taylor, degree, mixed, draw, parameters, modulus, chance }
+        let taylor = Taylor::new(local, modulus, 2 * asked.degree + 2);
+        Self { taylor, effort, asked, draw, parameters, modulus, chance }
     }
 
     /// The equations at a value of the parameter; nothing where the field has no series.
@@ -138,7 +138,7 @@ impl<'l> Minors<'l> {
         let mut parameters = self.parameters.clone();
         parameters[self.draw] = value;
         let expansion = self.taylor.at(&parameters, positions, &mut self.chance)?;
-        Ok(expansion.map(|e| Equations::of(&e, &self.taylor, self.degree, self.mixed)))
+        Ok(expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0)))
     }
 
     /// The values at which there are more integrals.
@@ -157,7 +157,7 @@ impl<'l> Minors<'l> {
             for _ in 0..DRAWS {
                 let positions = self.taylor.positions(&mut self.chance);
                 let Ok(Some(equations)) = self.equations(value, &positions) else { continue };
-                if equations.dimension(&equations.solved().0) > dimension {
+                if equations.dimension(&equations.solved(&self.effort.halt)?.0) > dimension {
                     found.push(value);
                 }
                 break;
@@ -173,7 +173,7 @@ impl<'l> Minors<'l> {
             let positions = self.taylor.positions(&mut self.chance);
             let value = self.chance.element(&self.modulus);
             let Some(equations) = self.equations(value, &positions)? else { continue };
-            let (echelon, rows) = equations.solved();
+            let (echelon, rows) = equations.solved(&self.effort.halt)?;
             let dimension = equations.dimension(&echelon);
             let columns: Vec<usize> =
                 (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();
@@ -182,6 +182,7 @@ impl<'l> Minors<'l> {
             while wanted <= MOST {
                 while values.len() < wanted && tries < DRAWS * wanted {
                     tries += 1;
+                    self.effort.halt.check()?;
                     let value = self.chance.element(&self.modulus);
                     if let Some(equations) = self.equations(value, &positions)? {
                         values.push((value, self.determinant(&equations, &rows, &columns)));

@@ -21,7 +21,8 @@ mod variety;
 
 use serde::Serialize;
 
-use super::{Effort, SearchError};
+use super::jets::Asked;
+use super::{Effort, Report, SearchError};
 use crate::case::{Case, Claim};
 pub use coordinates::components;
 use line::{Along, Lines};
@@ -63,33 +64,33 @@ pub fn conditions(
     case: &Case,
     wanted: &Wanted,
     effort: &Effort,
+    report: &mut Report,
     progress: &mut dyn FnMut(&str),
-) -> Result<Vec<Condition>, SearchError> {
-    let mut found = Vec::new();
+) -> Result<(), SearchError> {
     match wanted {
         Wanted::Claim(name) => {
             let named = case.claims.iter().find(|claim| &claim.name == name);
             let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
             progress(&format!("conditions for {name}"));
-            found.extend(condition(case, Some(claim), effort)?);
+            report.conditions.extend(condition(case, Some(claim), effort)?);
         }
         Wanted::Existence => {
             if case.model.system.has_criterion() {
                 progress("conditions for a density of the configuration");
-                found.extend(condition(case, None, effort)?);
+                report.conditions.extend(condition(case, None, effort)?);
             }
-            integrals(case, effort, progress, &mut found)?;
+            integrals(case, effort, report, progress)?;
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 /// The values of single parameters for which there are more integrals of degree 1 or 2.
 fn integrals(
     case: &Case,
     effort: &Effort,
+    report: &mut Report,
     progress: &mut dyn FnMut(&str),
-    found: &mut Vec<Condition>,
 ) -> Result<(), SearchError> {
     let mixed = case.model.system.energy_is_inhomogeneous();
     let local = match Local::of(case, &[]) {
@@ -100,18 +101,22 @@ fn integrals(
         for parameter in minors::scalars(case) {
             let of = format!("more integrals of degree {degree}");
             progress(&format!("{of}, by {}", parameter.0));
-            let seed = effort.options.seed;
-            let (equations, grounds) =
-                match minors::relations(case, &local, degree, mixed, &parameter, seed) {
-                    Ok(relations) if relations.is_empty() => continue,
-                    Ok(relations) => {
-                        (relations, "minors of the equations for Taylor coefficients".to_string())
-                    }
-                    Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
-                    Err(error) => return Err(error),
-                };
+            let (equations, grounds) = match minors::relations(
+                case,
+                &local,
+                Asked { degree, mixed },
+                &parameter,
+                effort,
+            ) {
+                Ok(relations) if relations.is_empty() => continue,
+                Ok(relations) => {
+                    (relations, "minors of the equations for Taylor coefficients".to_string())
+                }
+                Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
+                Err(error) => return Err(error),
+            };
             let of = format!("{of}, by the value of {}", parameter.0);
-            found.push(Condition { of, equations, grounds });
+            report.conditions.push(Condition { of, equations, grounds });
         }
     }
     Ok(())
@@ -136,6 +141,7 @@ fn condition(
     let (mut equations, mut points): (Vec<(String, usize)>, Vec<Vec<u64>>) = Default::default();
     let (mut degree, mut seen, mut tried) = (0, 0, 0);
     for line in 0..LINES {
+        effort.halt.check()?;
         match lines.next() {
             Along::Always => return Ok(None),
             Along::Unknown => {
@@ -163,7 +169,7 @@ fn condition(
             }
         }
         if line == BARREN && degree == 0 {
-            let (systems, met) = small::conditions(&residual, effort.options.seed);
+            let (systems, met) = small::conditions(&residual, effort)?;
             let grounds = format!(
                 "no condition of codimension one on {BARREN} random lines; {met} points met by chance modulo 43"
             );

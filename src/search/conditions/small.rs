@@ -9,6 +9,7 @@ use crate::number::prime::Modulus;
 use crate::proof::Chance;
 use crate::search::echelon::Echelon;
 use crate::search::series::exponents;
+use crate::search::{Effort, Halt, SearchError};
 
 /// Two primes that are 3 modulo 4: in one equations are found, in the other confirmed.
 const PRIMES: [u64; 2] = [43, 47];
@@ -26,10 +27,13 @@ const SUBSETS: usize = 200;
 const SPARE: usize = 8;
 
 /// Systems of equations each of which makes the residual vanish, and how many points were met.
-pub fn conditions(residual: &Residual, seed: u64) -> (Vec<String>, usize) {
-    let mut chance = Chance::new(seed, 45);
-    let found = points(residual, PRIMES[0], &mut chance);
-    let again = points(residual, PRIMES[1], &mut chance);
+pub fn conditions(
+    residual: &Residual,
+    effort: &Effort,
+) -> Result<(Vec<String>, usize), SearchError> {
+    let mut chance = Chance::new(effort.options.seed, 45);
+    let found = points(residual, PRIMES[0], &mut chance, &effort.halt)?;
+    let again = points(residual, PRIMES[1], &mut chance, &effort.halt)?;
     let (first, second) = (Modulus::new(PRIMES[0]), Modulus::new(PRIMES[1]));
     let names = residual.names();
     let all: Vec<usize> = (0..names.len()).collect();
@@ -58,11 +62,16 @@ pub fn conditions(residual: &Residual, seed: u64) -> (Vec<String>, usize) {
         others.iter().filter(|(_, of)| *of == field).map(|(point, _)| point.clone()).collect()
     };
     systems.extend(system(names, &in_field(0), &in_field(1), first, second, &mut chance));
-    (systems, met)
+    Ok((systems, met))
 }
 
 /// Components of random parameters at which the residual vanishes.
-fn points(residual: &Residual, prime: u64, chance: &mut Chance) -> Vec<Vec<u64>> {
+fn points(
+    residual: &Residual,
+    prime: u64,
+    chance: &mut Chance,
+    halt: &Halt,
+) -> Result<Vec<Vec<u64>>, SearchError> {
     let small = Modulus::new(prime);
     let large = chance.prime(&[], &[]);
     let mut evaluator = residual.evaluator(small);
@@ -73,6 +82,7 @@ fn points(residual: &Residual, prime: u64, chance: &mut Chance) -> Vec<Vec<u64>>
     let mut parameters: [Vec<u64>; LANES] = std::array::from_fn(|_| draw(chance));
     let (mut zeros, mut looks) = ([0; LANES], [0; LANES]);
     for _ in 0..RUNS {
+        halt.check()?;
         let points = std::array::from_fn(|lane| {
             let state = reduced(residual.state(&large, chance));
             [parameters[lane].as_slice(), &state].concat()
@@ -92,7 +102,7 @@ fn points(residual: &Residual, prime: u64, chance: &mut Chance) -> Vec<Vec<u64>>
             }
         }
     }
-    found
+    Ok(found)
 }
 
 /// The equations of degree two that most points of both fields satisfy.

@@ -1,0 +1,56 @@
+//! A vector of phase space by its components: one formula a state variable.
+
+use super::Reader;
+use crate::formula::Formula;
+use crate::mechanics::{Meaning, Phase, Vocabulary};
+use crate::scalar::Scalar;
+
+/// One entry a state variable; 0 where none is given.
+#[derive(Clone, Debug)]
+pub struct Components {
+    variables: Vec<Option<Formula>>,
+    /// As they are typed.
+    pub text: String,
+}
+
+impl Components {
+    /// Reads the table under `key`, if there is one, its formulas in the names of `scope`.
+    pub fn read<R: Reader>(
+        from: &R,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Self>, R::Error> {
+        let model = from.model();
+        let Some(given) = from.table_in(key, scope)? else { return Ok(None) };
+        let mut variables = vec![None; model.state.len()];
+        let mut texts = Vec::new();
+        for (name, formula) in given {
+            let entry = model.vocabulary.find(&name);
+            let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
+                let message = format!("`{name}` is no state variable");
+                return Err(from.complaint(key, message, "name state variables"));
+            };
+            if model.state[index].kind != formula.value_type() {
+                return Err(from.unlike(key, model.state[index].kind, formula.value_type()));
+            }
+            texts.push(format!("{name} = {}", formula.text().trim()));
+            variables[index] = Some(formula);
+        }
+        Ok(Some(Self { variables, text: texts.join(", ") }))
+    }
+
+    /// The formulas that are given.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.variables.iter().flatten()
+    }
+
+    /// The components at a point, one after the other.
+    pub fn at<T: Scalar>(&self, point: &Phase<'_, T>) -> Vec<T> {
+        let variables = self.variables.iter().zip(&point.model().state);
+        let values = variables.map(|(formula, variable)| match formula {
+            Some(formula) => point.evaluate(formula).components(),
+            None => vec![T::zero(); variable.len()],
+        });
+        values.flatten().collect()
+    }
+}
