@@ -181,13 +181,8 @@ impl<T: Number> Code<T> {
         let stride = width + order.next_multiple_of(width);
         let copy_base = aligned + program.rows * stride;
         let backwards = width > 1;
-        let mut layout = Layout {
-            base: aligned + width - 1,
-            copy_base,
-            stride,
-            backwards,
-            copies: Vec::new(),
-        };
+        let mut layout =
+            Layout { base: aligned + width - 1, copy_base, stride, backwards, copies: Vec::new() };
         let mut products = Vec::new();
         for instruction in &program.instructions {
             let own = instruction.form.products.iter();

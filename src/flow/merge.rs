@@ -105,12 +105,7 @@ impl<'g> Relations<'g> {
     }
 
     /// A factor that is small enough and right at all states.
-    fn related(
-        &self,
-        factor: Rational,
-        own: [u64; STATES],
-        other: Option<usize>,
-    ) -> Replacement {
+    fn related(&self, factor: Rational, own: [u64; STATES], other: Option<usize>) -> Replacement {
         let image = self.field.rational(&factor)?;
         let values = match other {
             Some(other) => self.values[other]?,

@@ -30,10 +30,22 @@ pub enum Rule {
     Sqrt(Row),
     Exp(Row),
     Ln(Row),
-    Sin { x: Row, cosine: Row },
-    Cos { x: Row, sine: Row },
-    Atan { x: Row, square: Row },
-    Power { x: Row, exponent: Rational },
+    Sin {
+        x: Row,
+        cosine: Row,
+    },
+    Cos {
+        x: Row,
+        sine: Row,
+    },
+    Atan {
+        x: Row,
+        square: Row,
+    },
+    Power {
+        x: Row,
+        exponent: Rational,
+    },
 }
 
 impl Rule {
