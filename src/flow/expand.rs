@@ -103,7 +103,6 @@ impl<T: Number> Series<T> {
     /// Order 0 of every operation: the functions themselves.
     #[inline(always)]
     fn values(&mut self) {
-        let mut copies = &self.code.copies[self.code.of_state..];
         let copied = T::copied(self.orders, 0);
         let mut rows = Rows { memory: &mut self.memory, n: 0, copied };
         for (operation, finish) in self.code.operations.iter().zip(&self.code.finishes) {
