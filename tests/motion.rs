@@ -4,7 +4,7 @@ use std::path::Path;
 
 use liouville::case::{Case, Expect};
 use liouville::claim::motion::{MOTIONS, Motion};
-use liouville::observe::observe;
+use liouville::observe::{evidence_against_density, observe};
 use liouville::verdict::{ClaimReport, Options, Verdict, judge};
 
 fn catalogue(path: &str) -> Case {
@@ -44,6 +44,15 @@ fn contacts_and_limits_of_motions() {
     all_agree("one-sided/motion.toml", |_| true);
     all_agree("one-sided/motion-examples.toml", |_| true);
     all_agree("suslov/limit-example.toml", |_| true);
+}
+
+#[test]
+fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
+    let found = evidence_against_density(&catalogue("figures/fig-8.toml"), 1);
+    let found = found.expect("figure 8 has sinks");
+    assert!(found.contains("product 0.98"), "{found}");
+    let none = evidence_against_density(&catalogue("figures/fig-3.toml"), 1);
+    assert_eq!(none, None, "a measure is kept");
 }
 
 #[test]
