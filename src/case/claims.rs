@@ -50,7 +50,7 @@ pub fn read_motion(
     taken: &[String],
     default_source: &str,
 ) -> Result<MotionClaim, CaseError> {
-    let mut stated = STATEMENTS.iter().chain(MOTIONS).filter(|key| section.value(key).is_some());
+    let mut stated = MOTIONS.iter().chain(STATEMENTS).filter(|key| section.value(key).is_some());
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
     section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat())?;
     let entries = Entries { section, model };

@@ -9,6 +9,7 @@
 //! spread of blocks, or what double-double changes in f64.
 
 mod contacts;
+mod density;
 mod exponents;
 mod finding;
 mod limit;
@@ -22,6 +23,8 @@ use crate::flow::FlowError;
 use crate::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Trust, Verdict,
 };
+
+pub use density::evidence_against_density;
 
 use finding::Finding;
 use scene::Scene;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::density::speaks_against;
 use super::finding::Finding;
 use super::scene::{Scene, coordinates};
 use crate::claim::motion::{PeriodicPoint, Stability};
@@ -34,7 +35,8 @@ pub fn look(claim: &PeriodicPoint, scene: &Scene<'_>) -> Result<Finding, FlowErr
     if let Some(shorter) = shorter_period(map, &orbit, libm::hypot(l.error, z.error))? {
         finding.refute(format!("it comes back after {shorter} crossings"));
     }
-    finding.remark = against_a_density(product);
+    finding.remark = speaks_against(product)
+        .then(|| "evidence against a density: volumes change over the period".to_string());
     Ok(finding)
 }
 
@@ -112,14 +114,4 @@ fn shorter_period(
         }
     }
     Ok(None)
-}
-
-/// What a closed orbit says about densities: a density ρ that is smooth and positive there is the same
-/// after the period, so that the flow keeps volumes: λ₁ λ₂ = 1.
-pub fn against_a_density(product: Measured) -> Option<String> {
-    ((product.value - 1.0).abs() > product.error).then(|| {
-        "evidence against a density: along this orbit volumes change over the period, and a smooth \
-         positive density would be the same"
-            .to_string()
-    })
 }

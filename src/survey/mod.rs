@@ -29,6 +29,7 @@ mod words;
 use serde::Serialize;
 
 use crate::case::{Case, Expect};
+use crate::observe::evidence_against_density;
 use crate::verdict::{JudgeError, Options, Verdict};
 
 pub use geometry::Fact;
@@ -164,6 +165,11 @@ pub fn survey(
         Measure::Excluded | Measure::ExcludedForConfiguration => sphere::criterion(case, options)?,
         Measure::Singular | Measure::NotKnown => None,
     };
+    let mut hierarchy = Standing::of(measure, standing, reversors.len());
+    if !matches!(measure, Measure::ClosedForm | Measure::ByQuadrature) {
+        progress("closed orbits");
+        hierarchy.grounds.extend(evidence_against_density(case, options.seed));
+    }
     Ok(Survey {
         title: case.title.clone(),
         system: case.system.clone(),
@@ -173,7 +179,7 @@ pub fn survey(
         wireframe: wireframe::of(case, options)?,
         notes: case.notes.clone(),
         facts: geometry.facts,
-        hierarchy: Standing::of(measure, standing, reversors.len()),
+        hierarchy,
         general: sorted.general,
         criterion: sorted.criterion,
         densities: sorted.densities,

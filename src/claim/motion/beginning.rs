@@ -15,9 +15,6 @@ pub enum Beginning {
 }
 
 impl Beginning {
-    /// The keys under which it stands.
-    pub const KEYS: [&'static str; 2] = ["start", "state"];
-
     /// Reads `start = [l, L/G]` or `state = { … }`.
     pub fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         match (point(from, "start")?, read_point(from, "state")?) {
