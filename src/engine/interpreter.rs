@@ -3,6 +3,8 @@
 //! One step at a time over a row of lanes. The last result stays in registers; where the next step
 //! is the only one that reads it, it is never stored.
 
+#![allow(clippy::needless_range_loop, reason = "loops over groups are unrolled")]
+
 use super::program::{Program, Step, Sum, Value};
 use super::vector::{Vector, Work, with_vectors};
 use super::{LANES, Row};
