@@ -3,6 +3,8 @@
 //! One step at a time over a row of lanes. The last result stays in registers; where the next step
 //! is the only one that reads it, it is never stored.
 
+#![allow(clippy::needless_range_loop, reason = "loops over groups are unrolled")]
+
 use super::program::{Program, Step, Sum, Value};
 use super::vector::{Vector, Work, with_vectors};
 use super::{LANES, Row};
@@ -197,36 +199,41 @@ impl Work for Run<'_> {
                     Some(row) => read(rows, row, start),
                     None => last,
                 };
-                let y = || read::<V>(rows, instruction.y, start);
-                let z = || read::<V>(rows, instruction.z, start);
+                let (y, z) = (instruction.y, instruction.z);
                 last = match instruction.kind {
-                    Kind::Add => zip(x, y(), V::add),
-                    Kind::Sub => zip(x, y(), V::sub),
-                    Kind::SubFrom => zip(y(), x, V::sub),
-                    Kind::Mul => zip(x, y(), V::mul),
-                    Kind::MulAdd => zip3(x, y(), z(), V::mul_add),
-                    Kind::MulSub => zip3(x, y(), z(), V::mul_sub),
-                    Kind::MulSubFrom => zip3(x, y(), z(), V::neg_mul_add),
-                    Kind::AddMul => zip3(y(), z(), x, V::mul_add),
-                    Kind::SubFromMul => zip3(y(), z(), x, V::mul_sub),
-                    Kind::SubMul => zip3(y(), z(), x, V::neg_mul_add),
+                    Kind::Add => zip(x, read(rows, y, start), V::add),
+                    Kind::Sub => zip(x, read(rows, y, start), V::sub),
+                    Kind::SubFrom => zip(read(rows, y, start), x, V::sub),
+                    Kind::Mul => zip(x, read(rows, y, start), V::mul),
+                    Kind::MulAdd => zip3(x, read(rows, y, start), read(rows, z, start), V::mul_add),
+                    Kind::MulSub => zip3(x, read(rows, y, start), read(rows, z, start), V::mul_sub),
+                    Kind::MulSubFrom => {
+                        zip3(x, read(rows, y, start), read(rows, z, start), V::neg_mul_add)
+                    }
+                    Kind::AddMul => zip3(read(rows, y, start), read(rows, z, start), x, V::mul_add),
+                    Kind::SubFromMul => {
+                        zip3(read(rows, y, start), read(rows, z, start), x, V::mul_sub)
+                    }
+                    Kind::SubMul => {
+                        zip3(read(rows, y, start), read(rows, z, start), x, V::neg_mul_add)
+                    }
                     Kind::Function(function) => match function {
-                        Function::Neg => x.map(V::neg),
-                        Function::Recip => x.map(|x| V::splat(1.0).div(x)),
-                        Function::Sqrt => x.map(V::sqrt),
-                        Function::Abs => x.map(V::abs),
-                        Function::Exp => by_lane(x, libm::exp),
-                        Function::Ln => by_lane(x, libm::log),
-                        Function::Sin => by_lane(x, libm::sin),
-                        Function::Cos => by_lane(x, libm::cos),
-                        Function::Atan => by_lane(x, libm::atan),
+                        Function::Neg => each(x, V::neg),
+                        Function::Recip => zip([V::splat(1.0); GROUP], x, V::div),
+                        Function::Sqrt => each(x, V::sqrt),
+                        Function::Abs => each(x, V::abs),
+                        Function::Exp => by_lane(x, x, |x, _| libm::exp(x)),
+                        Function::Ln => by_lane(x, x, |x, _| libm::log(x)),
+                        Function::Sin => by_lane(x, x, |x, _| libm::sin(x)),
+                        Function::Cos => by_lane(x, x, |x, _| libm::cos(x)),
+                        Function::Atan => by_lane(x, x, |x, _| libm::atan(x)),
                     },
-                    Kind::Pow => by_lanes(x, y(), libm::pow),
+                    Kind::Pow => by_lane(x, read(rows, y, start), libm::pow),
                 };
                 if let Some(row) = instruction.out {
                     let to = &mut rows[row as usize].0[start..][..GROUP * V::LANES];
-                    for (vector, lanes) in last.iter().zip(to.chunks_exact_mut(V::LANES)) {
-                        vector.store(lanes);
+                    for k in 0..GROUP {
+                        last[k].store(&mut to[k * V::LANES..]);
                     }
                 }
             }
@@ -234,42 +241,59 @@ impl Work for Run<'_> {
     }
 }
 
+// What follows uses loops, and functions by name: a closure of its own, or one of the standard
+// library, is compiled without the instructions that its vectors need.
+
 #[inline(always)]
 fn read<V: Vector>(rows: &[Row], row: u32, start: usize) -> [V; GROUP] {
     let lanes = &rows[row as usize].0[start..][..GROUP * V::LANES];
-    std::array::from_fn(|k| V::load(&lanes[k * V::LANES..]))
+    let mut group = [V::splat(0.0); GROUP];
+    for k in 0..GROUP {
+        group[k] = V::load(&lanes[k * V::LANES..]);
+    }
+    group
 }
 
 #[inline(always)]
-fn zip<V: Vector>(x: [V; GROUP], y: [V; GROUP], f: impl Fn(V, V) -> V) -> [V; GROUP] {
-    std::array::from_fn(|k| f(x[k], y[k]))
+fn each<V: Vector>(mut x: [V; GROUP], f: impl Fn(V) -> V) -> [V; GROUP] {
+    for k in 0..GROUP {
+        x[k] = f(x[k]);
+    }
+    x
+}
+
+#[inline(always)]
+fn zip<V: Vector>(mut x: [V; GROUP], y: [V; GROUP], f: impl Fn(V, V) -> V) -> [V; GROUP] {
+    for k in 0..GROUP {
+        x[k] = f(x[k], y[k]);
+    }
+    x
 }
 
 #[inline(always)]
 fn zip3<V: Vector>(
-    x: [V; GROUP],
+    mut x: [V; GROUP],
     y: [V; GROUP],
     z: [V; GROUP],
     f: impl Fn(V, V, V) -> V,
 ) -> [V; GROUP] {
-    std::array::from_fn(|k| f(x[k], y[k], z[k]))
+    for k in 0..GROUP {
+        x[k] = f(x[k], y[k], z[k]);
+    }
+    x
 }
 
 /// A function that is no instruction, one lane after the other.
 #[inline(always)]
-fn by_lane<V: Vector>(x: [V; GROUP], f: fn(f64) -> f64) -> [V; GROUP] {
-    by_lanes(x, x, |x, _| f(x))
-}
-
-#[inline(always)]
-fn by_lanes<V: Vector>(x: [V; GROUP], y: [V; GROUP], f: impl Fn(f64, f64) -> f64) -> [V; GROUP] {
-    zip(x, y, |x, y| {
+fn by_lane<V: Vector>(mut x: [V; GROUP], y: [V; GROUP], f: impl Fn(f64, f64) -> f64) -> [V; GROUP] {
+    for k in 0..GROUP {
         let (mut of_x, mut of_y) = ([0.0; LANES], [0.0; LANES]);
-        x.store(&mut of_x);
-        y.store(&mut of_y);
+        x[k].store(&mut of_x);
+        y[k].store(&mut of_y);
         for lane in 0..V::LANES {
             of_x[lane] = f(of_x[lane], of_y[lane]);
         }
-        V::load(&of_x)
-    })
+        x[k] = V::load(&of_x);
+    }
+    x
 }

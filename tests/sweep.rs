@@ -1,0 +1,86 @@
+//! Sweeps: the same for any number of threads and by every engine, at states that `eval` finds
+//! again, in agreement with the verdicts.
+
+use liouville::case::Case;
+use liouville::engine::Means;
+use liouville::sweep::{Extremes, Sweep, SweepError};
+use liouville::verdict::{Options, Trust, Verdict, judge};
+
+const BALL: &str = "title = 'Ball'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\n\
+    R = '1..3'\nc = 'vector(-0.5..0.5)'\nI = 'inertia(0.5..5)'\n[body]\n\
+    support = 'R*|γ| + (c,γ)'\n\
+    [[claim]]\nintegral = '|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)'\n\
+    [[claim]]\nintegral = '|Ĩ*ω × γ|² − (2 + 1/1000)*m*R*(γ,c)*(Ĩ*ω,ω)'\nexpect = 'fails'\n";
+
+fn case() -> Case {
+    Case::parse(BALL, &[]).expect("a case")
+}
+
+fn sweep(case: &Case, claim: usize, means: Means) -> Sweep<'_> {
+    Sweep::by(case, &case.claims[claim], 1, means).expect("a sweep")
+}
+
+#[test]
+fn threads_and_engines_change_nothing() {
+    let case = case();
+    let states = 5..200_005;
+    let found: Vec<Extremes> =
+        [(1, Means::Quickest), (2, Means::Quickest), (3, Means::Interpreter)]
+            .into_iter()
+            .map(|(threads, means)| {
+                let pool =
+                    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+                pool.install(|| sweep(&case, 0, means).run(states.clone(), f64::INFINITY))
+            })
+            .collect();
+    assert_eq!(found[0].states, 200_000, "all were looked at");
+    assert_eq!(found[0].defined, 200_000, "and have a value");
+    assert!(found.iter().all(|other| *other == found[0]), "{found:?}");
+}
+
+#[test]
+fn a_slip_shows_and_ends_the_sweep() {
+    let case = case();
+    let right = sweep(&case, 0, Means::Quickest).run(0..100_000, f64::INFINITY);
+    let peak = right.peak.expect("defined");
+    assert!(peak.ratio < 1e-13, "rounding, at state {}: {}", peak.index, peak.ratio);
+    let wrong = sweep(&case, 1, Means::Quickest);
+    let found = wrong.run(0..u64::MAX, 1e-6);
+    assert_eq!(found.states, 1 << 20, "one look is enough");
+    let peak = found.peak.expect("defined");
+    let alone = wrong.run(peak.index..peak.index + 1, f64::INFINITY);
+    assert_eq!(alone.peak, found.peak, "a state does not depend on those beside it");
+    let (parameters, state) = wrong.state(peak.index);
+    let names: Vec<&str> = parameters.iter().chain(&state).map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["m", "R", "c", "I", "ω", "γ"], "by name");
+    let gamma: f64 = state[1].1.iter().map(|x| x.parse::<f64>().expect("a number").powi(2)).sum();
+    assert!((gamma - 1.0).abs() < 1e-15, "on the level: {gamma}");
+}
+
+#[test]
+fn a_level_without_a_chart_has_no_sweep() {
+    let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '-y'\n\
+        \"y'\" = 'x'\n[level]\nequations = ['x⁴ + y⁴ + 2*x²*y² = 1']\n[[claim]]\n\
+        integral = 'x² + y²'\n";
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{}", error.message()));
+    let found = Sweep::new(&case, &case.claims[0], 1);
+    assert!(matches!(found, Err(SweepError::NoChart)), "{found:?}");
+}
+
+#[test]
+fn many_states_give_the_verdict_of_few() {
+    let case = case();
+    let judged = |states| {
+        let options = Options { states, trust: Trust::Float, ..Options::default() };
+        let report = judge(&case, &options).expect("judged");
+        report
+            .claims
+            .iter()
+            .map(|claim| (claim.verdict, claim.evidence.samples))
+            .collect::<Vec<_>>()
+    };
+    let (few, many) = (judged(256), judged(20_000));
+    assert_eq!((few[0].0, many[0].0), (Verdict::Confirmed, Verdict::Confirmed), "the integral");
+    assert_eq!((few[0].1, many[0].1), (256, 20_032), "at all states, in blocks of 64");
+    assert_eq!((few[1].0, many[1].0), (Verdict::Refuted, Verdict::Refuted), "the slip");
+}
