@@ -97,9 +97,8 @@ pub fn over_denominators(
         let (graph, rates) = recorded(case, |jet| {
             let moved = jet.along_field();
             let below: Dual<Expr> = moved.scalar(&denominator.formula);
-            let growth = (!weight.is_zero()).then(|| {
-                Expr::rational(weight) * (jet.divergence() - jet.level_cofactor(&kept))
-            });
+            let growth = (!weight.is_zero())
+                .then(|| Expr::rational(weight) * (jet.divergence() - jet.level_cofactor(&kept)));
             let rate = |term: &Term| {
                 let value: Dual<Expr> = moved.scalar(&term.formula) / below;
                 growth.map_or(value.eps, |growth| value.eps + growth * value.re)

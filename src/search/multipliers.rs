@@ -93,9 +93,8 @@ fn series(
     let none = Rational::from(1);
     let mut counted = Vec::new();
     let configuration = (0, None, none);
-    let others = (1..=effort.degree.min(MOST)).flat_map(|degree| {
-        WEIGHTS.map(|alpha| (degree, Some(alpha), Rational::from(alpha)))
-    });
+    let others = (1..=effort.degree.min(MOST))
+        .flat_map(|degree| WEIGHTS.map(|alpha| (degree, Some(alpha), Rational::from(alpha))));
     for (degree, alpha, weight) in std::iter::once(configuration).chain(others) {
         let asked = Asked { degree, mixed };
         let Count { dimension, size: (unknowns, equations) } =
@@ -117,12 +116,7 @@ fn series(
 }
 
 /// Looks for P among the terms that the system offers; what is proved goes into the report.
-fn find(
-    case: &Case,
-    alpha: i64,
-    effort: &Effort,
-    report: &mut Report,
-) -> Result<(), SearchError> {
+fn find(case: &Case, alpha: i64, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let mut candidates = over_denominators(case, &terms, &Rational::from(alpha), effort, report)?;
     candidates.sort_by_key(|formula| formula.chars().count());
