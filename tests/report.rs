@@ -275,3 +275,18 @@ fn wrong_input_is_told_with_a_remedy() {
     run().args(["report", path, "--json", "--format", "html"]).assert().code(2);
     std::fs::remove_dir_all(&folder).expect("the folder goes");
 }
+
+#[test]
+fn planes_of_symmetry_may_be_turned() {
+    let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nR = '1..3'\n\
+                n = 'vector(-0.4..0.4)'\np = 'vector(-0.4..0.4)'\na = '1..2'\nb = '1..2'\n\
+                I = 'a*E + b*n⊗n'\nc = 'n × p'\n[body]\nshape = 'ball'\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let found = survey(&case, &Options::default(), &mut |_| {}).expect("a survey");
+    let reversor = |name: &str| found.reversors.iter().find(|one| one.claim.name == name);
+    let across = reversor("Σ\u{303}(n)").expect("the plane across n holds c");
+    assert!(across.holds(), "proved");
+    assert_eq!(across.fixed_set.and_then(|set| set.dimension), Some(2));
+    assert!(reversor("Π\u{303}(c)").is_some(), "a half turn about c keeps n⊗n and c");
+    assert!(reversor("Σ\u{303}(p)").is_none(), "p is no axis of the body");
+}

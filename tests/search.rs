@@ -326,3 +326,30 @@ fn a_search_that_is_stopped_tells_what_it_reached() {
     assert!(report.found.is_empty() && report.counts.is_empty() && report.excluded.is_empty());
     assert_eq!(report.unreached[0], "the number of integrals");
 }
+
+#[test]
+fn densities_that_depend_on_the_velocities_are_counted_and_found() {
+    let damped = case(
+        "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nc = '0.5..2'\n[state]\nx = '1..2'\n\
+         \"x'\" = '1..2'\n[lagrangian]\nkinetic = \"x'²/2\"\nforces = { x = \"−c*x'\" }\n",
+    );
+    let report = search(&damped, &effort(2), &mut |_| {}).expect("it can be searched");
+    let density: Vec<&str> = report.formulas("density").collect();
+    assert_eq!(density, ["(x')^(−1)"], "div v = −c, and no density of x alone");
+    let last = report.multipliers.last().expect("they were counted");
+    assert_eq!((last.degree, last.alpha, last.dimension), (1, Some(-1), 1));
+    assert!(report.excluded.iter().all(|one| !one.theorem.contains("P^(1/α)")), "no theorem");
+
+    // (3.15) is one of the configuration; the unbalanced ball and an ellipsoid have none at all.
+    let balanced = searched("plane/balanced-ball", &effort(1));
+    let counted: Vec<(u32, usize)> =
+        balanced.multipliers.iter().map(|one| (one.degree, one.dimension)).collect();
+    assert_eq!(counted, [(0, 1)], "others are its products with integrals");
+    let unbalanced = searched("plane/unbalanced-ball", &effort(2));
+    assert!(unbalanced.multipliers.iter().all(|one| one.dimension == 0), "none");
+    let theorem = &unbalanced.excluded.last().expect("a theorem").theorem;
+    assert!(theorem.contains("no invariant density P^(1/α)"), "{theorem}");
+    let forced = searched("plane/ellipsoid-generic", &effort(1));
+    let theorem = &forced.excluded.last().expect("a theorem").theorem;
+    assert!(theorem.contains("for every gyrostat and every potential"), "{theorem}");
+}

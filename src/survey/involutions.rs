@@ -1,9 +1,11 @@
-//! Symmetries and reversors among the maps that permute the axes of the frame and change signs.
+//! Symmetries and reversors among the maps that permute the axes of the frame and change signs, and
+//! the involutions about vectors of the case.
 //!
 //! With Q in O(3), Qᵀ = Q⁻¹, an axial vector goes to det Q Qω and a polar one to Qγ; a reversor
 //! has −det Q Qω, and Q² = E. If Q takes the body, its inertia, its rotor and the potential to
 //! themselves the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides it all the same.
 
+use super::mirrors::Mirror;
 use super::question::{Finding, FixedSet, Question};
 use crate::case::Case;
 use crate::formula::Type;
@@ -47,30 +49,33 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> 
 fn candidates(case: &Case) -> Vec<Candidate> {
     let turns = || Turn::all().into_iter();
     match &case.model.system {
-        System::Rubber(_) => both(turns(), |turn, axial| Candidate {
-            name: turn.name(axial < 0),
-            key: key(axial),
-            images: vec![
-                ("ω".into(), turn.image("ω", axial * turn.determinant())),
-                ("γ".into(), turn.image("γ", 1)),
-            ],
-            // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
-            fixed_set: fixed(axial, turn, |along, velocity| match turn.determinant() {
-                1 => along.checked_sub(1).map(|d| d + velocity),
-                _ => along.checked_sub(1).map(|d| d + velocity - 1),
-            }),
-        }),
+        System::Rubber(_) => {
+            let candidate = |map: &Map, axial: i8| Candidate {
+                name: map.name(axial < 0),
+                key: key(axial),
+                images: vec![
+                    ("ω".into(), map.image("ω", axial * map.determinant())),
+                    ("γ".into(), map.image("γ", 1)),
+                ],
+                // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+                fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
+                    1 => along.checked_sub(1).map(|d| d + velocity),
+                    _ => along.checked_sub(1).map(|d| d + velocity - 1),
+                }),
+            };
+            both(Map::all(case), candidate)
+        }
         System::Ball(ball) => {
             let is_level = matches!(ball.surface, Surface::Level(_));
             let second = if is_level { "r" } else { "γ" };
-            both(turns(), |turn, axial| Candidate {
-                name: turn.name(axial < 0),
+            both(Map::all(case), |map, axial| Candidate {
+                name: map.name(axial < 0),
                 key: key(axial),
                 images: vec![
-                    ("M".into(), turn.image("M", axial * turn.determinant())),
-                    (second.into(), turn.image(second, 1)),
+                    ("M".into(), map.image("M", axial * map.determinant())),
+                    (second.into(), map.image(second, 1)),
                 ],
-                fixed_set: fixed(axial, turn, |along, velocity| match is_level {
+                fixed_set: fixed(axial, map, |along, velocity| match is_level {
                     true => Some(along + velocity),
                     false => along.checked_sub(1).map(|d| d + velocity),
                 }),
@@ -78,7 +83,7 @@ fn candidates(case: &Case) -> Vec<Candidate> {
         }
         System::FlatBase(_) => {
             let about_axis = turns().filter(|turn| turn.places[2] == 2 && turn.signs[2] == 1);
-            both(about_axis, |turn, axial| {
+            both(about_axis.collect(), |turn: &Turn, axial| {
                 let across = |name: &str, sign: i8| {
                     (0..2)
                         .map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
@@ -106,25 +111,87 @@ fn key(axial: i8) -> &'static str {
 /// axial vectors.
 fn fixed(
     axial: i8,
-    turn: Turn,
+    map: &impl Orthogonal,
     dimension: impl Fn(usize, usize) -> Option<usize>,
 ) -> Option<FixedSet> {
     (axial < 0).then(|| {
-        let velocity = turn.fixed_space(axial * turn.determinant());
-        FixedSet { dimension: dimension(turn.fixed_space(1), velocity) }
+        let velocity = map.fixed_space(axial * map.determinant());
+        FixedSet { dimension: dimension(map.fixed_space(1), velocity) }
     })
 }
 
 /// Reversors (axial −1) of all involutions, then symmetries (axial 1) but the identity.
-fn both(
-    turns: impl Iterator<Item = Turn>,
-    mut candidate: impl FnMut(Turn, i8) -> Candidate,
-) -> Vec<Candidate> {
-    let turns: Vec<Turn> = turns.collect();
-    let mut all: Vec<Candidate> =
-        turns.iter().filter(|turn| turn.is_involution()).map(|turn| candidate(*turn, -1)).collect();
-    all.extend(turns.iter().filter(|turn| !turn.is_identity()).map(|turn| candidate(*turn, 1)));
+fn both<M: Orthogonal>(maps: Vec<M>, candidate: impl Fn(&M, i8) -> Candidate) -> Vec<Candidate> {
+    let involutions = maps.iter().filter(|map| map.is_involution());
+    let mut all: Vec<Candidate> = involutions.map(|map| candidate(map, -1)).collect();
+    let others = maps.iter().filter(|map| !map.is_identity());
+    all.extend(others.map(|map| candidate(map, 1)));
     all
+}
+
+/// A map Q with Qᵀ = Q⁻¹.
+trait Orthogonal {
+    fn determinant(&self) -> i8;
+    fn is_identity(&self) -> bool;
+    fn is_involution(&self) -> bool;
+    /// The dimension of {x : sign Qx = x}.
+    fn fixed_space(&self, sign: i8) -> usize;
+}
+
+/// What a body's frame may be taken to.
+enum Map {
+    Turn(Turn),
+    Mirror(Mirror),
+}
+
+impl Map {
+    /// The 48 permutations with signs, and reflections about the vectors of the case.
+    fn all(case: &Case) -> Vec<Self> {
+        let turns = Turn::all().into_iter().map(Self::Turn);
+        turns.chain(Mirror::all(case).into_iter().map(Self::Mirror)).collect()
+    }
+
+    fn name(&self, reverses: bool) -> String {
+        match self {
+            Self::Turn(turn) => turn.name(reverses),
+            Self::Mirror(mirror) => mirror.name(reverses),
+        }
+    }
+
+    /// sign·Q x as a formula.
+    fn image(&self, name: &str, sign: i8) -> String {
+        match self {
+            Self::Turn(turn) => turn.image(name, sign),
+            Self::Mirror(mirror) => mirror.image(name, sign),
+        }
+    }
+}
+
+impl Orthogonal for Map {
+    fn determinant(&self) -> i8 {
+        match self {
+            Self::Turn(turn) => turn.determinant(),
+            Self::Mirror(mirror) => mirror.determinant(),
+        }
+    }
+
+    fn is_identity(&self) -> bool {
+        matches!(self, Self::Turn(turn) if turn.is_identity())
+    }
+
+    fn is_involution(&self) -> bool {
+        match self {
+            Self::Turn(turn) => turn.is_involution(),
+            Self::Mirror(_) => true,
+        }
+    }
+
+    fn fixed_space(&self, sign: i8) -> usize {
+        match self {
+            Self::Turn(turn) => turn.fixed_space(sign),
+            Self::Mirror(mirror) => mirror.fixed_space(sign),
+        }
+    }
 }
 
 /// Components of a state of the user's own whose signs are all tried.
@@ -191,40 +258,6 @@ impl Turn {
             .collect()
     }
 
-    fn determinant(self) -> i8 {
-        let exchanges = (0..3).flat_map(|i| (i + 1..3).map(move |j| (i, j)));
-        let odd = exchanges.filter(|(i, j)| self.places[*i] > self.places[*j]).count() % 2 == 1;
-        self.signs.iter().product::<i8>() * if odd { -1 } else { 1 }
-    }
-
-    fn is_identity(self) -> bool {
-        self == Self { places: [0, 1, 2], signs: [1, 1, 1] }
-    }
-
-    fn is_involution(self) -> bool {
-        (0..3).all(|i| {
-            let j = self.places[i];
-            self.places[j] == i && self.signs[i] * self.signs[j] == 1
-        })
-    }
-
-    /// The dimension of {x : sign Qx = x}: one for each cycle whose signs multiply to 1.
-    fn fixed_space(self, sign: i8) -> usize {
-        let mut seen = [false; 3];
-        let mut dimension = 0;
-        for start in 0..3 {
-            let (mut at, mut product) = (start, 1);
-            while !std::mem::replace(&mut seen[at], true) {
-                product *= sign * self.signs[at];
-                at = self.places[at];
-                if at == start {
-                    dimension += usize::from(product == 1);
-                }
-            }
-        }
-        dimension
-    }
-
     /// Component i of sign·Q x as a formula.
     fn component(self, name: &str, i: usize, sign: i8) -> String {
         let minus = if self.signs[i] * sign < 0 { "−" } else { "" };
@@ -252,6 +285,42 @@ impl Turn {
                 format!("{word} ({})", parts.join(" "))
             }
         }
+    }
+}
+
+impl Orthogonal for Turn {
+    fn determinant(&self) -> i8 {
+        let exchanges = (0..3).flat_map(|i| (i + 1..3).map(move |j| (i, j)));
+        let odd = exchanges.filter(|(i, j)| self.places[*i] > self.places[*j]).count() % 2 == 1;
+        self.signs.iter().product::<i8>() * if odd { -1 } else { 1 }
+    }
+
+    fn is_identity(&self) -> bool {
+        *self == Self { places: [0, 1, 2], signs: [1, 1, 1] }
+    }
+
+    fn is_involution(&self) -> bool {
+        (0..3).all(|i| {
+            let j = self.places[i];
+            self.places[j] == i && self.signs[i] * self.signs[j] == 1
+        })
+    }
+
+    /// One for each cycle whose signs multiply to 1.
+    fn fixed_space(&self, sign: i8) -> usize {
+        let mut seen = [false; 3];
+        let mut dimension = 0;
+        for start in 0..3 {
+            let (mut at, mut product) = (start, 1);
+            while !std::mem::replace(&mut seen[at], true) {
+                product *= sign * self.signs[at];
+                at = self.places[at];
+                if at == start {
+                    dimension += usize::from(product == 1);
+                }
+            }
+        }
+        dimension
     }
 }
 

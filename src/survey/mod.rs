@@ -19,6 +19,7 @@ mod hamiltonian;
 mod hierarchy;
 mod independence;
 mod involutions;
+mod mirrors;
 mod question;
 mod shown;
 mod sphere;
