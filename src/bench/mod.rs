@@ -36,7 +36,7 @@ mod underived;
 use serde::Serialize;
 
 pub use candidate::Candidate;
-pub use items::{Item, work_items};
+pub use items::{Item, Residual, work_items};
 pub use subject::{Entry, Subject, record_merged, record_residual};
 
 use crate::graph::Fault;
