@@ -108,7 +108,7 @@ fn bodies() -> Vec<Case> {
     };
     vec![
         body("R = '1..3'\nc = 'vector(-0.5..0.5)'", "shape = 'ball'"),
-        body("B = 'diagonal(1..3)'", "shape = 'ellipsoid'\npotential = 'γ1*γ2²'"),
+        body("B = 'diag(1..3)'", "shape = 'ellipsoid'\npotential = 'γ1*γ2²'"),
     ]
 }
 

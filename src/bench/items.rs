@@ -3,6 +3,9 @@
 use super::{Method, by_hand};
 use crate::case::{Case, CaseError};
 
+/// A residual from the state's components.
+pub type Residual = fn(&[f64]) -> f64;
+
 /// A case to be measured.
 pub struct Item {
     /// `W1`, or the path of a case file.
@@ -11,7 +14,7 @@ pub struct Item {
     pub case: Case,
     /// The residual as one would write it by hand with num-dual, from the state's components: plain
     /// code first, then from a formula for the residual, where there is one.
-    pub by_hand: Vec<(Method, fn(&[f64]) -> f64)>,
+    pub by_hand: Vec<(Method, Residual)>,
 }
 
 impl Item {
@@ -25,8 +28,8 @@ impl Item {
 struct WorkItem {
     name: &'static str,
     text: &'static str,
-    plain: fn(&[f64]) -> f64,
-    closed: Option<fn(&[f64]) -> f64>,
+    plain: Residual,
+    closed: Option<Residual>,
 }
 
 const WORK_ITEMS: [WorkItem; 3] = [

@@ -53,7 +53,8 @@ impl Graph {
         let is_folded = |(before, after): (&Expr, &Expr)| {
             rebuilt.0.constant_value(*after).is_some() && self.constant_value(*before).is_none()
         };
-        if outputs.iter().zip(&rebuilt.1).any(is_folded) {
+        let is_longer = rebuilt.0.operations(&rebuilt.1) > self.operations(outputs);
+        if is_longer || outputs.iter().zip(&rebuilt.1).any(is_folded) {
             return self.copied(outputs);
         }
         Ok(rebuilt)

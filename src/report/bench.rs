@@ -61,7 +61,7 @@ struct ItemEntry<'a> {
     floor_ns_per_state: Option<f64>,
     /// By hand where there is such code, else by the generic definitions.
     num_dual_ns_per_state: Option<f64>,
-    /// The merged tape over num-dual by hand.
+    /// The quickest engine over num-dual by hand.
     ratio_to_num_dual: Option<f64>,
     num_dual_generic_ns_per_state: Option<f64>,
     operations: Option<usize>,
@@ -132,14 +132,12 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
     let tape = measured.row(Method::Tape, "f64");
     let merged = measured.row(Method::MergedTape, "f64");
     let time = |method| measured.row(method, "f64").map(|row| row.ns_per_state);
-    let engines =
-        ["f64, machine code", "f64, interpreter"].map(|domain| measured.row(Method::Tape, domain));
     ItemEntry {
         name: &measured.item,
         claim: &measured.claim,
         kind: measured.kind,
         ns_per_state: tape.map(|row| row.ns_per_state),
-        engine_ns_per_state: engines.into_iter().flatten().next().map(|row| row.ns_per_state),
+        engine_ns_per_state: measured.quickest().map(|row| row.ns_per_state),
         floor_ns_per_state: time(Method::Floor),
         num_dual_ns_per_state: time(Method::NumDualByHand).or(time(Method::NumDual)),
         ratio_to_num_dual: measured.ratio_to_num_dual(),
@@ -158,7 +156,7 @@ pub fn text(run: &BenchRun, style: Style) -> String {
         out.push_str(&table(measured, style));
         out.push('\n');
         if let Some(ratio) = measured.ratio_to_num_dual() {
-            out.push_str(&format!("   merged tape / num-dual by hand: {ratio:.4}\n"));
+            out.push_str(&format!("   quickest engine / num-dual by hand: {ratio:.4}\n"));
         }
         for (method, reason) in &measured.skipped {
             out.push_str(&format!("   {} skipped: {reason}\n", method.name()));

@@ -177,7 +177,9 @@ fn panel(
         for index in order {
             let row = rows[index];
             let text = match row.method {
-                Method::Tape => format!("tape, {}", row.domain),
+                Method::Tape | Method::MergedTape => {
+                    format!("{}, {}", row.method.name(), row.domain)
+                }
                 // The others run in one domain each.
                 method => method.name().to_string(),
             };
