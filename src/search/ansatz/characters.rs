@@ -50,9 +50,8 @@ impl Characters {
         let modulus = chance.prime(&[3, 5], &[2, 3]);
         let tape = Tape::new(&made, &outputs.concat());
         let mut states = Evaluator::new(&tape, Prime::new([modulus; LANES]));
-        let draws: Vec<[u64; LANES]> = (0..made.inputs())
-            .map(|_| std::array::from_fn(|_| chance.element(&modulus)))
-            .collect();
+        let draws: Vec<[u64; LANES]> =
+            (0..made.inputs()).map(|_| std::array::from_fn(|_| chance.element(&modulus))).collect();
         states.run(&draws);
         let point: Vec<[u64; LANES]> = states.outputs().copied().collect();
         let (graph, (level, field)) = recorded(case, |jet| {
@@ -126,8 +125,12 @@ fn negated(m: &Modulus, x: u64) -> u64 {
 /// Is y = x (`Some(false)`) or y = -x (`Some(true)`) in all lanes? `Some(None)` where both are 0; the
 /// outer option is empty where they are neither, or nowhere defined.
 fn ratio(m: &Modulus, x: &[u64; LANES], y: &[u64; LANES]) -> Option<Option<bool>> {
-    let defined: Vec<(u64, u64)> =
-        x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| ![*x, *y].contains(&UNDEFINED)).collect();
+    let defined: Vec<(u64, u64)> = x
+        .iter()
+        .copied()
+        .zip(y.iter().copied())
+        .filter(|(x, y)| ![*x, *y].contains(&UNDEFINED))
+        .collect();
     if defined.len() < 2 {
         return None;
     }

@@ -48,9 +48,15 @@ impl Coefficients {
         }
         // Few coordinates are tried first: often J stands for I, m and R.
         let names = system.coordinates();
-        let of_tensor = |k: &usize| names[*k].starts_with('J');
-        let tensor: Vec<usize> = varying.iter().copied().filter(of_tensor).collect();
-        [tensor, varying].into_iter().find_map(|kept| samples.fitted(&kept))
+        let tensor = |k: &usize| names[*k].starts_with('J');
+        let instead = |k: usize| {
+            let entry = names[k].strip_prefix('I').map(|entry| format!("J{entry}"));
+            entry.and_then(|entry| names.iter().position(|name| *name == entry)).unwrap_or(k)
+        };
+        let plain: Vec<usize> = varying.iter().copied().filter(|k| !tensor(k)).collect();
+        let mixed = plain.iter().map(|k| instead(*k)).collect();
+        let tensors: Vec<usize> = varying.iter().copied().filter(tensor).collect();
+        [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
     }
 
     /// The coefficient of a column as one writes it, in parentheses where it needs them.
@@ -135,9 +141,8 @@ impl Samples<'_> {
     /// The coordinates that differ from choice to choice, and from those before them.
     fn varying(&mut self) -> Option<Vec<usize>> {
         self.extend(4)?;
-        let column = |k: usize| -> Vec<u64> {
-            self.known.iter().map(|(at, _)| at.coordinates[k]).collect()
-        };
+        let column =
+            |k: usize| -> Vec<u64> { self.known.iter().map(|(at, _)| at.coordinates[k]).collect() };
         let is_new = |k: &usize| {
             let own = column(*k);
             own.iter().any(|x| *x != own[0]) && (0..*k).all(|j| column(j) != own)
@@ -164,7 +169,8 @@ impl Samples<'_> {
                 found.push(above.scaled(m, m.inverse(below.images[0].1)));
             }
             let rational = |fitted: &Fitted| {
-                let part = |(a, image): &(Vec<u32>, u64)| Some((a.clone(), reconstruct(*image, m)?));
+                let part =
+                    |(a, image): &(Vec<u32>, u64)| Some((a.clone(), reconstruct(*image, m)?));
                 fitted.images.iter().map(part).collect::<Option<Vec<_>>>()
             };
             let rational: Vec<Vec<_>> = found.iter().map(rational).collect::<Option<_>>()?;
@@ -176,7 +182,8 @@ impl Samples<'_> {
                 let (above, own) = value.parts();
                 (a.clone(), above * (&below / own))
             };
-            let polynomials = rational.iter().map(|own| own.iter().map(cleared).collect()).collect();
+            let polynomials =
+                rational.iter().map(|own| own.iter().map(cleared).collect()).collect();
             let names = kept.iter().map(|k| self.system.coordinates()[*k].clone()).collect();
             return Some(Coefficients { names, polynomials }.reduced());
         }
@@ -194,7 +201,9 @@ impl Samples<'_> {
         };
         let mut trials: Vec<(usize, u32, u32)> = (0..=8u32)
             .flat_map(|above| (0..=6u32).map(move |below| (above, below)))
-            .map(|(above, below)| (count(kept.len(), above) + count(kept.len(), below), above, below))
+            .map(|(above, below)| {
+                (count(kept.len(), above) + count(kept.len(), below), above, below)
+            })
             .filter(|(unknowns, ..)| *unknowns <= MOST)
             .collect();
         trials.sort();
@@ -215,6 +224,10 @@ impl Samples<'_> {
             }
             if let Some(vector) = echelon.null_space().first() {
                 let (n, d) = vector.split_at(upper.len());
+                // 0 = c D at all points: the coordinates are not independent of each other.
+                if n.iter().all(|image| *image == 0) {
+                    return None;
+                }
                 return Some((Fitted::new(&upper, n), Fitted::new(&lower, d)));
             }
         }
@@ -327,7 +340,8 @@ mod tests {
     #[test]
     fn large_fractions_come_from_several_primes() {
         let modulus: BigInt = (BigInt::one() << 127u32) - 1u32;
-        let (above, below) = (BigInt::from(-123_456_789_012_345i64), BigInt::from(987_654_321_989i64));
+        let (above, below) =
+            (BigInt::from(-123_456_789_012_345i64), BigInt::from(987_654_321_989i64));
         let inverse = below.modinv(&modulus).expect("prime to it");
         let residue = (&above * inverse).mod_floor(&modulus);
         assert_eq!(fraction(&residue, &modulus), Some((above, below)));

@@ -188,7 +188,8 @@ impl Rotors<'_> {
                 place.map_or("0".to_string(), |place| coefficients.text(place))
             };
             let own: Vec<usize> = (0..support.len()).filter(|k| support[*k] < first).collect();
-            let text = |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
+            let text =
+                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
             let linear = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
             let rotor = format!("[{}, {}, {}]", component(0), component(1), component(2));
             found.push(Direction { rotor, linear });
@@ -243,7 +244,8 @@ impl Rotors<'_> {
             let coefficients = Coefficients::of(&system, &support)?;
             let last = support.len() - 1;
             let own: Vec<usize> = (0..last).collect();
-            let text = |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
+            let text =
+                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
             let sum = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
             Some(match coefficients.text(last).as_str() {
                 "1" => sum,

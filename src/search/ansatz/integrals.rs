@@ -132,10 +132,8 @@ impl Search<'_> {
         let mut outputs = Vec::new();
         let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
             recording.derive(jet.along_field(), &variables.terms, &over);
-            outputs = known
-                .iter()
-                .map(|term| recording.give(jet.phase.scalar(&term.formula)))
-                .collect();
+            outputs =
+                known.iter().map(|term| recording.give(jet.phase.scalar(&term.formula))).collect();
         })?;
         let lowest = if self.mixed { 0 } else { self.degree };
         let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
@@ -344,7 +342,13 @@ mod tests {
         for (text, positions) in cases {
             let report = searched(&text, &effort(2, positions));
             let found: Vec<&str> = report.formulas("integral").collect();
-            assert_eq!(found.len(), 1, "{text}: {found:?} {:?} {:?}", report.remarks, report.excluded);
+            assert_eq!(
+                found.len(),
+                1,
+                "{text}: {found:?} {:?} {:?}",
+                report.remarks,
+                report.excluded
+            );
             assert_eq!(report.found[0].verdict, Verdict::Proved, "{text}");
         }
     }

@@ -71,7 +71,11 @@ impl Variables {
 
     /// The monomials of a degree in the velocities, and of some degrees in the positions, those of
     /// low degree in the positions first.
-    pub fn monomials(&self, degree: u32, positions: std::ops::RangeInclusive<u32>) -> Vec<Vec<u32>> {
+    pub fn monomials(
+        &self,
+        degree: u32,
+        positions: std::ops::RangeInclusive<u32>,
+    ) -> Vec<Vec<u32>> {
         let velocities = self.is_velocity.iter().filter(|own| **own).count();
         if velocities == 0 && degree > 0 {
             return Vec::new();

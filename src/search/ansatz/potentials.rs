@@ -44,7 +44,9 @@ pub fn potentials(
         .map(|(name, _)| name.to_string())
         .collect();
     if own.is_empty() {
-        report.remark("no integral of degree 1 or 2 is known that a potential could keep".to_string());
+        report.remark(
+            "no integral of degree 1 or 2 is known that a potential could keep".to_string(),
+        );
     }
     for integral in read(own, &case.model.vocabulary) {
         let family = Family { case, effort, variables: &variables, unit: &unit, integral };
@@ -127,7 +129,8 @@ impl Family<'_> {
             let sum = |potential: bool| {
                 let own = |k: &usize| (support[*k] >= first) == potential;
                 let own: Vec<usize> = (0..support.len()).filter(own).collect();
-                let text = |k: &usize| written(self.variables, &below, &system.columns[support[*k]]);
+                let text =
+                    |k: &usize| written(self.variables, &below, &system.columns[support[*k]]);
                 coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>())
             };
             found.push((sum(true), sum(false)));
@@ -174,11 +177,7 @@ impl Family<'_> {
 
     /// All potentials at once, each with a free constant in front, and the integral with all of them;
     /// how many were proved?
-    fn tell(
-        &self,
-        found: &[(String, String)],
-        report: &mut Report,
-    ) -> Result<usize, SearchError> {
+    fn tell(&self, found: &[(String, String)], report: &mut Report) -> Result<usize, SearchError> {
         if found.is_empty() {
             return Ok(0);
         }

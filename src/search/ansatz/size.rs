@@ -45,6 +45,9 @@ impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { unknowns, blocks, largest, seconds } = self;
         let megabytes = self.megabytes();
-        write!(f, "{unknowns} unknowns in {blocks} blocks, {largest} in the largest, at most {seconds:.1} s and {megabytes} MB")
+        write!(
+            f,
+            "{unknowns} unknowns in {blocks} blocks, {largest} in the largest, at most {seconds:.1} s and {megabytes} MB"
+        )
     }
 }

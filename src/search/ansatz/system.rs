@@ -233,11 +233,9 @@ impl System {
         let m = &at.modulus;
         let columns: Vec<usize> = (0..self.columns.len()).collect();
         self.relations(at, combinations.len() + further.len(), &mut |values| {
-            let all =
-                self.row(m, values, &columns, &|column, powers| powers.value(m, column))?;
-            let sum = |c: &Vec<u64>| {
-                c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)))
-            };
+            let all = self.row(m, values, &columns, &|column, powers| powers.value(m, column))?;
+            let sum =
+                |c: &Vec<u64>| c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
             let product =
                 |p: &Vec<usize>| p.iter().fold(m.one(), |product, k| m.mul(product, values[*k]));
             Some(combinations.iter().map(sum).chain(further.iter().map(product)).collect())
@@ -322,8 +320,7 @@ impl<'v> Powers<'v> {
     fn derivative(&self, m: &Modulus, column: &Column) -> u64 {
         let Column::Product { factor, exponents, .. } = column else { return 0 };
         let used = self.growth.iter().zip(exponents).filter(|(_, a)| **a > 0);
-        let growth =
-            used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
+        let growth = used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
         let slope = m.add(m.mul(self.factors[*factor], growth), self.slopes[*factor]);
         m.mul(self.monomial(m, exponents), slope)
     }
