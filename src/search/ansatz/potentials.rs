@@ -19,6 +19,7 @@ use crate::case::Case;
 use crate::graph::Expr;
 use crate::mechanics::{Model, Phase};
 use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 /// The highest degree of a potential's numerators.
 const POTENTIAL: u32 = 4;
