@@ -48,9 +48,15 @@ impl Coefficients {
         }
         // Few coordinates are tried first: often J stands for I, m and R.
         let names = system.coordinates();
-        let of_tensor = |k: &usize| names[*k].starts_with('J');
-        let tensor: Vec<usize> = varying.iter().copied().filter(of_tensor).collect();
-        [tensor, varying].into_iter().find_map(|kept| samples.fitted(&kept))
+        let tensor = |k: &usize| names[*k].starts_with('J');
+        let instead = |k: usize| {
+            let entry = names[k].strip_prefix('I').map(|entry| format!("J{entry}"));
+            entry.and_then(|entry| names.iter().position(|name| *name == entry)).unwrap_or(k)
+        };
+        let plain: Vec<usize> = varying.iter().copied().filter(|k| !tensor(k)).collect();
+        let mixed = plain.iter().map(|k| instead(*k)).collect();
+        let tensors: Vec<usize> = varying.iter().copied().filter(tensor).collect();
+        [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
     }
 
     /// The coefficient of a column as one writes it, in parentheses where it needs them.
@@ -218,6 +224,10 @@ impl Samples<'_> {
             }
             if let Some(vector) = echelon.null_space().first() {
                 let (n, d) = vector.split_at(upper.len());
+                // 0 = c D at all points: the coordinates are not independent of each other.
+                if n.iter().all(|image| *image == 0) {
+                    return None;
+                }
                 return Some((Fitted::new(&upper, n), Fitted::new(&lower, d)));
             }
         }

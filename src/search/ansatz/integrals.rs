@@ -46,15 +46,24 @@ pub fn integrals(
     };
     let mixed = case.model.system.energy_is_inhomogeneous();
     let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
+    let mut generators = Generators::all(case, effort, report)?;
     for degree in degrees {
-        let known = Generators::all(case, effort, report)?.products(degree, mixed);
+        let known = generators.products(degree, mixed);
         let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
         let dimension = count.map(|count| count.dimension);
         if !dimension.map_or(effort.ansatz.wanted, |dimension| dimension > known) {
             continue;
         }
         for below in denominators(&case.model, effort.ansatz.wanted) {
-            let mut search = Search { case, effort, variables: &variables, degree, mixed, below };
+            let mut search = Search {
+                case,
+                effort,
+                variables: &variables,
+                degree,
+                mixed,
+                below,
+                known: &mut generators,
+            };
             if search.run(dimension, report, progress)? {
                 break;
             }
@@ -88,6 +97,8 @@ struct Search<'a> {
     degree: u32,
     mixed: bool,
     below: Term,
+    /// What is known, and found on the way.
+    known: &'a mut Generators,
 }
 
 impl Search<'_> {
@@ -105,9 +116,8 @@ impl Search<'_> {
             if !self.step(positions, positions == highest, report, progress)? {
                 return Ok(true);
             }
-            let all = Generators::all(self.case, self.effort, report)?;
-            if dimension.is_some_and(|dimension| all.products(self.degree, self.mixed) >= dimension)
-            {
+            let products = self.known.products(self.degree, self.mixed);
+            if dimension.is_some_and(|dimension| products >= dimension) {
                 return Ok(true);
             }
         }
@@ -116,7 +126,7 @@ impl Search<'_> {
 
     /// One ansatz; `false` if it is too large, or has no states.
     fn step(
-        &self,
+        &mut self,
         positions: u32,
         is_last: bool,
         report: &mut Report,
@@ -126,7 +136,7 @@ impl Search<'_> {
         let seed = effort.options.seed;
         let below = std::slice::from_ref(&self.below);
         let over = factors(below, case);
-        let generators = Generators::all(case, effort, report)?;
+        let generators = &*self.known;
         let names: Vec<String> = generators.names().map(str::to_string).collect();
         let known = read(names, &case.model.vocabulary);
         let mut outputs = Vec::new();
@@ -185,7 +195,7 @@ impl Search<'_> {
 
     /// Writes a null vector as a formula and has it judged.
     fn tell(
-        &self,
+        &mut self,
         system: &System,
         vector: &[u64],
         report: &mut Report,
@@ -215,13 +225,17 @@ impl Search<'_> {
             report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
             return Ok(Outcome::Open);
         }
-        let known = Generators::all(case, effort, report)?;
-        let names: Vec<String> = known.names().map(quoted).chain([quoted(&formula)]).collect();
+        let names: Vec<String> = self.known.names().map(quoted).chain([quoted(&formula)]).collect();
         let claim = [format!("independent = [{}]", names.join(", "))];
         let independence = judged(case, &claim, effort)?.into_iter().next();
         match independence.map(|report| report.verdict) {
             Some(Verdict::Proved) => {
+                let before = report.found.len();
                 tell(case, &formula, verdict, effort, report)?;
+                if report.found.len() == before {
+                    return Ok(Outcome::Dependent);
+                }
+                *self.known = Generators::all(case, effort, report)?;
                 Ok(Outcome::Told)
             }
             other => {

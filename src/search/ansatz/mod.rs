@@ -68,17 +68,11 @@ pub fn search(
     Ok(())
 }
 
-/// The parameters' components in which coefficients are written; J stands for I where there is one.
+/// The parameters' components in which coefficients are written, and those of J where there is one.
 fn coordinates(case: &Case) -> Vec<Term> {
-    let mut own = components(case);
-    let is_inertia = |term: &Term| ["I1", "I2", "I3", "I12", "I13", "I23"].contains(&&*term.text);
     let entries = ["J1", "J2", "J3", "J12", "J13", "J23"].map(str::to_string);
     let tensor = read(entries.to_vec(), &case.model.vocabulary);
-    if own.iter().any(is_inertia) && !tensor.is_empty() {
-        own.retain(|term| !is_inertia(term));
-        own.splice(0..0, tensor);
-    }
-    own
+    [components(case), tensor].concat()
 }
 
 /// What a polynomial is divided by; `1` for nothing.

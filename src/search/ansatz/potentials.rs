@@ -16,7 +16,10 @@ use super::size::Size;
 use super::system::{Column, System};
 use super::{coordinates, factors, written};
 use crate::case::Case;
+use crate::graph::Expr;
 use crate::mechanics::{Model, Phase};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 /// The highest degree of a potential's numerators.
 const POTENTIAL: u32 = 4;
@@ -167,10 +170,10 @@ impl Family<'_> {
                 let direction: Vec<_> = moved.map(|(with, without)| *with - *without).collect();
                 jet.phase.lift(&direction).scalar(&self.integral.formula).eps
             });
-            let gains: Vec<_> = gains.collect();
+            let gains: Vec<Expr> = gains.collect();
             let velocities = state.len() - gains.len();
-            let still = field[..velocities].iter().map(|x| *x - *x);
-            let direction: Vec<_> = still.chain(gains).collect();
+            let mut direction = vec![Expr::rational(&Rational::from(0)); velocities];
+            direction.extend(gains);
             recording.derive(&jet.phase.lift(&direction), &variables.terms, over);
             recording.derive(jet.along_field(), &variables.terms, over);
         })
