@@ -23,6 +23,9 @@ pub enum FlowError {
     /// The section has other variables than this system.
     #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
     NoAndoyer,
+    /// A motion of a system that is not fixed.
+    #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
+    Arbitrary,
     /// A point that is not on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
@@ -32,7 +35,7 @@ pub enum FlowError {
         z: f64,
     },
     /// The energy does not reach the potential.
-    #[error("over (l, L/G) = ({l}, {z}) the potential is {potential}, at or above the energy")]
+    #[error("over (l, L/G) = ({l}, {z}) the potential is {potential:.6}, at or above the energy {energy}")]
     BelowPotential {
         /// l
         l: f64,
@@ -40,6 +43,8 @@ pub enum FlowError {
         z: f64,
         /// U there.
         potential: f64,
+        /// The energy.
+        energy: f64,
     },
     /// The motion does not come back to the section.
     #[error("the section is not met again after {crossings} crossings, up to t = {time:.4e}")]
@@ -77,6 +82,16 @@ pub enum FlowError {
         /// How many crossings.
         period: usize,
     },
+    /// A point without separatrices.
+    #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
+    NotHyperbolic {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// What it is.
+        kind: &'static str,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -93,6 +108,7 @@ impl FlowError {
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { .. } => "choose another start, or a shorter time",
             FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::Arbitrary => "give a shape and a potential by formulas",
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => "choose another start, or another g0",
@@ -103,6 +119,9 @@ impl FlowError {
             }
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
+            FlowError::NotHyperbolic { .. } => {
+                "`liouville periodic` tells what kind a point is; start near a hyperbolic one"
+            }
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

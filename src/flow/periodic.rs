@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::andoyer::{Chart, applies, coordinates, section_functions};
+use super::andoyer::{Chart, applies, coordinates, rate, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
 use super::motion::program;
@@ -36,9 +36,10 @@ pub struct PeriodicPoint {
     pub time: f64,
     /// How far from itself it comes back.
     pub residual: f64,
-    /// The trace and the determinant of the derivative of the map there.
-    pub trace: f64,
-    /// The product of the multipliers: 1 where an area is kept, and for symmetric points.
+    /// The derivative of the map there, row by row.
+    pub derivative: [[f64; 2]; 2],
+    /// Its determinant, the product of the multipliers: 1 where an area is kept, and for symmetric
+    /// points.
     pub determinant: f64,
 }
 
@@ -59,13 +60,25 @@ pub enum Multipliers {
 impl PeriodicPoint {
     /// The roots of λ² - trace λ + determinant.
     pub fn multipliers(&self) -> Multipliers {
-        let (half, square) = (self.trace / 2.0, self.trace * self.trace / 4.0 - self.determinant);
+        let [[a, _], [_, d]] = self.derivative;
+        let half = (a + d) / 2.0;
+        let square = half * half - self.determinant;
         if square < 0.0 {
             let modulus = self.determinant.sqrt();
             return Multipliers::Complex { modulus, argument: libm::acos(half / modulus) };
         }
         let larger = half + square.sqrt().copysign(half);
         Multipliers::Real(larger, self.determinant / larger)
+    }
+
+    /// The unit vector that the derivative multiplies by a real multiplier.
+    pub fn direction(&self, multiplier: f64) -> [f64; 2] {
+        let [[a, b], [c, d]] = self.derivative;
+        // Across a row of the derivative less the multiplier: the longer one is the safer.
+        let (first, second) = ([b, multiplier - a], [multiplier - d, c]);
+        let length = |[x, y]: [f64; 2]| libm::hypot(x, y);
+        let vector = if length(first) >= length(second) { first } else { second };
+        vector.map(|x| x / length(vector))
     }
 
     /// What kind of point it is.
@@ -84,8 +97,24 @@ impl PeriodicPoint {
     }
 }
 
+/// A point of a motion on the section.
+#[derive(Clone, Debug)]
+pub(super) struct End {
+    pub state: Vec<Pair>,
+    /// g'
+    pub rate: f64,
+}
+
+/// A motion from the section back to it.
+pub(super) struct Passage {
+    pub departure: End,
+    pub arrival: End,
+    pub time: f64,
+}
+
 /// The map from the section g = g₀ to itself, crossings in both directions.
 pub struct SectionMap<'c> {
+    g0: Angle,
     chart: Chart<'c>,
     program: Program,
 }
@@ -104,12 +133,20 @@ impl<'c> SectionMap<'c> {
         let parameters = fixed_parameters(case, seed, 0)?;
         let program =
             program(&case.model, &parameters, |phase| section_functions(phase, g0).to_vec())?;
-        Ok(Self { chart: Chart::new(&case.model, &parameters, g0, energy)?, program })
+        let g0 = g0.clone();
+        Ok(Self { chart: Chart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
     }
 
     /// Where a point is after some crossings, and when.
     pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
+        let ends = self.passage(at, crossings)?;
+        Ok((coordinates(&ends.arrival.state), ends.time))
+    }
+
+    /// How a motion leaves the section, and how it comes back after some crossings.
+    pub(super) fn passage(&self, at: [f64; 2], crossings: usize) -> Result<Passage, FlowError> {
         let start = self.chart.start(at)?;
+        let mut departure = None;
         let mut stepper = Stepper::<f64>::new(&self.program, Accuracy::FLOAT);
         stepper.start(0, &start.state, Pair::from_f64(NEVER));
         let (mut sides, mut met) = (Sides::default(), 0);
@@ -117,15 +154,22 @@ impl<'c> SectionMap<'c> {
             stepper.expand();
             stepper.check(0)?;
             let piece = stepper.piece(0);
-            for event in sides.events(&piece.output(0), piece.length()) {
+            let (across, along) = (piece.output(0), piece.output(1));
+            let end = |after: f64| {
+                let state = piece.state(after);
+                End { rate: rate(&self.g0, &state, value(&across, after).1), state }
+            };
+            let departure = departure.get_or_insert_with(|| end(0.0));
+            for event in sides.events(&across, piece.length()) {
                 let Event::Crossing { after, .. } = event else { continue };
-                if value(&piece.output(1), after).0.leading() <= 0.0 {
+                if value(&along, after).0.leading() <= 0.0 {
                     continue;
                 }
                 met += 1;
                 if met == crossings {
                     let time = piece.begin().hi + after;
-                    return Ok((coordinates(&piece.state(after)), time));
+                    let departure = departure.clone();
+                    return Ok(Passage { departure, arrival: end(after), time });
                 }
             }
             stepper.advance();
@@ -139,8 +183,14 @@ impl<'c> SectionMap<'c> {
         Ok(([short(image[0] - at[0]), image[1] - at[1]], time))
     }
 
-    /// The derivative of Φⁿ: central differences at two distances, extrapolated.
-    fn derivative(&self, at: [f64; 2], period: usize) -> Result<[[f64; 2]; 2], FlowError> {
+    /// The derivative of Φⁿ, row by row: central differences at two distances, extrapolated. `scale`
+    /// shrinks both.
+    pub(super) fn derivative(
+        &self,
+        at: [f64; 2],
+        period: usize,
+        scale: f64,
+    ) -> Result<[[f64; 2]; 2], FlowError> {
         let difference = |column: usize, distance: f64| {
             let moved = |sign: f64| {
                 let mut point = at;
@@ -154,13 +204,16 @@ impl<'c> SectionMap<'c> {
                 (ahead[1] - behind[1]) / across,
             ])
         };
-        let mut columns = [[0.0; 2]; 2];
-        for (column, entries) in columns.iter_mut().enumerate() {
-            let (wide, narrow) =
-                (difference(column, DISTANCE)?, difference(column, DISTANCE / 2.0)?);
-            *entries = [0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0);
+        let distance = DISTANCE * scale;
+        let mut derivative = [[0.0; 2]; 2];
+        for column in 0..2 {
+            let wide = difference(column, distance)?;
+            let narrow = difference(column, distance / 2.0)?;
+            for row in 0..2 {
+                derivative[row][column] = (4.0 * narrow[row] - wide[row]) / 3.0;
+            }
         }
-        Ok(columns)
+        Ok(derivative)
     }
 
     /// The periodic point near `near`.
@@ -170,11 +223,12 @@ impl<'c> SectionMap<'c> {
         for _ in 0..MAX_STEPS {
             let ([dl, dz], time) = self.defect(at, period)?;
             let residual = libm::hypot(dl, dz);
-            let [[a, c], [b, d]] = self.derivative(at, period)?;
+            let derivative = self.derivative(at, period, 1.0)?;
+            let [[a, b], [c, d]] = derivative;
             if residual <= RESIDUAL || (residual >= best && residual < 1e3 * RESIDUAL) {
-                let (trace, determinant) = (a + d, a * d - b * c);
+                let determinant = a * d - b * c;
                 let at = [(at[0] + 2.0 * PI) % (2.0 * PI), at[1]];
-                return Ok(PeriodicPoint { at, period, time, residual, trace, determinant });
+                return Ok(PeriodicPoint { at, period, time, residual, derivative, determinant });
             }
             best = best.min(residual);
             // (Φ' - E) step = -defect
