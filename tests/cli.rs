@@ -570,6 +570,8 @@ fn sections_that_cannot_be_drawn_say_why() {
     };
     let case = figure("fig-8");
     fails(&["section", &case, "--energy", "10"], "at or above the energy");
+    let down = ["section", &figure("fig-3"), "--direction", "down", "--start", "1,0.3"];
+    fails(&down, "1001 times in the direction that does not count");
     fails(&["section", &case, "--start", "1,1.5"], "has to be below 1");
     fails(&["section", &case, "--g0", "tomorrow"], "is no angle");
     fails(
@@ -616,7 +618,8 @@ fn sections_tell_classes_and_draw_separatrices() {
     let folder = folder("separatrices", &[]);
     let picture = folder.join("saddle.svg");
     let out = picture.to_str().expect("UTF-8");
-    let arguments = ["--orbits", "4", "--crossings", "5", "--classes=300", "--separatrices", "3.1,0.02"];
+    let arguments =
+        ["--orbits", "4", "--crossings", "5", "--classes=300", "--separatrices", "3.1,0.02"];
     liouville(&[&["section", &figure("fig-3"), "--out", out], &arguments[..]].concat())
         .assert()
         .success()

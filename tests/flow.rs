@@ -4,8 +4,8 @@ use differential_equations::prelude::*;
 use liouville::case::{Case, Setting};
 use liouville::flow::{
     Axis, Character, Contact, Coordinate, FlowError, Launch, Multipliers, Orbit, PlaneRequest,
-    Precision, Role, SectionMap, SectionOrbit, SectionRequest, Start, Variational, area_forms, orbit,
-    plane, section, section_starts, separatrices, spread, values_at_starts,
+    Precision, Role, SectionMap, SectionOrbit, SectionRequest, Start, Variational, area_forms,
+    orbit, plane, section, section_starts, separatrices, spread, values_at_starts,
 };
 use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
@@ -388,7 +388,8 @@ fn a_chart_of_parameters_has_the_motions_of_its_points() {
         let (c3, a_g) = ([0.25, 0.75][k % 2], [10.0, 22.0][k / 2]);
         let set = |name: &str, value: String| Setting { name: name.to_string(), value };
         let settings = [set("c", format!("[1,1.5,{c3}]")), set("a_g", a_g.to_string())];
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/figures/fig-8.toml");
+        let path =
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/figures/fig-8.toml");
         let case = Case::read(&path, &settings).1.expect("a case");
         let start = section_starts(&case, &g0, &energy, &[[3.4, 0.4]], 1).expect("a chart");
         match start.into_iter().next().expect("one") {

@@ -12,7 +12,7 @@ use liouville::report::chart::ChartReport;
 use liouville::verdict;
 
 use super::motion::{
-    Drawing, Ink, Plane, Subject, Threads, drawing, numbers_with_pi, parse_start, progress,
+    Drawing, Ink, Plane, Subject, Threads, drawing, number_with_pi, parse_start, progress,
 };
 use super::{Answer, write};
 
@@ -117,7 +117,7 @@ fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, 
     let form = "write NAME=a..b, such as a_g=0..14 or l=0..2pi";
     let (name, range) = text.split_once('=').ok_or_else(|| wrong("there is no `=`", form))?;
     let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`", form))?;
-    let read = |part: &str| numbers_with_pi(part).ok_or_else(|| wrong("is no range", form));
+    let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range", form));
     let (from, to): (Rational, Rational) = (read(from)?, read(to)?);
     if from == to {
         return Err(wrong("the range is empty", form));
@@ -181,19 +181,24 @@ fn launch(case: &Case, options: &Chart, axes: &[Axis; 2]) -> Result<Launch, Stri
     if options.state.is_none() && (on_section || plan.is_some()) {
         let (g0, energy) = options.plane.of(case)?;
         let planned = plan.and_then(|plan| plan.starts.first().copied());
-        let both = axes.iter().filter(|axis| {
-            matches!(axis.coordinate, Coordinate::L | Coordinate::Z)
-        });
+        let both =
+            axes.iter().filter(|axis| matches!(axis.coordinate, Coordinate::L | Coordinate::Z));
         let at = match options.start.or(planned) {
             Some(at) => at,
             None if both.count() == 2 => [0.0, 0.0],
-            None => return Err("error: where the motions start is not known\nhelp: give --start l,L/G".to_string()),
+            None => {
+                return Err(
+                    "error: where the motions start is not known\nhelp: give --start l,L/G"
+                        .to_string(),
+                );
+            }
         };
         return Ok(Launch::Section { g0, energy, at });
     }
     if options.state.is_some() && axes.iter().any(is_start) {
         return Err("error: --state says where the motions start, and an axis too\n\
-                    help: leave one of them out".to_string());
+                    help: leave one of them out"
+            .to_string());
     }
     match &options.state {
         None => Ok(Launch::State(None)),

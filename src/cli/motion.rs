@@ -94,12 +94,11 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// A number as it is typed, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
-pub fn numbers_with_pi(text: &str) -> Option<Rational> {
-    let plain: String = text.split_whitespace().collect::<String>().replace("pi", "π");
-    let Some((before, behind)) = plain.replace('*', "").split_once('π').map(|(a, b)| (a.to_string(), b.to_string())) else {
-        return plain.parse().ok();
-    };
-    let factor: Rational = match before.as_str() {
+pub fn number_with_pi(text: &str) -> Option<Rational> {
+    let plain: String = text.split_whitespace().collect();
+    let plain = plain.replace("pi", "π").replace('*', "");
+    let Some((before, behind)) = plain.split_once('π') else { return plain.parse().ok() };
+    let factor: Rational = match before {
         "" => Rational::from(1),
         "-" | "−" => Rational::from(-1),
         number => number.parse().ok()?,

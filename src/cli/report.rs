@@ -75,7 +75,8 @@ fn readable(case: &Case, found: &Survey, format: ReportFormat, options: &Report)
         ReportFormat::Latex => written::latex(found),
         ReportFormat::Html => {
             let sampling = &options.sampling;
-            let motion = flow::portrait(case, sampling.seed, Threads { threads: sampling.threads }.count());
+            let motion =
+                flow::portrait(case, sampling.seed, Threads { threads: sampling.threads }.count());
             written::html(found, motion.as_ref())
         }
     }

@@ -108,7 +108,8 @@ pub fn run(options: &Section) -> Result<Answer, String> {
         draw_separatrices(&mut drawn, &curves.map_err(told)?);
         let bytes = match drawing {
             Drawing::Svg => picture::svg(&drawn).into_bytes(),
-            Drawing::Png => picture::png(&drawn, options.ink.paper()).map_err(|error| format!("error: {error}"))?,
+            Drawing::Png => picture::png(&drawn, options.ink.paper())
+                .map_err(|error| format!("error: {error}"))?,
         };
         write(path, "--out", bytes)?;
     }
@@ -130,7 +131,13 @@ pub fn run(options: &Section) -> Result<Answer, String> {
     };
     // Nothing at all to draw is a failure; single orbits may fail.
     let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
-    match orbits.iter().find_map(|orbit| orbit.problem.as_ref()) {
+    // Of many potentials above the energy the lowest tells how much is missing.
+    let missing = |problem: &&FlowError| match problem {
+        FlowError::BelowPotential { potential, .. } => *potential,
+        _ => f64::NEG_INFINITY,
+    };
+    let problems = orbits.iter().filter_map(|orbit| orbit.problem.as_ref());
+    match problems.min_by(|a, b| missing(a).total_cmp(&missing(b))) {
         Some(problem) if empty => Err(subject.told(problem)),
         _ => Ok(Answer { text, code: 0 }),
     }

@@ -120,7 +120,12 @@ impl Sphere {
     }
 
     /// The state over (l, L/G), on the level set up to the rounding of pairs.
-    pub fn state(&self, at: [f64; 2], energy: Pair, loose: &[Pair]) -> Result<Vec<Pair>, FlowError> {
+    pub fn state(
+        &self,
+        at: [f64; 2],
+        energy: Pair,
+        loose: &[Pair],
+    ) -> Result<Vec<Pair>, FlowError> {
         let [l, z] = at;
         if !l.is_finite() || z.abs() >= 1.0 || z.is_nan() {
             return Err(FlowError::OffSphere { l, z });

@@ -19,6 +19,8 @@ use crate::number::pair::{Pair, Pairs};
 const POINTS: usize = 12;
 /// Errors of the derivative by which a factor has to differ from 1.
 const ERRORS: f64 = 10.0;
+/// Distances of the differences, in parts of the widest.
+const SCALES: [f64; 4] = [1.0, 0.25, 0.0625, 0.015625];
 /// Rounding of differences, where their error is estimated as less.
 const ROUNDING: f64 = 1e-9;
 
@@ -100,11 +102,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
 }
 
 /// The factors of the area forms over one return, with their errors.
-fn factors(
-    map: &SectionMap<'_>,
-    tape: &Tape,
-    at: [f64; 2],
-) -> Result<Vec<(f64, f64)>, FlowError> {
+fn factors(map: &SectionMap<'_>, tape: &Tape, at: [f64; 2]) -> Result<Vec<(f64, f64)>, FlowError> {
     let passage = map.passage(at, 1)?;
     let weights = |end: &End| {
         let mut evaluator = Evaluator::new(tape, Pairs);
@@ -116,9 +114,15 @@ fn factors(
         let [[a, b], [c, d]] = map.derivative(at, 1, scale)?;
         Ok::<_, FlowError>((a * d - b * c).abs())
     };
-    // The better one has the distances at which truncation and rounding are about equal.
-    let (coarse, fine) = (determinant(1.0)?, determinant(0.5)?);
+    // Truncation shrinks with the distance and rounding grows: two that agree best are right.
+    let tried = SCALES.iter().map(|scale| determinant(*scale)).collect::<Result<Vec<_>, _>>()?;
+    let apart = |pair: &[f64]| (pair[0] / pair[1] - 1.0).abs();
+    let best = tried.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(&[1.0, 1.0]);
+    let (fine, relative) = (best[1], apart(best).max(ROUNDING));
     let (before, after) = (weights(&passage.departure), weights(&passage.arrival));
-    let relative = (coarse / fine - 1.0).abs().max(ROUNDING);
-    Ok(before.into_iter().zip(after).map(|(x, y)| (fine * y / x, relative * fine * y / x)).collect())
+    Ok(before
+        .into_iter()
+        .zip(after)
+        .map(|(x, y)| (fine * y / x, relative * fine * y / x))
+        .collect())
 }

@@ -174,7 +174,7 @@ impl<'c> SectionMap<'c> {
             }
             stepper.advance();
         }
-        Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met })
+        Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met, others: 0 })
     }
 
     /// Φⁿ(x) - x, the angle taken the short way.

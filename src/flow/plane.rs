@@ -132,9 +132,7 @@ impl Free {
         let mut drawn = drawn.as_slice();
         let mut model = case.model.clone();
         let varies = |wanted: usize| {
-            let is_it = |axis: &Axis| {
-                matches!(axis.coordinate, Coordinate::Parameter { index, .. } if index == wanted)
-            };
+            let is_it = |axis: &Axis| matches!(axis.coordinate, Coordinate::Parameter { index, .. } if index == wanted);
             request.axes.iter().any(is_it)
         };
         let (mut parameters, mut places) = (Vec::new(), Vec::new());
@@ -170,10 +168,10 @@ fn open(kind: Type) -> Recipe {
 /// Makes the starts.
 struct Launcher<'r> {
     axes: &'r [Axis; 2],
-    from: From,
+    source: Source,
 }
 
-enum From {
+enum Source {
     Sphere { sphere: Sphere, at: [f64; 2], energy: Pair },
     State(Vec<Pair>),
 }
@@ -186,17 +184,17 @@ impl<'r> Launcher<'r> {
         parameters: &[Rational],
         loose: &[Loose],
     ) -> Result<Self, FlowError> {
-        let from = match &request.launch {
-            Launch::Section { g0, energy, at } => From::Sphere {
+        let source = match &request.launch {
+            Launch::Section { g0, energy, at } => Source::Sphere {
                 sphere: Sphere::new(model, parameters, loose, g0)?,
                 at: *at,
                 energy: Pair::from_rational(energy),
             },
             Launch::State(state) => {
-                From::State(Start::new(case, state.as_deref(), request.seed, 0)?.state)
+                Source::State(Start::new(case, state.as_deref(), request.seed, 0)?.state)
             }
         };
-        Ok(Self { axes: &request.axes, from })
+        Ok(Self { axes: &request.axes, source })
     }
 
     /// The start at a point of the plane.
@@ -207,8 +205,8 @@ impl<'r> Launcher<'r> {
             .filter(|(axis, _)| is_loose(axis))
             .map(|(axis, index)| Pair::from_rational(&axis.place(index)))
             .collect();
-        let state = match &self.from {
-            From::Sphere { sphere, at, energy } => {
+        let state = match &self.source {
+            Source::Sphere { sphere, at, energy } => {
                 let (mut at, mut energy) = (*at, *energy);
                 for (axis, index) in axes() {
                     let value = Pair::from_rational(&axis.value(index));
@@ -221,7 +219,7 @@ impl<'r> Launcher<'r> {
                 }
                 sphere.state(at, energy, &loose)?
             }
-            From::State(state) => {
+            Source::State(state) => {
                 let mut state = state.clone();
                 level.correct(&mut state, &loose)?;
                 state

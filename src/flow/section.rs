@@ -19,6 +19,8 @@ use crate::number::rational::Rational;
 
 /// A section that is not met in so many steps is not met again.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// So many crossings in the other direction alone, and there is none in the one that counts.
+const MAX_OTHERS: usize = 1000;
 /// Far later than any crossing.
 const NEVER: f64 = 1e15;
 
@@ -168,7 +170,8 @@ struct Running {
     sides: Sides,
     /// Crossings in the direction that counts, those left out included.
     counted: usize,
-    last_met: u64,
+    /// Steps and crossings in the other direction at the last one that counts.
+    last_met: (u64, usize),
 }
 
 impl<'w, T: Number<One = f64>> Worker<'w, T> {
@@ -223,7 +226,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
                     let until = if self.request.backwards { -NEVER } else { NEVER };
                     self.stepper.start(lane, &start.state, Pair::from_f64(until));
                     let sides = Sides::default();
-                    let running = Running { index, orbit, sides, counted: 0, last_met: 0 };
+                    let running = Running { index, orbit, sides, counted: 0, last_met: (0, 0) };
                     self.running[lane] = Some(running);
                     return;
                 }
@@ -251,11 +254,11 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
                 return true;
             }
         }
-        if steps - running.last_met > MAX_STEPS_BETWEEN || self.stepper.is_done(lane) {
-            running.orbit.problem = Some(FlowError::NeverCrossed {
-                time: self.stepper.time(lane).hi,
-                crossings: running.counted,
-            });
+        let others = running.orbit.others - running.last_met.1;
+        let is_lost = steps - running.last_met.0 > MAX_STEPS_BETWEEN || others > MAX_OTHERS;
+        if is_lost || self.stepper.is_done(lane) {
+            let (time, crossings) = (self.stepper.time(lane).hi, running.counted);
+            running.orbit.problem = Some(FlowError::NeverCrossed { time, crossings, others });
             return true;
         }
         false
@@ -295,12 +298,12 @@ impl Running {
             Direction::Up => rising,
             Direction::Down => !rising,
         };
-        self.last_met = steps;
         if !counts {
             self.orbit.others += 1;
             return false;
         }
         self.counted += 1;
+        self.last_met = (steps, self.orbit.others);
         if self.counted > request.skip {
             let at = coordinates(&piece.state(after));
             self.orbit.crossings.push(Crossing { at, time: piece.begin().hi + after, rising });

@@ -45,11 +45,7 @@ pub(super) struct Shadowed {
 
 impl Shadowed {
     /// The equations of a model with these parameters, some of them loose.
-    pub fn new(
-        model: &Model,
-        parameters: &[Rational],
-        loose: &[Loose],
-    ) -> Result<Self, FlowError> {
+    pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
         let program = extended_program(model, parameters, loose.len(), |phase, more| {
             let phase = Phase::new(model, &filled(parameters, loose, more), &phase.state());
             let mut rates = phase.field().to_vec();

@@ -8,8 +8,8 @@ use super::number::Number;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Tape, record};
-use crate::mechanics::{Model, Phase};
 use crate::mechanics::calculus::{Jet, rejection};
+use crate::mechanics::{Model, Phase};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::verdict::Sampler;
@@ -81,11 +81,7 @@ pub(super) struct Level {
 
 impl Level {
     /// Those of a model with these parameters, some of them loose.
-    pub fn new(
-        model: &Model,
-        parameters: &[Rational],
-        loose: &[Loose],
-    ) -> Result<Self, FlowError> {
+    pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
         let kept = Place::level(model).kept;
         let (graph, outputs) = record(model.dimension() + loose.len(), |inputs| {
             let (state, more) = inputs.split_at(model.dimension());
@@ -147,8 +143,7 @@ impl Level {
             outputs[self.equations..].chunks(state.len()).map(<[f64]>::to_vec).collect();
         // Irrational directions: multiples of the golden ratio, and of √2.
         let ratio = if index == 0 { 0.618_033_988_75 } else { std::f64::consts::SQRT_2 };
-        let any: Vec<f64> =
-            (1..=state.len()).map(|k| (k as f64 * ratio).fract() - 0.37).collect();
+        let any: Vec<f64> = (1..=state.len()).map(|k| (k as f64 * ratio).fract() - 0.37).collect();
         let along = rejection(&any, &gradients);
         let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
         along.into_iter().map(|x| x / length).collect()

@@ -115,9 +115,8 @@ impl<T: Number> Stepper<T> {
     pub fn keep_pace(&mut self, together: usize) {
         for group in self.lanes.chunks_mut(together) {
             let steps = group.iter().map(|lane| lane.step);
-            let shortest = steps.reduce(|a, b| {
-                if a.leading().abs() <= b.leading().abs() { a } else { b }
-            });
+            let shortest =
+                steps.reduce(|a, b| if a.leading().abs() <= b.leading().abs() { a } else { b });
             if let Some(step) = shortest {
                 group.iter_mut().for_each(|lane| lane.step = step);
             }

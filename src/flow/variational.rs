@@ -13,8 +13,8 @@ use super::program::Program;
 use super::start::{Level, Start};
 use super::stepper::{Accuracy, Stepper};
 use super::swarm::{Abreast, LANES, Queue, swarm};
-use crate::mechanics::calculus::Jet;
 use crate::mechanics::Model;
+use crate::mechanics::calculus::Jet;
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 

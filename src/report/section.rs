@@ -148,7 +148,9 @@ pub fn picture(
     let layers = orbits.iter().zip(shades);
     Picture {
         title: title.to_string(),
-        layers: layers.map(|(orbit, shade)| Layer { tint: Tint::Shade(shade), dots: dots(orbit) }).collect(),
+        layers: layers
+            .map(|(orbit, shade)| Layer { tint: Tint::Shade(shade), dots: dots(orbit) })
+            .collect(),
         overlay: Vec::new(),
         marks: Vec::new(),
         width,

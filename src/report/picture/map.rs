@@ -124,7 +124,8 @@ impl Map {
         canvas.axes(&frame);
         for (x, y, index) in self.legend(&frame) {
             let (x, y) = (x as i64, y as i64);
-            for (dx, dy) in (0..SQUARE as i64).flat_map(|a| (0..SQUARE as i64).map(move |b| (a, b))) {
+            for (dx, dy) in (0..SQUARE as i64).flat_map(|a| (0..SQUARE as i64).map(move |b| (a, b)))
+            {
                 canvas.set(x + dx, y + dy, FIRST + index as u8);
             }
             let top = y + (SQUARE as i64 - SIZE.1) / 2 + 1;

@@ -137,9 +137,21 @@ impl Canvas {
 /// Greek letters that have no dots, by their names.
 fn spelled(text: &str) -> String {
     let names = [
-        ("α", "alpha"), ("β", "beta"), ("γ", "gamma"), ("ε", "eps"), ("θ", "theta"), ("κ", "kappa"),
-        ("λ", "lambda"), ("μ", "mu"), ("ν", "nu"), ("ρ", "rho"), ("σ", "sigma"), ("φ", "phi"),
-        ("ψ", "psi"), ("ω", "omega"), ("Ω", "Omega"),
+        ("α", "alpha"),
+        ("β", "beta"),
+        ("γ", "gamma"),
+        ("ε", "eps"),
+        ("θ", "theta"),
+        ("κ", "kappa"),
+        ("λ", "lambda"),
+        ("μ", "mu"),
+        ("ν", "nu"),
+        ("ρ", "rho"),
+        ("σ", "sigma"),
+        ("φ", "phi"),
+        ("ψ", "psi"),
+        ("ω", "omega"),
+        ("Ω", "Omega"),
     ];
     names.iter().fold(text.to_string(), |text, (letter, name)| text.replace(letter, name))
 }

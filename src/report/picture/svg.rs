@@ -66,7 +66,10 @@ fn drawn(out: &mut String, picture: &Picture, frame: &Frame) {
     path(out, frame, &picture.overlay, "class=\"over\" stroke=\"currentColor\"");
     for mark in &picture.marks {
         let (x, y) = (frame.x(mark.l), frame.y(mark.z));
-        let _ = writeln!(out, "<circle class=\"mark\" fill=\"none\" stroke=\"currentColor\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>");
+        let _ = writeln!(
+            out,
+            "<circle class=\"mark\" fill=\"none\" stroke=\"currentColor\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>"
+        );
     }
 }
 

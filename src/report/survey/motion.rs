@@ -29,17 +29,17 @@ fn blocks(portrait: &Portrait) -> Vec<Block> {
         request.energy,
         orbits.len()
     );
-    let mut found =
-        vec![Block::Picture(Picture { svg: drawn::inline_svg(&picture), caption })];
+    let mut found = vec![Block::Picture(Picture { svg: drawn::inline_svg(&picture), caption })];
     if portrait.is_drawn {
-        let words = "Free parameters have the values of the first draw; others give other pictures.";
+        let words =
+            "Free parameters have the values of the first draw; others give other pictures.";
         found.push(Block::Text(words.to_string()));
     }
     let worst = orbits.iter().map(|orbit| orbit.drift).fold(0.0, f64::max);
     let lost = orbits.iter().filter(|orbit| orbit.problem.is_some()).count();
     let mut words = format!(
         "A picture is no proof. The energy drifts by {worst:.1e} at most. Curves are the work of an \
-         integral or of slow motion, clouds are chaos; `liouville section` and `exponents` tell more."
+         integral or of slow motion, clouds are chaos; the commands section and exponents tell more."
     );
     if lost > 0 {
         words.push_str(&format!(" {lost} orbits have no start or end early."));
