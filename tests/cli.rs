@@ -625,7 +625,7 @@ fn sections_tell_classes_and_draw_separatrices() {
         .success()
         .stdout(contains("class: regular (4 regular)"))
         .stdout(contains("kept; over one return"));
-    let drawn = fs::read_to_string(picture).expect("a picture");
+    let drawn = fs::read_to_string(&picture).expect("a picture");
     assert!(drawn.contains("class=\"mark\""), "the saddle is marked");
     liouville(&["section", &figure("fig-3"), "--out", out, "--separatrices", "1.5,0.02"])
         .assert()
