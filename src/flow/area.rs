@@ -14,6 +14,8 @@ use crate::case::{Case, Expect};
 use crate::claim::Kind;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::number::pair::{Pair, Pairs};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 /// At how many starts it is looked at.
 const POINTS: usize = 12;
@@ -60,7 +62,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
         let at = point(&case.model, &parameters, state);
         let (omega, gamma) = state.split_at(3);
         let square = omega.iter().map(|x| *x * *x).sum::<Expr>();
-        let rest: Vec<_> = omega.iter().map(|x| *x - *x).chain(gamma.iter().copied()).collect();
+        let rest = [[Expr::rational(&Rational::from(0)); 3].as_slice(), gamma].concat();
         let resting = point(&case.model, &parameters, &rest);
         let system = &case.model.system;
         let kinetic = system

@@ -205,15 +205,13 @@ impl<'c> SectionMap<'c> {
             ])
         };
         let distance = DISTANCE * scale;
-        let mut derivative = [[0.0; 2]; 2];
-        for column in 0..2 {
+        let column = |column: usize| {
             let wide = difference(column, distance)?;
             let narrow = difference(column, distance / 2.0)?;
-            for row in 0..2 {
-                derivative[row][column] = (4.0 * narrow[row] - wide[row]) / 3.0;
-            }
-        }
-        Ok(derivative)
+            Ok::<_, FlowError>([0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0))
+        };
+        let ([a, c], [b, d]) = (column(0)?, column(1)?);
+        Ok([[a, b], [c, d]])
     }
 
     /// The periodic point near `near`.

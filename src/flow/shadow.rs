@@ -15,12 +15,13 @@ use super::program::Program;
 use super::start::Level;
 use super::stepper::{Accuracy, Stepper};
 use super::swarm::{LANES, Queue, swarm};
-use crate::graph::{Evaluator, Tape, record};
+use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Model, Phase};
 use crate::number::float::Float;
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 /// A motion and its shadow.
 const COUPLE: usize = 2;
@@ -49,7 +50,7 @@ impl Shadowed {
         let program = extended_program(model, parameters, loose.len(), |phase, more| {
             let phase = Phase::new(model, &filled(parameters, loose, more), &phase.state());
             let mut rates = phase.field().to_vec();
-            rates.extend(more.iter().map(|x| *x - *x));
+            rates.extend(more.iter().map(|_| Expr::rational(&Rational::from(0))));
             (rates, Vec::new())
         })?;
         let (graph, divergence) = record(model.dimension() + loose.len(), |inputs| {

@@ -77,7 +77,7 @@ impl Map {
                     let run = cells[column..].iter().take_while(|cell| **cell == index).count();
                     if run > 0 {
                         let (x, length) = (frame.left + wide * column as f64, wide * run as f64);
-                        let _ = write!(path, "M{x:.1} {y:.1}h{length:.1}v{high:.2}h-{length:.1}z");
+                        let _ = write!(path, "M{x:.2} {y:.2}h{length:.2}v{high:.2}h-{length:.2}z");
                     }
                     column += run.max(1);
                 }
