@@ -10,6 +10,7 @@ fn main() -> ExitCode {
     let arguments = cli::Arguments::parse();
     let answer = match arguments.command {
         cli::Command::Bench(options) => cli::bench::run(&options),
+        cli::Command::Chart(options) => cli::chart::run(&options),
         cli::Command::Check(options) => cli::check::run(&options),
         cli::Command::Eval(options) => cli::eval::run(&options),
         cli::Command::Exponents(options) => cli::exponents::run(&options),

@@ -1,10 +1,11 @@
 //! Motions: drift of integrals, reversal in time, known solutions, an independent integrator.
 
 use differential_equations::prelude::*;
-use liouville::case::Case;
+use liouville::case::{Case, Setting};
 use liouville::flow::{
-    Character, Contact, FlowError, Multipliers, Orbit, Precision, Role, SectionMap, SectionOrbit,
-    SectionRequest, Start, Variational, orbit, section, section_starts, spread, values_at_starts,
+    Axis, Character, Contact, Coordinate, FlowError, Launch, Multipliers, Orbit, PlaneRequest,
+    Precision, Role, SectionMap, SectionOrbit, SectionRequest, Start, Variational, area_forms,
+    orbit, plane, section, section_starts, separatrices, spread, values_at_starts,
 };
 use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
@@ -316,6 +317,132 @@ fn exponents_tell_regular_motion_from_chaos() {
     let back = exponents("figures/fig-14.toml", [1.26685, 0.42875], -1500.0);
     let back = back.expect("no singularity").largest;
     assert!((back.mean - 0.104).abs() < 3.0 * (back.error + 0.006), "a measure is kept: {back:?}");
+}
+
+#[test]
+fn vectors_align_in_chaos_and_stay_apart_on_tori() {
+    let class = |file: &str, at: [f64; 2], time: f64| {
+        let case = catalogue(file);
+        let plan = case.section.as_ref().expect("a [section]");
+        let starts = section_starts(&case, &plan.g0, &plan.energy, &[at], 1).expect("a chart");
+        let parameters = starts[0].as_ref().expect("a state").parameters.clone();
+        let motion = Variational::all(&case.model, &parameters, &starts).expect("a program");
+        let both = [time, -time].map(|time| motion.exponents(time).expect("no singularity"));
+        (both[0].class(&both[1]), both[0].alignment.expect("two vectors"))
+    };
+    let (regular, apart) = class("figures/fig-3.toml", [1.0, 0.3], 600.0);
+    assert_eq!(regular, Character::Regular, "a torus");
+    assert!(apart.index > 1e-3 && apart.since.is_none(), "like 1/t: {apart:?}");
+    let (chaos, aligned) = class("figures/fig-14.toml", [1.26685, 0.42875], 600.0);
+    assert_eq!(chaos, Character::ConservativeChaos, "a measure is kept");
+    assert!(aligned.index < 1e-8 && aligned.since.is_some(), "one direction is left: {aligned:?}");
+}
+
+/// A plane of starts in figure 14, and one of parameters.
+fn axis(coordinate: Coordinate, from: f64, to: f64, count: usize) -> Axis {
+    let read = |value| Rational::from_f64(value).expect("finite");
+    Axis { coordinate, from: read(from), to: read(to), count }
+}
+
+#[test]
+fn a_chart_agrees_with_the_exact_exponents_and_does_not_depend_on_threads() {
+    let case = catalogue("figures/fig-14.toml");
+    let plan = case.section.as_ref().expect("a [section]");
+    let (g0, energy) = (plan.g0.clone(), plan.energy.clone());
+    let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [0.0, 0.0] };
+    let axes = [axis(Coordinate::L, 0.2, 5.0, 3), axis(Coordinate::Z, -0.8, 1.2, 3)];
+    let request = PlaneRequest { axes, launch, time: 400.0, seed: 1 };
+    let found = plane(&case, &request, 1, &|| ()).expect("a plane");
+    let again = plane(&case, &request, 3, &|| ()).expect("a plane");
+    assert_eq!(found, again, "bit for bit");
+    let points: Vec<[f64; 2]> = (0..9)
+        .map(|k| [(k % 3, 0), (k / 3, 1)].map(|(k, i)| request.axes[i].value(k).to_f64().0))
+        .collect();
+    let starts = section_starts(&case, &g0, &energy, &points, 1).expect("a chart");
+    for (found, start) in found.iter().zip(starts) {
+        let Ok(start) = start else { panic!("all of them have a state") };
+        let exact = Variational::new(&case.model, &start).and_then(|one| one.exponents(400.0));
+        let (found, exact) = (found.as_ref().expect("a motion"), exact.expect("a motion"));
+        let (a, b) = (found.largest, exact.largest);
+        // Chaotic motions part from each other by rounding, and regular ones agree closely.
+        let bound = if exact.character == Character::Regular { 0.002 } else { 0.1 };
+        assert!((a.mean - b.mean).abs() < bound, "{a:?} and {b:?}");
+    }
+}
+
+#[test]
+fn a_chart_of_parameters_has_the_motions_of_its_points() {
+    let case = catalogue("figures/fig-8.toml");
+    let index = |name: &str| case.model.parameters.iter().position(|one| one.name == name);
+    let parameter = |name: &str, component| Coordinate::Parameter {
+        index: index(name).expect("a parameter"),
+        component,
+    };
+    let plan = case.section.as_ref().expect("a [section]");
+    let (g0, energy) = (plan.g0.clone(), plan.energy.clone());
+    let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [3.4, 0.4] };
+    let axes = [axis(parameter("c", 2), 0.0, 1.0, 2), axis(parameter("a_g", 0), 4.0, 28.0, 2)];
+    let request = PlaneRequest { axes, launch, time: 20.0, seed: 1 };
+    let found = plane(&case, &request, 2, &|| ()).expect("a plane");
+    for (k, found) in found.iter().enumerate() {
+        let (c3, a_g) = ([0.25, 0.75][k % 2], [10.0, 22.0][k / 2]);
+        let set = |name: &str, value: String| Setting { name: name.to_string(), value };
+        let settings = [set("c", format!("[1,1.5,{c3}]")), set("a_g", a_g.to_string())];
+        let path =
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/figures/fig-8.toml");
+        let case = Case::read(&path, &settings).1.expect("a case");
+        let start = section_starts(&case, &g0, &energy, &[[3.4, 0.4]], 1).expect("a chart");
+        match start.into_iter().next().expect("one") {
+            Err(problem) => assert_eq!(found.as_ref().err(), Some(&problem), "no state there"),
+            Ok(start) => {
+                let exact = Variational::new(&case.model, &start);
+                let exact = exact.and_then(|one| one.exponents(20.0)).expect("a motion");
+                let found = found.as_ref().expect("a motion");
+                let apart = (found.largest.mean - exact.largest.mean).abs();
+                assert!(apart < 1e-4, "{k}: {found:?} and {exact:?}");
+                let apart = (found.divergence.mean - exact.divergence.mean).abs();
+                assert!(apart < 1e-5, "{k}: {found:?} and {exact:?}");
+            }
+        }
+    }
+    assert!(found[2].is_err() || found[3].is_err(), "22·m·|c| is above the energy somewhere");
+}
+
+#[test]
+fn the_area_form_of_a_true_density_is_kept_and_that_of_a_wrong_one_is_not() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/figures/fig-14.toml");
+    let text = std::fs::read_to_string(path).expect("a case");
+    let wrong = format!("{text}\n[[claim]]\nname = \"wrong\"\ndensity = \"1 + γ1²\"\n");
+    let case = parse(&wrong);
+    let request = request(&case, &spread(6), 1);
+    let areas = area_forms(&case, &request).expect("a section");
+    let (last, true_ones) = areas.split_last().expect("two at least");
+    assert!(!true_ones.is_empty(), "the claim of the case");
+    for area in true_ones {
+        assert!(area.points == 6 && area.broken.is_none() && area.deviation < 1e-6, "{area:?}");
+    }
+    assert!(last.broken.is_some() && last.deviation > 1e-2, "{last:?}");
+}
+
+#[test]
+fn separatrices_of_an_integrable_case_are_level_lines_through_the_saddle() {
+    let case = catalogue("figures/fig-3.toml");
+    let request = request(&case, &[[3.1, 0.02]], 1);
+    let found = separatrices(&case, &request, [3.1, 0.02], 1, 2).expect("a saddle");
+    assert_eq!(found.point.kind(), "hyperbolic");
+    let crossings = found.unstable.iter().chain(&found.stable).flat_map(|orbit| &orbit.crossings);
+    let mut starts = vec![found.point.at];
+    starts.extend(crossings.map(|crossing| crossing.at).step_by(97));
+    assert!(starts.len() > 100, "the curves have many points: {}", starts.len());
+    let far = starts.iter().filter(|at| (at[0] - found.point.at[0]).abs() > 1.0).count();
+    assert!(far > 10, "they leave the saddle: {far}");
+    let values = values_at_starts(&case, &SectionRequest { starts, ..request.clone() }, "F2");
+    let values = values.expect("a claim of the case");
+    for value in &values {
+        assert!((value / values[0] - 1.0).abs() < 1e-7, "F2 of the saddle: {value}");
+    }
+    let elliptic = separatrices(&case, &request, [1.5, 0.02], 1, 2);
+    assert!(matches!(elliptic, Err(FlowError::NotHyperbolic { .. })), "(π/2, 0) has none");
 }
 
 /// The Euler top with I33 = 1/ε and its limits, in the example of the catalogue's limit theorem.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use assert_cmd::Command;
 use liouville::case::Case;
+use liouville::flow::portrait;
 use liouville::report::survey as written;
 use liouville::survey::{Class, Integrals, Measure, Survey, survey};
 use liouville::verdict::Options;
@@ -227,11 +228,15 @@ fn every_format_is_sound_and_the_same_each_time() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{path}.toml"));
         let text = std::fs::read_to_string(&file).expect("a case of the catalogue");
         let (first, again) = (surveyed(&text), surveyed(&text));
-        let page = written::html(&first);
+        let case = Case::parse(&text, &[]).expect("a case");
+        let motion = |threads| portrait(&case, 1, threads);
+        let page = written::html(&first, motion(1).as_ref());
         assert_well_formed(&page);
         assert!(!page.contains("<script") && !page.contains(" src="), "nothing from outside");
         assert!(page.contains("<math") && page.contains("<svg"), "formulas and pictures");
-        assert_eq!(page, written::html(&again), "the page of {path}");
+        assert_eq!(page, written::html(&again, motion(3).as_ref()), "the page of {path}");
+        let has_section = page.contains("Poincaré section g = ");
+        assert_eq!(has_section, path.contains("-ball"), "a section, or why there is none: {path}");
         let json = written::json(&first).expect("JSON");
         assert_eq!(json, written::json(&again).expect("JSON"), "the JSON of {path}");
         let latex = written::latex(&first);

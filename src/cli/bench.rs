@@ -37,7 +37,7 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
     if let Some(path) = &options.svg
         && !run.measured.is_empty()
     {
-        super::write(path, "--svg", &diagram::svg(&run.measured))?;
+        super::write(path, "--svg", diagram::svg(&run.measured))?;
     }
     let text = if options.json {
         bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"

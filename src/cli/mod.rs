@@ -1,10 +1,12 @@
 //! Commands and their options.
 
 pub mod bench;
+pub mod chart;
 pub mod check;
 pub mod eval;
 pub mod exponents;
 mod files;
+mod motion;
 pub mod orbit;
 pub mod periodic;
 pub mod report;
@@ -44,6 +46,8 @@ pub enum Command {
     Section(section::Section),
     /// Measure the largest Lyapunov exponent and the mean divergence along motions
     Exponents(exponents::Exponents),
+    /// Draw a plane of motions, such as two parameters, each point coloured by its class
+    Chart(chart::Chart),
     /// Find fixed and periodic points of a section, with their multipliers
     Periodic(periodic::Periodic),
     /// Print a hierarchy table of the paper, filled from verdicts
@@ -301,8 +305,8 @@ pub struct Stress {
 }
 
 /// Writes a file that the user asked for by an option.
-pub fn write(path: &Path, option: &str, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|error| {
+pub fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    std::fs::write(path, bytes).map_err(|error| {
         format!(
             "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
             path.display()

@@ -1,7 +1,5 @@
 //! `liouville orbit`
 
-use std::path::PathBuf;
-
 use clap::{Args, ValueEnum};
 use liouville::flow::{self, FlowError, Precision, Start};
 use liouville::number::pair::Pair;
@@ -10,13 +8,12 @@ use liouville::report::orbit;
 use liouville::verdict;
 
 use super::Answer;
-use super::eval::open;
-use super::files::plain;
+use super::motion::Subject;
 
 #[derive(Debug, Args)]
 pub struct Orbit {
-    /// A case file
-    pub case: PathBuf,
+    #[command(flatten)]
+    pub subject: Subject,
     /// How long to follow the motion; negative: backwards
     #[arg(long, default_value = "100", allow_hyphen_values = true)]
     pub time: Rational,
@@ -27,18 +24,9 @@ pub struct Orbit {
     /// The arithmetic: 16 or 32 digits
     #[arg(long, value_enum, default_value_t = Digits::Float)]
     pub precision: Digits,
-    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
     /// The number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
-    /// Seed of the draws
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
 }
 
 /// The arithmetic of a motion.
@@ -60,19 +48,20 @@ impl Digits {
 }
 
 pub fn run(options: &Orbit) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
+    let subject = &options.subject;
+    let case = subject.open()?;
     let state = match &options.state {
         None => None,
         Some(text) => Some(
             verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
         ),
     };
-    let told = |error: FlowError| told(&options.case, &error);
-    let start = Start::new(&case, state.as_deref(), options.seed, options.index).map_err(told)?;
+    let told = |error: FlowError| subject.told(&error);
+    let start = Start::new(&case, state.as_deref(), subject.seed, options.index).map_err(told)?;
     let precision = options.precision.precision();
     let time = Pair::from_rational(&options.time);
     let found = flow::orbit(&case, start, time, precision).map_err(told)?;
-    let text = match options.json {
+    let text = match subject.json {
         true => {
             let json = orbit::json(&case, &found, precision);
             json.map_err(|error| format!("error: {error}"))? + "\n"
@@ -80,9 +69,4 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
         false => orbit::text(&case, &found, precision),
     };
     Ok(Answer { text, code: 0 })
-}
-
-/// A problem of a motion, with the file it belongs to.
-pub(super) fn told(path: &std::path::Path, error: &FlowError) -> String {
-    plain(path, &error.to_string(), error.help()).rendered
 }

@@ -1,60 +1,37 @@
 //! `liouville periodic`
 
-use std::path::PathBuf;
-
 use clap::Args;
-use liouville::case::Angle;
-use liouville::flow::{Multipliers, PeriodicPoint, SectionMap};
-use liouville::number::rational::Rational;
+use liouville::flow::{FlowError, Multipliers, PeriodicPoint, SectionMap};
 use serde_json::json;
 
 use super::Answer;
-use super::eval::open;
-use super::orbit::told;
+use super::motion::{Plane, Subject, parse_start};
 
 #[derive(Debug, Args)]
 pub struct Periodic {
-    /// A case file with a [section]
-    pub case: PathBuf,
+    #[command(flatten)]
+    pub subject: Subject,
+    #[command(flatten)]
+    pub plane: Plane,
     /// A point l,L/G near the one that is looked for; may be repeated
-    #[arg(long, value_name = "L,Z", value_parser = super::section::parse_start,
+    #[arg(long, value_name = "L,Z", value_parser = parse_start,
           allow_hyphen_values = true, required = true)]
     pub start: Vec<[f64; 2]>,
     /// After how many crossings it comes back
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub period: u32,
-    /// The energy
-    #[arg(long)]
-    pub energy: Option<Rational>,
-    /// The angle of the section: 0, pi/2, pi, 3pi/2, or radians
-    #[arg(long)]
-    pub g0: Option<Angle>,
-    /// Give a parameter a value: --set a_g=1.4; others are drawn
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    /// Seed of parameters that are drawn
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
 }
 
 pub fn run(options: &Periodic) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
-    let plan = case.section.as_ref();
-    let missing = |key: &str| format!("error: the case has no [section]\nhelp: give --{key}");
-    let g0 = options.g0.clone().or(plan.map(|plan| plan.g0.clone()));
-    let energy = options.energy.clone().or(plan.map(|plan| plan.energy.clone()));
-    let told = |error| told(&options.case, &error);
-    let g0 = g0.ok_or_else(|| missing("g0"))?;
-    let energy = energy.ok_or_else(|| missing("energy"))?;
-    let map = SectionMap::new(&case, &g0, &energy, options.seed).map_err(told)?;
+    let case = options.subject.open()?;
+    let told = |error: FlowError| options.subject.told(&error);
+    let (g0, energy) = options.plane.of(&case)?;
+    let map = SectionMap::new(&case, &g0, &energy, options.subject.seed).map_err(told)?;
     let mut found = Vec::new();
     for near in &options.start {
         found.push(map.periodic(*near, options.period as usize).map_err(told)?);
     }
-    let text = match options.json {
+    let text = match options.subject.json {
         true => {
             let points: Vec<_> = found.iter().map(entry).collect();
             let root = json!({ "title": case.title, "points": points });

@@ -3,10 +3,13 @@
 use std::io::IsTerminal;
 
 use indicatif::ProgressBar;
+use liouville::case::Case;
+use liouville::flow;
 use liouville::report::{diagnostic, survey as written};
 use liouville::survey::{self, Survey};
 
 use super::eval::open;
+use super::motion::Threads;
 use super::{Answer, Report, ReportFormat, colour, width};
 
 pub fn run(options: &Report) -> Result<Answer, String> {
@@ -28,7 +31,7 @@ pub fn run(options: &Report) -> Result<Answer, String> {
     })?;
     let text = match form(options) {
         Form::Json => written::json(&found).map_err(|error| format!("error: {error}"))? + "\n",
-        Form::Readable(format) => readable(&found, format, options),
+        Form::Readable(format) => readable(&case, &found, format, options),
     };
     match &options.out {
         None => Ok(Answer { text, code: 0 }),
@@ -59,7 +62,7 @@ fn form(options: &Report) -> Form {
     }
 }
 
-fn readable(found: &Survey, format: ReportFormat, options: &Report) -> String {
+fn readable(case: &Case, found: &Survey, format: ReportFormat, options: &Report) -> String {
     match format {
         ReportFormat::Text => {
             let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
@@ -70,6 +73,11 @@ fn readable(found: &Survey, format: ReportFormat, options: &Report) -> String {
         }
         ReportFormat::Markdown => written::markdown(found),
         ReportFormat::Latex => written::latex(found),
-        ReportFormat::Html => written::html(found),
+        ReportFormat::Html => {
+            let sampling = &options.sampling;
+            let motion =
+                flow::portrait(case, sampling.seed, Threads { threads: sampling.threads }.count());
+            written::html(found, motion.as_ref())
+        }
     }
 }

@@ -1,20 +1,15 @@
 //! `liouville section`
 
-use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville::case::{Angle, Case, Direction, Line};
+use liouville::case::{Case, Direction, Line};
 use liouville::flow::{self, FlowError, SectionOrbit, SectionRequest};
-use liouville::number::rational::Rational;
-use liouville::report::picture;
-use liouville::report::section::{SectionReport, draw_lines, picture};
+use liouville::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
+use liouville::report::{exponents, picture};
 
-use super::Answer;
-use super::eval::open;
-use super::orbit::told;
+use super::motion::{Drawing, Ink, Plane, Subject, Threads, drawing, parse_start, progress};
+use super::{Answer, write};
 
 /// Orbits and crossings where neither the case nor the command line says how many.
 const ORBITS: usize = 40;
@@ -25,8 +20,10 @@ const IMAGES: usize = 10;
 
 #[derive(Debug, Args)]
 pub struct Section {
-    /// A case file of a rolling body; its [section] gives the defaults
-    pub case: PathBuf,
+    #[command(flatten)]
+    pub subject: Subject,
+    #[command(flatten)]
+    pub plane: Plane,
     /// How many orbits to start, spread over the sphere
     #[arg(long)]
     pub orbits: Option<usize>,
@@ -39,12 +36,6 @@ pub struct Section {
     /// A start l,L/G in place of those of the case; may be repeated
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
     pub start: Vec<[f64; 2]>,
-    /// The energy
-    #[arg(long)]
-    pub energy: Option<Rational>,
-    /// The angle of the section: 0, pi/2, pi, 3pi/2, or radians
-    #[arg(long)]
-    pub g0: Option<Angle>,
     /// Which crossings to draw: up (g grows), down, both
     #[arg(long)]
     pub direction: Option<Direction>,
@@ -60,68 +51,117 @@ pub struct Section {
     /// How many images of the lines, forwards and backwards
     #[arg(long)]
     pub images: Option<usize>,
+    /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
+    /// may be repeated
+    #[arg(long, value_name = "L,Z[,N]", value_parser = parse_point, allow_hyphen_values = true)]
+    pub separatrices: Vec<([f64; 2], usize)>,
+    /// Tell the class of each orbit, from its exponents over this time and back: --classes, --classes=5000
+    #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000")]
+    pub classes: Option<f64>,
     /// Draw to this file, .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// The width of the picture in pixels
-    #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
-    pub width: u32,
-    /// Give a parameter a value: --set a_g=1.4; others are drawn
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    /// Seed of parameters that are drawn
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// How many threads to use; all cores by default. Results do not depend on it
-    #[arg(long)]
-    pub threads: Option<usize>,
-    /// Print all points as JSON
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub ink: Ink,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
-pub(super) fn parse_start(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
-    let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
-    pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
+/// A point of a section, and its period.
+fn parse_point(text: &str) -> Result<([f64; 2], usize), String> {
+    match text.match_indices(',').nth(1) {
+        None => Ok((parse_start(text)?, 1)),
+        Some((comma, _)) => {
+            let period = text[comma + 1..].trim().parse().ok().filter(|n| (1..=1000).contains(n));
+            let period = period.ok_or("the period is a number from 1 to 1000".to_string())?;
+            Ok((parse_start(&text[..comma])?, period))
+        }
+    }
 }
 
 pub fn run(options: &Section) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
+    let subject = &options.subject;
+    let case = subject.open()?;
+    let told = |error: FlowError| subject.told(&error);
     let request = request(&case, options)?;
-    let bar = progress(request.starts.len() as u64);
-    let threads = options
-        .threads
-        .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
-    let orbits = flow::section(&case, &request, threads, &|| bar.inc(1))
-        .map_err(|error| told(&options.case, &error))?;
+    let out = match &options.out {
+        Some(path) => Some((path, drawing(path)?)),
+        None => None,
+    };
+    let bar = progress(request.starts.len() as u64, "orbits");
+    let threads = options.threads.count();
+    let orbits = flow::section(&case, &request, threads, &|| bar.inc(1)).map_err(told)?;
     bar.finish_and_clear();
     let colour =
         options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
     let shades = match &colour {
         None => None,
-        Some(name) => Some(
-            flow::values_at_starts(&case, &request, name)
-                .map_err(|error| told(&options.case, &error))?,
-        ),
+        Some(name) => Some(flow::values_at_starts(&case, &request, name).map_err(told)?),
     };
-    if let Some(path) = &options.out {
-        let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.width);
-        let images = images(&case, &request, options, threads);
-        draw_lines(&mut drawn, &images.map_err(|error| told(&options.case, &error))?);
-        write(path, &drawn)?;
+    if let Some((path, drawing)) = out {
+        let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.ink.width);
+        draw_lines(&mut drawn, &images(&case, &request, options, threads).map_err(told)?);
+        let near = options.separatrices.iter();
+        let curves: Result<Vec<_>, FlowError> = near
+            .map(|(near, period)| flow::separatrices(&case, &request, *near, *period, threads))
+            .collect();
+        draw_separatrices(&mut drawn, &curves.map_err(told)?);
+        let bytes = match drawing {
+            Drawing::Svg => picture::svg(&drawn).into_bytes(),
+            Drawing::Png => picture::png(&drawn, options.ink.paper())
+                .map_err(|error| format!("error: {error}"))?,
+        };
+        write(path, "--out", bytes)?;
     }
-    let report = SectionReport { case: &case, request: &request, orbits: &orbits };
-    let text = match options.json {
+    let areas = flow::area_forms(&case, &request).map_err(told)?;
+    let classes = match options.classes {
+        None => None,
+        Some(time) => Some(classes(&case, &request, time, threads).map_err(told)?),
+    };
+    let report = SectionReport {
+        case: &case,
+        request: &request,
+        orbits: &orbits,
+        areas: &areas,
+        classes: classes.as_deref(),
+    };
+    let text = match subject.json {
         true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
         false => report.text(),
     };
     // Nothing at all to draw is a failure; single orbits may fail.
     let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
-    match orbits.iter().find_map(|orbit| orbit.problem.as_ref()) {
-        Some(problem) if empty => Err(told(&options.case, problem)),
+    // Of many potentials above the energy the lowest tells how much is missing.
+    let missing = |problem: &&FlowError| match problem {
+        FlowError::BelowPotential { potential, .. } => *potential,
+        _ => f64::NEG_INFINITY,
+    };
+    let problems = orbits.iter().filter_map(|orbit| orbit.problem.as_ref());
+    match problems.min_by(|a, b| missing(a).total_cmp(&missing(b))) {
+        Some(problem) if empty => Err(subject.told(problem)),
         _ => Ok(Answer { text, code: 0 }),
     }
+}
+
+/// The orbits with their exponents, followed in both directions of time.
+fn classes(
+    case: &Case,
+    request: &SectionRequest,
+    time: f64,
+    threads: usize,
+) -> Result<Vec<exponents::Row>, FlowError> {
+    let starts =
+        flow::section_starts(case, &request.g0, &request.energy, &request.starts, request.seed)?;
+    let parameters = starts.iter().flatten().next().map(|start| start.parameters.clone());
+    let parameters = parameters.unwrap_or_default();
+    let motions = flow::Variational::all(&case.model, &parameters, &starts)?;
+    let time = if request.backwards { -time } else { time };
+    let bar = progress(2 * starts.len() as u64, "motions");
+    let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
+    let (forward, backward) = (follow(time), follow(-time));
+    bar.finish_and_clear();
+    let names = request.starts.iter().map(|[l, z]| format!("({l}, {z})")).collect();
+    Ok(exponents::rows(names, forward, Some(backward)))
 }
 
 /// The images of the lines that are asked for, forwards and backwards.
@@ -154,14 +194,7 @@ fn images(
 /// What the command line asks for, and the case where it does not say.
 fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
     let plan = case.section.as_ref();
-    let missing = |what: &str, key: &str| {
-        format!(
-            "error: the case has no [section], so that its {what} is not known\n\
-             help: give --{key}, or add a [section] to the case: docs/writing-a-case.md"
-        )
-    };
-    let g0 = options.g0.clone().or(plan.map(|plan| plan.g0.clone()));
-    let energy = options.energy.clone().or(plan.map(|plan| plan.energy.clone()));
+    let (g0, energy) = options.plane.of(case)?;
     let spread = match (options.orbits, plan) {
         (Some(count), _) => count,
         (None, _) if !options.start.is_empty() => 0,
@@ -176,48 +209,14 @@ fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
     };
     starts.extend(flow::spread(spread));
     Ok(SectionRequest {
-        g0: g0.ok_or_else(|| missing("angle", "g0"))?,
-        energy: energy.ok_or_else(|| missing("energy", "energy"))?,
+        g0,
+        energy,
         direction: options.direction.or(plan.map(|plan| plan.direction)).unwrap_or_default(),
         crossings: options.crossings.or(plan.and_then(|plan| plan.crossings)).unwrap_or(CROSSINGS),
         skip: options.skip.or(plan.map(|plan| plan.skip)).unwrap_or(0),
         starts,
         backwards: options.backwards || plan.is_some_and(|plan| plan.backwards),
-        seed: options.seed,
+        seed: options.subject.seed,
         index: 0,
-    })
-}
-
-/// A bar on a terminal, and nothing elsewhere.
-fn progress(orbits: u64) -> ProgressBar {
-    let target = match std::io::stderr().is_terminal() {
-        true => ProgressDrawTarget::stderr(),
-        false => ProgressDrawTarget::hidden(),
-    };
-    let bar = ProgressBar::with_draw_target(Some(orbits), target);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} orbits, {eta} left") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
-}
-
-fn write(path: &Path, drawn: &picture::Picture) -> Result<(), String> {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    let bytes = match extension {
-        Some("svg") => picture::svg(drawn).into_bytes(),
-        Some("png") => picture::png(drawn).map_err(|error| format!("error: {error}"))?,
-        _ => {
-            return Err(format!(
-                "error: {} is neither .svg nor .png\nhelp: the ending says how to draw",
-                path.display()
-            ));
-        }
-    };
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give --out a file in a folder that exists",
-            path.display()
-        )
     })
 }

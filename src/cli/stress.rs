@@ -20,7 +20,7 @@ pub fn run(options: &Stress) -> Result<Answer, String> {
     let seconds = started.elapsed().as_secs_f64();
     let report = StressReport { seed: options.seed, scenarios, verdicts, seconds };
     if let Some(path) = &options.svg {
-        super::write(path, "--svg", &report.heat_map())?;
+        super::write(path, "--svg", report.heat_map())?;
     }
     let text = match options.json {
         true => report.json().map_err(|error| format!("error: {error}"))? + "\n",

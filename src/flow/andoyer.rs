@@ -12,7 +12,7 @@
 use num_dual::DualNum;
 
 use super::error::FlowError;
-use super::motion::point;
+use super::motion::{Loose, filled};
 use super::start::Start;
 use crate::case::Angle;
 use crate::graph::{Evaluator, Expr, Tape, record};
@@ -57,6 +57,17 @@ pub fn section_functions(phase: &Phase<'_, Expr>, g0: &Angle) -> [Expr; 2] {
     [cos * across + sin * along, sin * across - cos * along]
 }
 
+/// g' on the section, from the rate of the section function.
+pub fn rate(g0: &Angle, state: &[Pair], slope: f64) -> f64 {
+    let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
+    let s = libm::hypot(x, y);
+    match g0 {
+        // The function is s/|ω| sin(g - g₀).
+        Angle::QuarterTurns(n) if n % 2 == 1 => slope * libm::hypot(s, z) / s,
+        _ => slope / s,
+    }
+}
+
 /// (l, L/G) of a state, l in [0, 2π).
 pub fn coordinates(state: &[Pair]) -> [f64; 2] {
     let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
@@ -75,12 +86,83 @@ pub fn displacement(from: &[Pair], to: &[Pair]) -> [f64; 2] {
     [libm::atan2(turned.hi, along.hi), (to[2] * b - from[2] * a).hi]
 }
 
+/// States of the section, by l, L/G, the energy, and parameters that are loose.
+pub(super) struct Sphere {
+    tape: Tape,
+}
+
+impl Sphere {
+    /// The states of a model with g = g₀.
+    pub fn new(
+        model: &Model,
+        parameters: &[Rational],
+        loose: &[Loose],
+        g0: &Angle,
+    ) -> Result<Self, FlowError> {
+        if !applies(model) {
+            return Err(FlowError::NoAndoyer);
+        }
+        let (graph, outputs) = record(3 + loose.len(), |inputs| {
+            let (l, z, energy) = (inputs[0], inputs[1], inputs[2]);
+            let parameters = filled(parameters, loose, &inputs[3..]);
+            let (cos, sin) = circular(g0);
+            let s = (Expr::rational(&Rational::from(1)) - z * z).sqrt();
+            let direction = [s * l.sin(), s * l.cos(), z];
+            let gamma =
+                [z * cos * l.sin() + sin * l.cos(), z * cos * l.cos() - sin * l.sin(), -(s * cos)];
+            let energy_at = |omega: [Expr; 3]| {
+                let state = [omega, gamma].concat();
+                model.system.energy(&Phase::new(model, &parameters, &state))
+            };
+            let zero = Expr::rational(&Rational::from(0));
+            let potential = energy_at([zero; 3]).unwrap_or(zero);
+            let kinetic = energy_at(direction).unwrap_or(zero) - potential;
+            // E = G² T(e) + U
+            let square = (energy - potential) / kinetic;
+            let length = square.sqrt();
+            let mut outputs = vec![square, potential];
+            outputs.extend(direction.map(|x| x * length));
+            outputs.extend(gamma);
+            outputs
+        })?;
+        Ok(Self { tape: Tape::new(&graph, &outputs) })
+    }
+
+    /// The state over (l, L/G), on the level set up to the rounding of pairs.
+    pub fn state(
+        &self,
+        at: [Pair; 2],
+        energy: Pair,
+        loose: &[Pair],
+    ) -> Result<Vec<Pair>, FlowError> {
+        let [l, z] = at.map(|x| x.hi);
+        if !l.is_finite() || z.abs() >= 1.0 || z.is_nan() {
+            return Err(FlowError::OffSphere { l, z });
+        }
+        let mut inputs = vec![at[0], at[1], energy];
+        inputs.extend(loose);
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        evaluator.run(&inputs);
+        let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+        if outputs[0].hi.is_nan() || outputs[0].hi <= 0.0 {
+            return Err(FlowError::BelowPotential {
+                l,
+                z,
+                potential: outputs[1].hi,
+                energy: energy.hi,
+            });
+        }
+        Ok(outputs[2..].to_vec())
+    }
+}
+
 /// States of the section at an energy.
 pub struct Chart<'m> {
     /// The model whose states they are.
     pub model: &'m Model,
     parameters: Vec<Rational>,
-    tape: Tape,
+    sphere: Sphere,
+    energy: Pair,
 }
 
 impl<'m> Chart<'m> {
@@ -91,30 +173,9 @@ impl<'m> Chart<'m> {
         g0: &Angle,
         energy: &Rational,
     ) -> Result<Self, FlowError> {
-        let (graph, outputs) = record(2, |inputs| {
-            let (l, z) = (inputs[0], inputs[1]);
-            let (cos, sin) = circular(g0);
-            let s = (Expr::rational(&Rational::from(1)) - z * z).sqrt();
-            let direction = [s * l.sin(), s * l.cos(), z];
-            let gamma =
-                [z * cos * l.sin() + sin * l.cos(), z * cos * l.cos() - sin * l.sin(), -(s * cos)];
-            let energy_at = |omega: [Expr; 3]| {
-                let state = [omega, gamma].concat();
-                model.system.energy(&point(model, parameters, &state))
-            };
-            let zero = Expr::rational(&Rational::from(0));
-            let potential = energy_at([zero; 3]).unwrap_or(zero);
-            let kinetic = energy_at(direction).unwrap_or(zero) - potential;
-            // E = G² T(e) + U
-            let square = (Expr::rational(energy) - potential) / kinetic;
-            let length = square.sqrt();
-            let mut outputs = vec![square, potential];
-            outputs.extend(direction.map(|x| x * length));
-            outputs.extend(gamma);
-            outputs
-        })?;
-        let tape = Tape::new(&graph, &outputs);
-        Ok(Self { model, parameters: parameters.to_vec(), tape })
+        let sphere = Sphere::new(model, parameters, &[], g0)?;
+        let (parameters, energy) = (parameters.to_vec(), Pair::from_rational(energy));
+        Ok(Self { model, parameters, sphere, energy })
     }
 
     /// The state over (l, L/G).
@@ -124,17 +185,8 @@ impl<'m> Chart<'m> {
 
     /// The same for a point of more digits.
     pub fn start_at(&self, at: [Pair; 2]) -> Result<Start, FlowError> {
-        let [l, z] = at.map(|x| x.hi);
-        if !l.is_finite() || z.abs() >= 1.0 || z.is_nan() {
-            return Err(FlowError::OffSphere { l, z });
-        }
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
-        evaluator.run(&at);
-        let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
-        if outputs[0].hi.is_nan() || outputs[0].hi <= 0.0 {
-            return Err(FlowError::BelowPotential { l, z, potential: outputs[1].hi });
-        }
-        Start::near(self.model, self.parameters.clone(), outputs[2..].to_vec())
+        let state = self.sphere.state(at, self.energy, &[])?;
+        Start::near(self.model, self.parameters.clone(), state)
     }
 }
 

@@ -11,11 +11,11 @@
 
 use super::andoyer::displacement;
 use super::error::FlowError;
-use super::lyapunov::variational_program;
 use super::number::Number;
 use super::periodic::{Multipliers, PeriodicPoint, SectionMap, newton_step};
 use super::start::{Start, level_basis};
 use super::stepper::{Accuracy, Stepper};
+use super::variational::variational_program;
 use crate::number::pair::Pair;
 
 /// A number with an estimate of its error.
@@ -69,13 +69,13 @@ impl SectionMap<'_> {
     pub fn closed(&self, near: [f64; 2], period: usize) -> Result<ClosedOrbit, FlowError> {
         let found = self.periodic(near, period)?;
         let none = FlowError::NoPeriodicPoint { l: near[0], z: near[1], period };
-        let columns = self.derivative(found.at, period)?;
+        let derivative = self.derivative(found.at, period, 1.0)?;
         let mut at = found.at.map(Pair::from_f64);
         let mut best: Option<(PeriodicPoint, Start, Pair)> = None;
         loop {
             let start = self.chart.start_at(at)?;
-            let (state, time) = self.follow::<Pair>(&start, period, Accuracy::PAIR)?;
-            let defect = displacement(&start.state, &state);
+            let back = self.passage_from::<Pair>(&start, period, Accuracy::PAIR)?;
+            let (defect, time) = (displacement(&start.state, &back.arrival.state), back.time);
             let residual = libm::hypot(defect[0], defect[1]);
             // Steps with a derivative of eight digits gain eight digits, until rounding stops them.
             let last = best.as_ref().map_or(f64::INFINITY, |(point, ..)| point.residual);
@@ -87,7 +87,7 @@ impl SectionMap<'_> {
             if residual == 0.0 {
                 break;
             }
-            let step = newton_step(columns, defect);
+            let step = newton_step(derivative, defect);
             at = [0, 1].map(|k| at[k] + Pair::from_f64(step[k]));
         }
         let (mut pair, start, time) = best.ok_or(none)?;
@@ -101,9 +101,9 @@ impl SectionMap<'_> {
     /// How far f64 and double-double are apart after some crossings.
     pub fn blur(&self, at: [f64; 2], crossings: usize) -> Result<f64, FlowError> {
         let start = self.chart.start(at)?;
-        let (float, _) = self.follow::<f64>(&start, crossings, Accuracy::FLOAT)?;
-        let (pair, _) = self.follow::<Pair>(&start, crossings, Accuracy::PAIR)?;
-        let [dl, dz] = displacement(&pair, &float);
+        let float = self.passage_from::<f64>(&start, crossings, Accuracy::FLOAT)?.arrival;
+        let pair = self.passage_from::<Pair>(&start, crossings, Accuracy::PAIR)?.arrival;
+        let [dl, dz] = displacement(&pair.state, &float.state);
         Ok(libm::hypot(dl, dz))
     }
 

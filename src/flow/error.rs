@@ -13,7 +13,7 @@ pub enum FlowError {
     #[error("the field contains ∫, whose value is not determined")]
     Antiderivative,
     /// The steps become too small, or values are no longer finite.
-    #[error("the motion runs into a singularity at t = {time}, near the state {state:?}")]
+    #[error("{}", singular(*time, state))]
     Singular {
         /// When.
         time: f64,
@@ -26,6 +26,9 @@ pub enum FlowError {
     /// A section that the case does not have.
     #[error("the case has no [section]")]
     NoSection,
+    /// A motion of a system that is not fixed.
+    #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
+    Arbitrary,
     /// A point that is not on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
@@ -35,7 +38,9 @@ pub enum FlowError {
         z: f64,
     },
     /// The energy does not reach the potential.
-    #[error("over (l, L/G) = ({l}, {z}) the potential is {potential}, at or above the energy")]
+    #[error(
+        "over (l, L/G) = ({l:.6}, {z:.6}) the potential is {potential:.6}, at or above the energy {energy}"
+    )]
     BelowPotential {
         /// l
         l: f64,
@@ -43,14 +48,18 @@ pub enum FlowError {
         z: f64,
         /// U there.
         potential: f64,
+        /// The energy.
+        energy: f64,
     },
     /// The motion does not come back to the section.
-    #[error("the section is not met again after {crossings} crossings, up to t = {time:.4e}")]
+    #[error("{}", never_crossed(*time, *crossings, *others))]
     NeverCrossed {
         /// Until when.
         time: f64,
         /// How often it was met.
         crossings: usize,
+        /// How often it was crossed in the direction that does not count.
+        others: usize,
     },
     /// A claim that the case does not have, or that is about no formula.
     #[error("the case has no claim `{0}` about a formula")]
@@ -80,6 +89,16 @@ pub enum FlowError {
         /// How many crossings.
         period: usize,
     },
+    /// A point without separatrices.
+    #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
+    NotHyperbolic {
+        /// l
+        l: f64,
+        /// L/G
+        z: f64,
+        /// What it is.
+        kind: &'static str,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -88,18 +107,45 @@ pub enum FlowError {
     Recording(#[from] Fault),
 }
 
+fn singular(time: f64, state: &[f64]) -> String {
+    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
+    let state = state.join(", ");
+    match time == 0.0 {
+        true => format!("the equations of motion are singular at the start, the state [{state}]"),
+        false => {
+            format!("the motion runs into a singularity at t = {time}, near the state [{state}]")
+        }
+    }
+}
+
+fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
+    let others = match others {
+        0 => String::new(),
+        count => format!("; it is crossed {count} times in the direction that does not count"),
+    };
+    format!(
+        "the section is not met again after {crossings} crossings, up to t = {time:.4e}{others}"
+    )
+}
+
 impl FlowError {
     /// What to do about it.
     pub fn help(&self) -> &'static str {
         match self {
             FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
+            FlowError::Singular { time: 0.0, .. } => {
+                "choose another start; if all are singular, the parameters are"
+            }
             FlowError::Singular { .. } => "choose another start, or a shorter time",
             FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
             FlowError::NoSection => "add [section] with g0 and energy",
+            FlowError::Arbitrary => "give a shape and a potential by formulas",
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
-            FlowError::NeverCrossed { .. } => "choose another start, or another g0",
+            FlowError::NeverCrossed { .. } => {
+                "choose another start, another g0, or another direction"
+            }
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
             FlowError::OneSidedBackwards => "give a positive --time",
             FlowError::BehindConstraint { .. } => {
@@ -107,6 +153,9 @@ impl FlowError {
             }
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
+            FlowError::NotHyperbolic { .. } => {
+                "`liouville periodic` tells what kind a point is; start near a hyperbolic one"
+            }
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -9,6 +9,7 @@
 //! over double-double.
 
 mod andoyer;
+mod area;
 mod closed;
 mod code;
 mod compile;
@@ -23,20 +24,31 @@ mod number;
 mod one_sided;
 mod orbit;
 mod periodic;
+mod plane;
+mod portrait;
 mod program;
 mod section;
+mod separatrix;
 mod series;
+mod shadow;
 mod start;
 mod stepper;
+mod swarm;
+mod variational;
 
 pub use andoyer::spread;
+pub use area::{AreaForm, area_forms};
 pub use closed::{ClosedOrbit, Measured};
 pub use error::FlowError;
-pub use lyapunov::{Character, Estimate, Exponents, Variational};
+pub use lyapunov::{Alignment, Character, Estimate, Exponents};
 pub use one_sided::{Contact, ContactEvent};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
 pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
+pub use plane::{Axis, Coordinate, Launch, PlaneRequest, plane};
+pub use portrait::{Portrait, portrait};
 pub use section::{
     Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
 };
+pub use separatrix::{Separatrices, separatrices};
 pub use start::{Start, fixed_parameters};
+pub use variational::Variational;

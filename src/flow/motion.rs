@@ -14,8 +14,28 @@ pub(super) fn point<'m>(
     parameters: &[Rational],
     state: &[Expr],
 ) -> Phase<'m, Expr> {
-    let parameters: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
-    Phase::new(model, &parameters, state)
+    Phase::new(model, &filled(parameters, &[], &[]), state)
+}
+
+/// A component of the free parameters that differs from motion to motion: centre + half x, where x is
+/// between -1 and 1.
+#[derive(Clone, Debug)]
+pub(super) struct Loose {
+    /// Which component.
+    pub component: usize,
+    /// The middle of its range.
+    pub centre: Rational,
+    /// Half the length of its range.
+    pub half: Rational,
+}
+
+/// The parameters, those that are loose by their inputs x.
+pub(super) fn filled(parameters: &[Rational], loose: &[Loose], inputs: &[Expr]) -> Vec<Expr> {
+    let mut filled: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
+    for (one, x) in loose.iter().zip(inputs) {
+        filled[one.component] = Expr::rational(&one.centre) + Expr::rational(&one.half) * *x;
+    }
+    filled
 }
 
 /// The program of a case's field with these values of its free parameters, and of further

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::andoyer::{Chart, applies, coordinates, section_functions};
+use super::andoyer::{Chart, applies, coordinates, rate, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
 use super::motion::program;
@@ -36,9 +36,12 @@ pub struct PeriodicPoint {
     pub time: f64,
     /// How far from itself it comes back.
     pub residual: f64,
-    /// The trace and the determinant of the derivative of the map there.
+    /// The derivative of the map there, row by row.
+    pub derivative: [[f64; 2]; 2],
+    /// Its trace, the sum of the multipliers.
     pub trace: f64,
-    /// The product of the multipliers: 1 where an area is kept, and for symmetric points.
+    /// Its determinant, the product of the multipliers: 1 where an area is kept, and for symmetric
+    /// points.
     pub determinant: f64,
 }
 
@@ -59,13 +62,24 @@ pub enum Multipliers {
 impl PeriodicPoint {
     /// The roots of λ² - trace λ + determinant.
     pub fn multipliers(&self) -> Multipliers {
-        let (half, square) = (self.trace / 2.0, self.trace * self.trace / 4.0 - self.determinant);
+        let half = self.trace / 2.0;
+        let square = half * half - self.determinant;
         if square < 0.0 {
             let modulus = self.determinant.sqrt();
             return Multipliers::Complex { modulus, argument: libm::acos(half / modulus) };
         }
         let larger = half + square.sqrt().copysign(half);
         Multipliers::Real(larger, self.determinant / larger)
+    }
+
+    /// The unit vector that the derivative multiplies by a real multiplier.
+    pub fn direction(&self, multiplier: f64) -> [f64; 2] {
+        let [[a, b], [c, d]] = self.derivative;
+        // Across a row of the derivative less the multiplier: the longer one is the safer.
+        let (first, second) = ([b, multiplier - a], [multiplier - d, c]);
+        let length = |[x, y]: [f64; 2]| libm::hypot(x, y);
+        let vector = if length(first) >= length(second) { first } else { second };
+        vector.map(|x| x / length(vector))
     }
 
     /// What kind of point it is.
@@ -84,8 +98,24 @@ impl PeriodicPoint {
     }
 }
 
+/// A point of a motion on the section.
+#[derive(Clone, Debug)]
+pub(super) struct End {
+    pub state: Vec<Pair>,
+    /// g'
+    pub rate: f64,
+}
+
+/// A motion from the section back to it.
+pub(super) struct Passage {
+    pub departure: End,
+    pub arrival: End,
+    pub time: Pair,
+}
+
 /// The map from the section g = g₀ to itself, crossings in both directions.
 pub struct SectionMap<'c> {
+    g0: Angle,
     pub(super) chart: Chart<'c>,
     program: Program,
 }
@@ -104,23 +134,30 @@ impl<'c> SectionMap<'c> {
         let parameters = fixed_parameters(case, seed, 0)?;
         let program =
             program(&case.model, &parameters, |phase| section_functions(phase, g0).to_vec())?;
-        Ok(Self { chart: Chart::new(&case.model, &parameters, g0, energy)?, program })
+        let g0 = g0.clone();
+        Ok(Self { chart: Chart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
     }
 
     /// Where a point is after some crossings, and when.
     pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
-        let start = self.chart.start(at)?;
-        let (state, time) = self.follow::<f64>(&start, crossings, Accuracy::FLOAT)?;
-        Ok((coordinates(&state), time.hi))
+        let ends = self.passage(at, crossings)?;
+        Ok((coordinates(&ends.arrival.state), ends.time.hi))
     }
 
-    /// The state at a later crossing, and when that is.
-    pub(super) fn follow<T: Number<One = T>>(
+    /// How a motion leaves the section, and how it comes back after some crossings.
+    pub(super) fn passage(&self, at: [f64; 2], crossings: usize) -> Result<Passage, FlowError> {
+        let start = self.chart.start(at)?;
+        self.passage_from::<f64>(&start, crossings, Accuracy::FLOAT)
+    }
+
+    /// The same from a state, in any precision.
+    pub(super) fn passage_from<T: Number<One = T>>(
         &self,
         start: &Start,
         crossings: usize,
         accuracy: Accuracy,
-    ) -> Result<(Vec<Pair>, Pair), FlowError> {
+    ) -> Result<Passage, FlowError> {
+        let mut departure = None;
         let mut stepper = Stepper::<T>::new(&self.program, accuracy);
         stepper.start(0, &start.state, Pair::from_f64(NEVER));
         let (mut sides, mut met) = (Sides::default(), 0);
@@ -128,19 +165,27 @@ impl<'c> SectionMap<'c> {
             stepper.expand();
             stepper.check(0)?;
             let piece = stepper.piece(0);
-            for event in sides.events(&piece.output(0), piece.length()) {
+            let (across, along) = (piece.output(0), piece.output(1));
+            let end = |after: T| {
+                let state = piece.state(after);
+                End { rate: rate(&self.g0, &state, value(&across, after).1.leading()), state }
+            };
+            let departure = departure.get_or_insert_with(|| end(T::ZERO));
+            for event in sides.events(&across, piece.length()) {
                 let Event::Crossing { after, .. } = event else { continue };
-                if value(&piece.output(1), after).0.leading() <= 0.0 {
+                if value(&along, after).0.leading() <= 0.0 {
                     continue;
                 }
                 met += 1;
                 if met == crossings {
-                    return Ok((piece.state(after), piece.begin() + after.pair()));
+                    let time = piece.begin() + after.pair();
+                    let departure = departure.clone();
+                    return Ok(Passage { departure, arrival: end(after), time });
                 }
             }
             stepper.advance();
         }
-        Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met })
+        Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met, others: 0 })
     }
 
     /// Φⁿ(x) - x, the angle taken the short way.
@@ -149,11 +194,13 @@ impl<'c> SectionMap<'c> {
         Ok(([short(image[0] - at[0]), image[1] - at[1]], time))
     }
 
-    /// The derivative of Φⁿ: central differences at two distances, extrapolated.
+    /// The derivative of Φⁿ, row by row: central differences at two distances, extrapolated. `scale`
+    /// shrinks both.
     pub(super) fn derivative(
         &self,
         at: [f64; 2],
         period: usize,
+        scale: f64,
     ) -> Result<[[f64; 2]; 2], FlowError> {
         let difference = |column: usize, distance: f64| {
             let moved = |sign: f64| {
@@ -168,13 +215,14 @@ impl<'c> SectionMap<'c> {
                 (ahead[1] - behind[1]) / across,
             ])
         };
-        let mut columns = [[0.0; 2]; 2];
-        for (column, entries) in columns.iter_mut().enumerate() {
-            let (wide, narrow) =
-                (difference(column, DISTANCE)?, difference(column, DISTANCE / 2.0)?);
-            *entries = [0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0);
-        }
-        Ok(columns)
+        let distance = DISTANCE * scale;
+        let column = |column: usize| {
+            let wide = difference(column, distance)?;
+            let narrow = difference(column, distance / 2.0)?;
+            Ok::<_, FlowError>([0, 1].map(|row| (4.0 * narrow[row] - wide[row]) / 3.0))
+        };
+        let ([a, c], [b, d]) = (column(0)?, column(1)?);
+        Ok([[a, b], [c, d]])
     }
 
     /// The periodic point near `near`.
@@ -184,15 +232,23 @@ impl<'c> SectionMap<'c> {
         for _ in 0..MAX_STEPS {
             let ([dl, dz], time) = self.defect(at, period)?;
             let residual = libm::hypot(dl, dz);
-            let columns = self.derivative(at, period)?;
+            let derivative = self.derivative(at, period, 1.0)?;
             if residual <= RESIDUAL || (residual >= best && residual < 1e3 * RESIDUAL) {
-                let [[a, c], [b, d]] = columns;
+                let [[a, b], [c, d]] = derivative;
                 let (trace, determinant) = (a + d, a * d - b * c);
                 let at = [(at[0] + 2.0 * PI) % (2.0 * PI), at[1]];
-                return Ok(PeriodicPoint { at, period, time, residual, trace, determinant });
+                return Ok(PeriodicPoint {
+                    at,
+                    period,
+                    time,
+                    residual,
+                    derivative,
+                    trace,
+                    determinant,
+                });
             }
             best = best.min(residual);
-            let step = newton_step(columns, [dl, dz]);
+            let step = newton_step(derivative, [dl, dz]);
             at = [at[0] + step[0], at[1] + step[1]];
             if !step[0].is_finite() || step[0].abs() > PI || at[1].abs() >= 1.0 {
                 break;
@@ -202,8 +258,8 @@ impl<'c> SectionMap<'c> {
     }
 }
 
-/// (Φ' - E) step = -defect, Φ' by its columns.
-pub(super) fn newton_step([[a, c], [b, d]]: [[f64; 2]; 2], [dl, dz]: [f64; 2]) -> [f64; 2] {
+/// (Φ' - E) step = -defect, Φ' row by row.
+pub(super) fn newton_step([[a, b], [c, d]]: [[f64; 2]; 2], [dl, dz]: [f64; 2]) -> [f64; 2] {
     let (p, s) = (a - 1.0, d - 1.0);
     let determinant = p * s - b * c;
     [-(s * dl - b * dz) / determinant, -(p * dz - c * dl) / determinant]

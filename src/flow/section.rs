@@ -1,10 +1,6 @@
 //! Poincaré sections: many orbits, several side by side in lanes, on several threads.
 //!
-//! An orbit that has all its crossings gives its lane to the next one. Lanes do not know of each
-//! other, so that the points do not depend on how orbits meet lanes and threads.
-
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+//! An orbit that has all its crossings gives its lane to the next one.
 
 use super::andoyer::{Chart, applies, coordinates, section_functions};
 use super::error::FlowError;
@@ -15,17 +11,16 @@ use super::orbit::energy_drift;
 use super::program::Program;
 use super::start::{Start, fixed_parameters};
 use super::stepper::{Accuracy, Piece, Stepper};
+use super::swarm::{Abreast, LANES, Queue, swarm};
 use crate::case::{Angle, Case, Direction};
 use crate::graph::{Evaluator, Tape, record};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 
-/// Orbits side by side.
-const LANES: usize = 8;
-/// Fewer orbits than that are faster one by one.
-const FEW: usize = 4;
 /// A section that is not met in so many steps is not met again.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// So many crossings in the other direction alone, and there is none in the one that counts.
+const MAX_OTHERS: usize = 1000;
 /// Far later than any crossing.
 const NEVER: f64 = 1e15;
 
@@ -99,29 +94,17 @@ pub fn section(
     let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
     let starts: Vec<Result<Start, FlowError>> =
         request.starts.iter().map(|at| chart.start(*at)).collect();
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        let abreast = if starts.len() < FEW { 1 } else { LANES };
-        for _ in 0..threads.clamp(1, starts.len().div_ceil(abreast).max(1)) {
-            scope.spawn(|| {
-                let own = match starts.len() {
-                    0..FEW => Worker::<f64>::new(&program, request, &starts, &next).run(progress),
-                    _ => {
-                        Worker::<Lanes<LANES>>::new(&program, request, &starts, &next).run(progress)
-                    }
-                };
-                done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
-            });
+    let orbits = swarm(starts.len(), threads, |queue, abreast| match abreast {
+        Abreast::One => Worker::<f64>::new(&program, request, &starts, queue).run(progress),
+        Abreast::Lanes => {
+            Worker::<Lanes<LANES>>::new(&program, request, &starts, queue).run(progress)
         }
     });
-    let mut orbits = done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    orbits.sort_by_key(|found: &Done| found.index);
     orbits
         .into_iter()
-        .map(|found| {
-            let mut orbit = found.orbit;
-            if let (Ok(start), Some(end)) = (&starts[found.index], found.end) {
+        .zip(&starts)
+        .map(|((mut orbit, end), start)| {
+            if let (Ok(start), Some(end)) = (start, end) {
                 orbit.drift = energy_drift(&case.model, start, &end)?;
             }
             Ok(orbit)
@@ -167,21 +150,17 @@ pub fn values_at_starts(
     Ok(request.starts.iter().map(|l_z| chart.start(*l_z).map_or(f64::NAN, &mut at)).collect())
 }
 
-/// An orbit that is done.
-struct Done {
-    index: usize,
-    orbit: SectionOrbit,
-    end: Option<Vec<Pair>>,
-}
+/// Orbits that are done, by their index, with their states at the end.
+type Done = Vec<(usize, (SectionOrbit, Option<Vec<Pair>>))>;
 
 /// The orbits of one thread.
 struct Worker<'w, T: Number<One = f64>> {
     request: &'w SectionRequest,
     starts: &'w [Result<Start, FlowError>],
-    next: &'w AtomicUsize,
+    queue: &'w Queue,
     stepper: Stepper<T>,
     running: Vec<Option<Running>>,
-    done: Vec<Done>,
+    done: Done,
 }
 
 /// An orbit in a lane.
@@ -191,7 +170,8 @@ struct Running {
     sides: Sides,
     /// Crossings in the direction that counts, those left out included.
     counted: usize,
-    last_met: u64,
+    /// Steps and crossings in the other direction at the last one that counts.
+    last_met: (u64, usize),
 }
 
 impl<'w, T: Number<One = f64>> Worker<'w, T> {
@@ -199,14 +179,14 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
         program: &Program,
         request: &'w SectionRequest,
         starts: &'w [Result<Start, FlowError>],
-        next: &'w AtomicUsize,
+        queue: &'w Queue,
     ) -> Self {
         let stepper = Stepper::new(program, Accuracy::FLOAT);
         let running = (0..T::LANES).map(|_| None).collect();
-        Self { request, starts, next, stepper, running, done: Vec::new() }
+        Self { request, starts, queue, stepper, running, done: Vec::new() }
     }
 
-    fn run(&mut self, progress: &(dyn Fn() + Sync)) -> Vec<Done> {
+    fn run(&mut self, progress: &(dyn Fn() + Sync)) -> Done {
         loop {
             for lane in 0..T::LANES {
                 if self.running[lane].is_none() {
@@ -230,8 +210,8 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
     /// Puts the next orbit into a lane; those that have no start are done at once.
     fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
         loop {
-            let index = self.next.fetch_add(1, Ordering::Relaxed);
-            let Some(start) = self.starts.get(index) else { return };
+            let Some(index) = self.queue.take() else { return };
+            let start = &self.starts[index];
             let orbit = SectionOrbit {
                 start: self.request.starts[index],
                 crossings: Vec::new(),
@@ -246,13 +226,13 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
                     let until = if self.request.backwards { -NEVER } else { NEVER };
                     self.stepper.start(lane, &start.state, Pair::from_f64(until));
                     let sides = Sides::default();
-                    let running = Running { index, orbit, sides, counted: 0, last_met: 0 };
+                    let running = Running { index, orbit, sides, counted: 0, last_met: (0, 0) };
                     self.running[lane] = Some(running);
                     return;
                 }
                 Err(problem) => {
                     let orbit = SectionOrbit { problem: Some(problem.clone()), ..orbit };
-                    self.done.push(Done { index, orbit, end: None });
+                    self.done.push((index, (orbit, None)));
                     progress();
                 }
             }
@@ -274,11 +254,11 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
                 return true;
             }
         }
-        if steps - running.last_met > MAX_STEPS_BETWEEN || self.stepper.is_done(lane) {
-            running.orbit.problem = Some(FlowError::NeverCrossed {
-                time: self.stepper.time(lane).hi,
-                crossings: running.counted,
-            });
+        let others = running.orbit.others - running.last_met.1;
+        let is_lost = steps - running.last_met.0 > MAX_STEPS_BETWEEN || others > MAX_OTHERS;
+        if is_lost || self.stepper.is_done(lane) {
+            let (time, crossings) = (self.stepper.time(lane).hi, running.counted);
+            running.orbit.problem = Some(FlowError::NeverCrossed { time, crossings, others });
             return true;
         }
         false
@@ -289,7 +269,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
         running.orbit.steps = self.stepper.steps(lane);
         let end = self.stepper.pairs(lane);
         let end = end.iter().all(|x| x.is_finite()).then_some(end);
-        self.done.push(Done { index: running.index, orbit: running.orbit, end });
+        self.done.push((running.index, (running.orbit, end)));
     }
 }
 
@@ -318,12 +298,12 @@ impl Running {
             Direction::Up => rising,
             Direction::Down => !rising,
         };
-        self.last_met = steps;
         if !counts {
             self.orbit.others += 1;
             return false;
         }
         self.counted += 1;
+        self.last_met = (steps, self.orbit.others);
         if self.counted > request.skip {
             let at = coordinates(&piece.state(after));
             self.orbit.crossings.push(Crossing { at, time: piece.begin().hi + after, rising });

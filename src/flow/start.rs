@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::error::FlowError;
-use super::motion::point;
+use super::motion::{Loose, filled, point};
 use super::number::Number;
 use crate::case::Case;
 use crate::claim::{Components, Place};
 use crate::graph::{Evaluator, Tape, record};
-use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
+use crate::mechanics::{Model, Phase};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::verdict::Sampler;
@@ -79,22 +79,24 @@ impl Start {
         parameters: Vec<Rational>,
         mut state: Vec<Pair>,
     ) -> Result<Self, FlowError> {
-        let moved = Level::new(model, &parameters)?.correct(&mut state)?;
+        let moved = Level::new(model, &parameters, &[])?.correct(&mut state, &[])?;
         Ok(Self { parameters, state, moved })
     }
 }
 
 /// The level functions of a model and their gradients.
-struct Level {
+pub(super) struct Level {
     tape: Tape,
     equations: usize,
 }
 
 impl Level {
-    fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
+    /// Those of a model with these parameters, some of them loose.
+    pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
         let kept = Place::level(model).kept;
-        let (graph, outputs) = record(model.dimension(), |state| {
-            let jet = Jet::new(point(model, parameters, state));
+        let (graph, outputs) = record(model.dimension() + loose.len(), |inputs| {
+            let (state, more) = inputs.split_at(model.dimension());
+            let jet = Jet::new(Phase::new(model, &filled(parameters, loose, more), state));
             let level = model.level.iter();
             let mut outputs: Vec<_> =
                 level.map(|equation| jet.phase.level_function(&equation.function)).collect();
@@ -104,18 +106,23 @@ impl Level {
         Ok(Self { tape: Tape::new(&graph, &outputs), equations: model.level.len() })
     }
 
+    /// The level functions, then their gradients one by one, at a state.
+    fn values(&self, state: &[Pair], loose: &[Pair]) -> Vec<f64> {
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        evaluator.run(&[state, loose].concat());
+        evaluator.outputs().map(|value| value.hi).collect()
+    }
+
     /// Moves a state to the level; gives the distance.
-    fn correct(&self, state: &mut [Pair]) -> Result<f64, FlowError> {
+    pub fn correct(&self, state: &mut [Pair], loose: &[Pair]) -> Result<f64, FlowError> {
         if self.equations == 0 {
             return Ok(0.0);
         }
         let begin = state.to_vec();
         let norm = |state: &[Pair]| state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
         let mut last = f64::INFINITY;
         for _ in 0..MAX_STEPS {
-            evaluator.run(state);
-            let outputs: Vec<f64> = evaluator.outputs().map(|value| value.hi).collect();
+            let outputs = self.values(state, loose);
             let (values, slopes) = outputs.split_at(self.equations);
             let jacobian = DMatrix::from_row_slice(self.equations, state.len(), slopes);
             let square = &jacobian * jacobian.transpose();
@@ -138,12 +145,26 @@ impl Level {
         }
         Err(FlowError::NoStart)
     }
+
+    /// A unit vector along the level set at a state, in no special direction; another one for each
+    /// index.
+    pub fn along(&self, state: &[Pair], loose: &[Pair], index: usize) -> Vec<f64> {
+        let outputs = self.values(state, loose);
+        let gradients: Vec<Vec<f64>> =
+            outputs[self.equations..].chunks(state.len()).map(<[f64]>::to_vec).collect();
+        // Irrational directions: multiples of the golden ratio, and of √2.
+        let ratio = if index == 0 { 0.618_033_988_75 } else { std::f64::consts::SQRT_2 };
+        let any: Vec<f64> = (1..=state.len()).map(|k| (k as f64 * ratio).fract() - 0.37).collect();
+        let along = rejection(&any, &gradients);
+        let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+        along.into_iter().map(|x| x / length).collect()
+    }
 }
 
 /// An orthonormal basis of the tangent space of the level set at a start, by the method of Gram and
 /// Schmidt: the gradients first, then the axes, that with the longest rest next.
 pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>, FlowError> {
-    let level = Level::new(model, &start.parameters)?;
+    let level = Level::new(model, &start.parameters, &[])?;
     let mut evaluator = Evaluator::new(&level.tape, Pairs);
     evaluator.run(&start.state);
     let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
@@ -182,20 +203,4 @@ fn across(vector: &[Pair], unit: &[Vec<Pair>]) -> Vec<Pair> {
         rest.iter_mut().zip(e).for_each(|(x, e)| *x = *x - along * *e);
     }
     rest
-}
-
-/// A unit vector along the level set at a start, in no special direction.
-pub(super) fn across_level(model: &Model, start: &Start) -> Result<Vec<f64>, FlowError> {
-    let level = Level::new(model, &start.parameters)?;
-    let mut evaluator = Evaluator::new(&level.tape, Pairs);
-    evaluator.run(&start.state);
-    let outputs: Vec<f64> = evaluator.outputs().map(|value| value.hi).collect();
-    let gradients: Vec<Vec<f64>> =
-        outputs[level.equations..].chunks(model.dimension()).map(<[f64]>::to_vec).collect();
-    // Irrational directions: the golden ratio's multiples.
-    let any: Vec<f64> =
-        (1..=model.dimension()).map(|k| (k as f64 * 0.618_033_988_75).fract() - 0.37).collect();
-    let along = rejection(&any, &gradients);
-    let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
-    Ok(along.into_iter().map(|x| x / length).collect())
 }

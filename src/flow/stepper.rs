@@ -25,6 +25,8 @@ pub struct Accuracy {
 impl Accuracy {
     /// For f64: e^(-κ·21) is a tenth of a unit in the last place.
     pub const FLOAT: Self = Self { order: 20, kappa: 1.85 };
+    /// For what needs no more than seven digits: e^(-κ·13) is about 10⁻⁸.
+    pub const ROUGH: Self = Self { order: 12, kappa: 1.4 };
     /// For double-double.
     pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
 }
@@ -70,12 +72,17 @@ impl<T: Number> Stepper<T> {
         if T::LANES == 1 {
             self.series.clear();
         }
+        self.place(lane, state);
+        self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
+    }
+
+    /// Puts a motion to another state, at the same time.
+    pub fn place(&mut self, lane: usize, state: &[Pair]) {
         for (index, value) in state.iter().enumerate() {
             let (value, rest) = T::One::split(*value);
             set(&mut self.state[index], lane, value);
             set(&mut self.rest[index], lane, rest);
         }
-        self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
     }
 
     /// Multiplies some components of a motion's state.
@@ -106,6 +113,30 @@ impl<T: Number> Stepper<T> {
                 T::One::split(left).0
             };
         }
+    }
+
+    /// Lets neighbouring motions, so many at a time, take the same step.
+    pub fn keep_pace(&mut self, together: usize) {
+        for group in self.lanes.chunks_mut(together) {
+            let steps = group.iter().map(|lane| lane.step);
+            let shortest =
+                steps.reduce(|a, b| if a.leading().abs() <= b.leading().abs() { a } else { b });
+            if let Some(step) = shortest {
+                group.iter_mut().for_each(|lane| lane.step = step);
+            }
+        }
+    }
+
+    /// The states of all motions after a part of their steps, without what rounding left of them.
+    pub fn within(&self, share: f64) -> Vec<T> {
+        let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
+        let rows = self.state.iter().enumerate();
+        rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
+    }
+
+    /// The present step of a motion.
+    pub fn step(&self, lane: usize) -> T::One {
+        self.lanes[lane].step
     }
 
     /// Is the present expansion of a motion of any use? No where it runs into a singularity.

@@ -1,6 +1,7 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
 pub mod bench;
+pub mod chart;
 pub mod diagnostic;
 pub mod diagram;
 pub mod exponents;

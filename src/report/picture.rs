@@ -3,14 +3,17 @@
 //! The rectangle is the sphere in Lambert's cylindrical projection: equal areas are equal.
 
 mod glyphs;
+mod map;
 mod palette;
 mod png;
+mod scale;
 mod svg;
 
-use std::f64::consts::PI;
-
+pub use map::{Map, Swatch};
+pub use palette::Paper;
 pub use png::png;
-pub use svg::svg;
+pub use scale::Scale;
+pub use svg::{inline_svg, svg};
 
 /// A point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +24,20 @@ pub struct Dot {
     pub z: f64,
 }
 
+/// The colour of a layer.
+#[derive(Clone, Copy, Debug)]
+pub enum Tint {
+    /// A place on the scale of colours, from 0 to 1.
+    Shade(f64),
+    /// Grey, behind others.
+    Faint,
+}
+
 /// Dots of one colour.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    /// Its place on the scale of colours, from 0 to 1.
-    pub shade: f64,
+    /// The colour.
+    pub tint: Tint,
     /// The dots.
     pub dots: Vec<Dot>,
 }
@@ -45,13 +57,15 @@ pub struct Picture {
     pub width: u32,
 }
 
-/// The frame around the dots, in pixels.
+/// The frame around what is drawn, in pixels, and its axes.
 struct Frame {
     left: f64,
     top: f64,
     width: f64,
     height: f64,
     total: (f64, f64),
+    across: Scale,
+    up: Scale,
 }
 
 /// Margins in pixels.
@@ -62,27 +76,27 @@ const BELOW: f64 = 30.0;
 /// Height over width: the area of a sphere is 2π by 2, drawn somewhat higher to be read.
 const ASPECT: f64 = 0.62;
 
-/// Where ticks stand and what they are called.
-const TICKS_L: [(f64, &str); 5] =
-    [(0.0, "0"), (0.5 * PI, "π/2"), (PI, "π"), (1.5 * PI, "3π/2"), (2.0 * PI, "2π")];
-const TICKS_Z: [(f64, &str); 5] =
-    [(-1.0, "-1"), (-0.5, "-0.5"), (0.0, "0"), (0.5, "0.5"), (1.0, "1")];
+impl Frame {
+    /// A frame in a picture of this width, with room for more below it.
+    fn new(width: u32, across: Scale, up: Scale, below: f64) -> Self {
+        let left = LEFT.max(8.0 + 7.0 * up.widest() as f64);
+        let inner = f64::from(width) - left - RIGHT;
+        let height = (inner * ASPECT).round();
+        let total = (f64::from(width), height + TOP + BELOW + below);
+        Frame { left, top: TOP, width: inner, height, total, across, up }
+    }
 
-impl Picture {
-    fn frame(&self) -> Frame {
-        let width = f64::from(self.width) - LEFT - RIGHT;
-        let height = (width * ASPECT).round();
-        let total = (f64::from(self.width), height + TOP + BELOW);
-        Frame { left: LEFT, top: TOP, width, height, total }
+    fn x(&self, value: f64) -> f64 {
+        self.left + self.across.share(value) * self.width
+    }
+
+    fn y(&self, value: f64) -> f64 {
+        self.top + (1.0 - self.up.share(value)) * self.height
     }
 }
 
-impl Frame {
-    fn x(&self, l: f64) -> f64 {
-        self.left + l / (2.0 * PI) * self.width
-    }
-
-    fn y(&self, z: f64) -> f64 {
-        self.top + (1.0 - z) / 2.0 * self.height
+impl Picture {
+    fn frame(&self) -> Frame {
+        Frame::new(self.width, Scale::longitude(), Scale::height(), 0.0)
     }
 }

@@ -2,9 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::picture::{Dot, Layer, Picture};
+use super::picture::{Dot, Layer, Picture, Tint};
 use crate::case::{Case, Direction};
-use crate::flow::{SectionOrbit, SectionRequest};
+use crate::flow::{AreaForm, Character, SectionOrbit, SectionRequest, Separatrices};
+
+use super::exponents::{Row, classes};
 
 /// A section with what it was asked for.
 pub struct SectionReport<'r> {
@@ -14,6 +16,10 @@ pub struct SectionReport<'r> {
     pub request: &'r SectionRequest,
     /// One entry a start.
     pub orbits: &'r [SectionOrbit],
+    /// What was seen of the area forms of claimed densities.
+    pub areas: &'r [AreaForm],
+    /// The orbits with their exponents, if they were asked for.
+    pub classes: Option<&'r [Row]>,
 }
 
 impl SectionReport<'_> {
@@ -60,6 +66,10 @@ impl SectionReport<'_> {
         for (problem, count) in problems {
             out.push_str(&format!("{count} orbits ended early; the first: {problem}\n"));
         }
+        for area in self.areas {
+            out.push_str(&area_line(area));
+        }
+        out.extend(self.classes.map(classes));
         out
     }
 
@@ -88,8 +98,36 @@ impl SectionReport<'_> {
             "g0": self.request.g0.to_string(),
             "energy": self.request.energy.to_string(),
             "orbits": orbits,
+            "areas": self.areas.iter().map(area_entry).collect::<Vec<_>>(),
+            "classes": self.classes.map(|rows| {
+                rows.iter().map(|row| row.class().map(Character::name)).collect::<Vec<_>>()
+            }),
         }))
     }
+}
+
+fn area_line(area: &AreaForm) -> String {
+    if area.points == 0 {
+        return format!("area form of `{}`: no return was followed\n", area.claim);
+    }
+    let verdict = match area.broken {
+        None => "kept".to_string(),
+        Some([l, z]) => format!("NOT kept, first at ({l:.4}, {z:.4})"),
+    };
+    format!(
+        "area form of `{}`: {verdict}; over one return it changes by {:.1e} ± {:.1e} at most ({} points)\n",
+        area.claim, area.deviation, area.error, area.points
+    )
+}
+
+fn area_entry(area: &AreaForm) -> Value {
+    json!({
+        "claim": area.claim,
+        "kept": area.broken.is_none(),
+        "points": area.points,
+        "deviation": area.deviation,
+        "error": area.error,
+    })
 }
 
 /// The picture of a section; `values`, one an orbit, give the colours, or else the order of the orbits.
@@ -110,7 +148,9 @@ pub fn picture(
     let layers = orbits.iter().zip(shades);
     Picture {
         title: title.to_string(),
-        layers: layers.map(|(orbit, shade)| Layer { shade, dots: dots(orbit) }).collect(),
+        layers: layers
+            .map(|(orbit, shade)| Layer { tint: Tint::Shade(shade), dots: dots(orbit) })
+            .collect(),
         overlay: Vec::new(),
         marks: Vec::new(),
         width,
@@ -124,8 +164,29 @@ pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
         let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
         let mut dots: Vec<Dot> = crossings.map(|c| Dot { l: c.at[0], z: c.at[1] }).collect();
         dots.extend(orbits.iter().map(start));
-        let shade = index as f64 / 2.0;
-        picture.layers.push(Layer { shade, dots });
+        let tint = Tint::Shade(index as f64 / 2.0);
+        picture.layers.push(Layer { tint, dots });
+    }
+}
+
+/// Where red and blue are on the scale of colours.
+const UNSTABLE: f64 = 0.0;
+const STABLE: f64 = 0.7;
+
+/// Draws separatrices over a section, whose own points become pale: what comes from the point red, what
+/// tends to it blue.
+pub fn draw_separatrices(picture: &mut Picture, all: &[Separatrices]) {
+    if all.is_empty() {
+        return;
+    }
+    picture.layers.iter_mut().for_each(|layer| layer.tint = Tint::Faint);
+    for found in all {
+        for (orbits, shade) in [(&found.stable, STABLE), (&found.unstable, UNSTABLE)] {
+            let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
+            let dots = crossings.map(|c| Dot { l: c.at[0], z: c.at[1] }).collect();
+            picture.layers.push(Layer { tint: Tint::Shade(shade), dots });
+        }
+        picture.marks.push(Dot { l: found.point.at[0], z: found.point.at[1] });
     }
 }
 

@@ -7,6 +7,25 @@ const CHROMA: f64 = 0.14;
 const FROM: f64 = 0.07;
 const SPAN: f64 = 0.80;
 
+/// The colours around what is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paper {
+    /// Dark on white.
+    Light,
+    /// Light on black.
+    Dark,
+}
+
+impl Paper {
+    /// Paper, frame and ink.
+    pub fn colours(self) -> [[u8; 3]; 3] {
+        match self {
+            Paper::Light => [[255; 3], [136; 3], [17; 3]],
+            Paper::Dark => [[0x14, 0x17, 0x1c], [136; 3], [0xf0; 3]],
+        }
+    }
+}
+
 /// The colour at a place from 0 to 1: from red over green and blue to purple.
 pub fn colour(shade: f64) -> [u8; 3] {
     let angle = 2.0 * std::f64::consts::PI * (FROM + SPAN * shade.clamp(0.0, 1.0));

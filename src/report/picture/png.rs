@@ -1,43 +1,52 @@
 //! The picture as PNG: a palette image, without anything that depends on time or place.
 
 use super::glyphs::{ADVANCE, SIZE, rows};
-use super::palette::colour;
-use super::{Dot, Frame, Picture, TICKS_L, TICKS_Z};
+use super::palette::{Paper, colour};
+use super::{Dot, Frame, Picture, Tint};
 
-/// Colours of dots; paper, frame and overlay come before them.
+/// Colours of dots; paper, frame and ink come before them.
 const SHADES: u8 = 96;
 const PAPER: u8 = 0;
 const LINE: u8 = 1;
-const INK: u8 = 2;
-const FIRST: u8 = 3;
+pub(super) const INK: u8 = 2;
+pub(super) const FIRST: u8 = 3;
 
 /// The pixels of a picture as palette indices.
-struct Canvas {
+pub(super) struct Canvas {
     width: i64,
     height: i64,
     pixels: Vec<u8>,
 }
 
-/// The picture on white paper.
-pub fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
+/// The picture of a section.
+pub fn png(picture: &Picture, paper: Paper) -> Result<Vec<u8>, png::EncodingError> {
     let frame = picture.frame();
-    let (width, height) = (frame.total.0 as i64, frame.total.1 as i64);
-    let pixels = vec![PAPER; (width * height) as usize];
-    let mut canvas = Canvas { width, height, pixels };
+    let mut canvas = Canvas::new(&frame);
     for layer in &picture.layers {
-        let shade = (layer.shade.clamp(0.0, 1.0) * f64::from(SHADES - 1)).round() as u8;
-        canvas.dots(&frame, &layer.dots, FIRST + shade);
+        let index = match layer.tint {
+            Tint::Shade(shade) => {
+                FIRST + (shade.clamp(0.0, 1.0) * f64::from(SHADES - 1)).round() as u8
+            }
+            Tint::Faint => LINE,
+        };
+        canvas.dots(&frame, &layer.dots, index);
     }
     canvas.dots(&frame, &picture.overlay, INK);
     for mark in &picture.marks {
         canvas.ring(frame.x(mark.l), frame.y(mark.z));
     }
     canvas.axes(&frame);
-    canvas.encode()
+    let shades = (0..SHADES).map(|shade| colour(f64::from(shade) / f64::from(SHADES - 1)));
+    canvas.encode(paper, shades)
 }
 
 impl Canvas {
-    fn set(&mut self, x: i64, y: i64, index: u8) {
+    pub fn new(frame: &Frame) -> Self {
+        let (width, height) = (frame.total.0 as i64, frame.total.1 as i64);
+        Self { width, height, pixels: vec![PAPER; (width * height) as usize] }
+    }
+
+    pub fn set(&mut self, x: i64, y: i64, index: u8) {
         if (0..self.width).contains(&x) && (0..self.height).contains(&y) {
             self.pixels[(y * self.width + x) as usize] = index;
         }
@@ -57,7 +66,7 @@ impl Canvas {
         }
     }
 
-    fn axes(&mut self, frame: &Frame) {
+    pub fn axes(&mut self, frame: &Frame) {
         let (left, top) = (frame.left as i64 - 1, frame.top as i64 - 1);
         let (right, bottom) = (left + frame.width as i64 + 1, top + frame.height as i64 + 1);
         for x in left..=right {
@@ -68,39 +77,49 @@ impl Canvas {
             self.set(left, y, LINE);
             self.set(right, y, LINE);
         }
-        for (l, name) in TICKS_L {
-            let x = frame.x(l) as i64;
+        let extent = |text: &str| ADVANCE * spelled(text).chars().count() as i64;
+        for (value, word) in frame.across.ticks() {
+            let x = frame.x(*value) as i64;
             (1..5).for_each(|k| self.set(x.min(right), bottom + k, LINE));
-            let width = ADVANCE * name.chars().count() as i64 - 1;
-            self.write(name, (x - width / 2).min(self.width - width - 1), bottom + 8);
+            let width = extent(word) - 1;
+            self.write(word, (x - width / 2).min(self.width - width - 1), bottom + 8);
         }
-        for (z, name) in TICKS_Z {
-            let y = (frame.y(z) as i64).clamp(top, bottom);
+        for (value, word) in frame.up.ticks() {
+            let y = (frame.y(*value) as i64).clamp(top, bottom);
             (1..5).for_each(|k| self.set(left - k, y, LINE));
-            let width = ADVANCE * name.chars().count() as i64;
-            self.write(name, left - 6 - width, (y - SIZE.1 / 2).max(0));
+            self.write(word, left - 6 - extent(word), (y - SIZE.1 / 2).max(0));
         }
-        self.write("l", (frame.x(TICKS_L[3].0) as i64 + right) / 2, bottom + 8);
-        self.write("L/G", left - 6 - 3 * ADVANCE, frame.y(0.75) as i64 - SIZE.1 / 2);
+        let name = |name: &str| if name == "l" { "ℓ".to_string() } else { name.to_string() };
+        let (across, up) = (name(&frame.across.name), name(&frame.up.name));
+        let x = frame.x(frame.across.name_at()) as i64 - extent(&across) / 2;
+        self.write(&across, x, bottom + 8);
+        let y = frame.y(frame.up.name_at()) as i64 - SIZE.1 / 2;
+        self.write(&up, left - 6 - extent(&up), y);
     }
 
-    fn write(&mut self, text: &str, left: i64, top: i64) {
-        for (place, letter) in text.chars().enumerate() {
+    /// Writes from the left, and gives where the next letter would stand.
+    pub fn write(&mut self, text: &str, left: i64, top: i64) -> i64 {
+        let mut place = left;
+        for letter in spelled(text).chars() {
             for (row, bits) in rows(letter).into_iter().enumerate() {
                 for column in 0..SIZE.0 {
                     if bits >> (SIZE.0 - 1 - column) & 1 == 1 {
-                        self.set(left + place as i64 * ADVANCE + column, top + row as i64, INK);
+                        self.set(place + column, top + row as i64, INK);
                     }
                 }
             }
+            place += ADVANCE;
         }
+        place
     }
 
-    fn encode(self) -> Result<Vec<u8>, png::EncodingError> {
-        let mut palette = vec![255, 255, 255, 136, 136, 136, 17, 17, 17];
-        for shade in 0..SHADES {
-            palette.extend(colour(f64::from(shade) / f64::from(SHADES - 1)));
-        }
+    pub fn encode(
+        self,
+        paper: Paper,
+        colours: impl IntoIterator<Item = [u8; 3]>,
+    ) -> Result<Vec<u8>, png::EncodingError> {
+        let mut palette = paper.colours().concat();
+        palette.extend(colours.into_iter().flatten());
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Indexed);
@@ -113,4 +132,26 @@ impl Canvas {
         writer.finish()?;
         Ok(bytes)
     }
+}
+
+/// Greek letters that have no dots, by their names.
+fn spelled(text: &str) -> String {
+    let names = [
+        ("α", "alpha"),
+        ("β", "beta"),
+        ("γ", "gamma"),
+        ("ε", "eps"),
+        ("θ", "theta"),
+        ("κ", "kappa"),
+        ("λ", "lambda"),
+        ("μ", "mu"),
+        ("ν", "nu"),
+        ("ρ", "rho"),
+        ("σ", "sigma"),
+        ("φ", "phi"),
+        ("ψ", "psi"),
+        ("ω", "omega"),
+        ("Ω", "Omega"),
+    ];
+    names.iter().fold(text.to_string(), |text, (letter, name)| text.replace(letter, name))
 }

@@ -3,78 +3,119 @@
 use std::fmt::Write;
 
 use super::palette::colour;
-use super::{Dot, Frame, Picture, TICKS_L, TICKS_Z};
+use super::{Dot, Frame, Picture, Tint};
 use crate::report::diagram::escape;
 
 /// The diameter of a dot in pixels.
 const DOT: f64 = 1.4;
 
-/// The picture; dark where the reader prefers that.
-pub fn svg(picture: &Picture) -> String {
-    let frame = picture.frame();
-    let (width, height) = frame.total;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-         width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{}</title>\n<style>\n\
-         text {{ font: 12px system-ui, sans-serif; fill: #222; }}\n.paper {{ fill: #fff; }}\n\
+/// The beginning of a picture; dark where the reader prefers that.
+pub(super) fn head(title: &str, frame: &Frame) -> String {
+    let mut out = opening(title, frame);
+    out.push_str(&format!(
+        "<style>\ntext {{ font: 12px system-ui, sans-serif; fill: #222; }}\n.paper {{ fill: #fff; }}\n\
          path {{ fill: none; stroke-linecap: round; stroke-width: {DOT}; }}\n\
          .frame {{ stroke: #888; fill: none; stroke-width: 1; }}\n.over {{ stroke: #111; }}\n\
          .mark {{ stroke: #111; fill: none; stroke-width: 1.2; }}\n\
          @media (prefers-color-scheme: dark) {{\ntext {{ fill: #ddd; }}\n.paper {{ fill: #14171c; }}\n\
          .over, .mark {{ stroke: #f5f5f5; }}\n}}\n</style>\n\
-         <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n",
-        escape(&picture.title)
-    );
-    axes(&mut out, &frame);
-    for layer in &picture.layers {
-        let [r, g, b] = colour(layer.shade);
-        path(&mut out, &frame, &layer.dots, &format!("stroke=\"#{r:02x}{g:02x}{b:02x}\""));
-    }
-    path(&mut out, &frame, &picture.overlay, "class=\"over\"");
-    for mark in &picture.marks {
-        let (x, y) = (frame.x(mark.l), frame.y(mark.z));
-        let _ = writeln!(out, "<circle class=\"mark\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>");
-    }
-    out.push_str("</svg>\n");
+         <rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n",
+        frame.total.0, frame.total.1
+    ));
     out
 }
 
-fn axes(out: &mut String, frame: &Frame) {
-    let (left, top) = (frame.left, frame.top);
-    let (right, bottom) = (left + frame.width, top + frame.height);
-    let _ = writeln!(
-        out,
-        "<rect class=\"frame\" x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\"/>",
-        frame.width, frame.height
+fn opening(title: &str, frame: &Frame) -> String {
+    let (width, height) = frame.total;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+         width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{}</title>\n",
+        escape(title)
+    )
+}
+
+/// The picture of a section within a page: the page has the paper, and its colour is the ink.
+pub fn inline_svg(picture: &Picture) -> String {
+    let frame = picture.frame();
+    let mut out = opening(&picture.title, &frame);
+    let group = format!(
+        "<g font-size=\"12\" fill=\"currentColor\" stroke-linecap=\"round\" stroke-width=\"{DOT}\">\n"
     );
-    for (l, name) in TICKS_L {
-        let x = frame.x(l);
+    out.push_str(&group);
+    drawn(&mut out, picture, &frame);
+    out + "</g>\n</svg>\n"
+}
+
+/// The picture of a section.
+pub fn svg(picture: &Picture) -> String {
+    let frame = picture.frame();
+    let mut out = head(&picture.title, &frame);
+    drawn(&mut out, picture, &frame);
+    out + "</svg>\n"
+}
+
+fn drawn(out: &mut String, picture: &Picture, frame: &Frame) {
+    axes(out, frame);
+    for layer in &picture.layers {
+        let stroke = match layer.tint {
+            Tint::Shade(shade) => hex(colour(shade)),
+            Tint::Faint => "#888".to_string(),
+        };
+        path(out, frame, &layer.dots, &format!("stroke=\"{stroke}\""));
+    }
+    path(out, frame, &picture.overlay, "class=\"over\" stroke=\"currentColor\"");
+    for mark in &picture.marks {
+        let (x, y) = (frame.x(mark.l), frame.y(mark.z));
         let _ = writeln!(
             out,
-            "<path class=\"frame\" d=\"M{x:.1} {bottom}v4\"/>\
-             <text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{name}</text>",
+            "<circle class=\"mark\" fill=\"none\" stroke=\"currentColor\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>"
+        );
+    }
+}
+
+pub(super) fn axes(out: &mut String, frame: &Frame) {
+    let (left, top) = (frame.left, frame.top);
+    let bottom = top + frame.height;
+    let _ = writeln!(
+        out,
+        "<rect class=\"frame\" fill=\"none\" stroke=\"#888\" x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\"/>",
+        frame.width, frame.height
+    );
+    for (value, word) in frame.across.ticks() {
+        let x = frame.x(*value);
+        let _ = writeln!(
+            out,
+            "<path class=\"frame\" stroke=\"#888\" d=\"M{x:.1} {bottom}v4\"/>\
+             <text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{word}</text>",
             bottom + 18.0
         );
     }
-    for (z, name) in TICKS_Z {
-        let y = frame.y(z);
+    for (value, word) in frame.up.ticks() {
+        let y = frame.y(*value);
         let _ = writeln!(
             out,
-            "<path class=\"frame\" d=\"M{left} {y:.1}h-4\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{name}</text>",
+            "<path class=\"frame\" stroke=\"#888\" d=\"M{left} {y:.1}h-4\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{word}</text>",
             left - 7.0,
             y + 4.0
         );
     }
     let _ = writeln!(
         out,
-        "<text x=\"{:.1}\" y=\"{:.1}\" font-style=\"italic\">l</text>\
-         <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">L/G</text>",
-        (frame.x(TICKS_L[3].0) + right) / 2.0,
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-style=\"italic\">{}</text>\
+         <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+        frame.x(frame.across.name_at()),
         bottom + 18.0,
+        escape(&frame.across.name),
         left - 7.0,
-        frame.y(0.75) + 4.0
+        frame.y(frame.up.name_at()) + 4.0,
+        escape(&frame.up.name)
     );
+}
+
+/// A colour as SVG writes it.
+pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Points as strokes of no length, each relative to the one before.

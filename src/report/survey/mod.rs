@@ -12,9 +12,11 @@ mod entry;
 mod html;
 mod latex;
 mod markdown;
+mod motion;
 mod picture;
 mod terminal;
 
+use crate::flow::{FlowError, Portrait};
 use crate::survey::Survey;
 
 pub use terminal::Style;
@@ -39,7 +41,10 @@ pub fn latex(survey: &Survey) -> String {
     latex::render(&compose::document(survey))
 }
 
-/// The survey as one self-contained HTML page.
-pub fn html(survey: &Survey) -> String {
-    html::render(&compose::document(survey))
+/// The survey as one self-contained HTML page, with a section of the body's motion, or the reason why
+/// there is none.
+pub fn html(survey: &Survey, motion: Result<&Portrait, &FlowError>) -> String {
+    let mut document = compose::document(survey);
+    document.insert_motion(motion);
+    html::render(&document)
 }

@@ -1,0 +1,87 @@
+//! The section that shows a body's motion where nobody said which: an energy at which it can turn to
+//! any side, and starts spread over the sphere.
+
+use super::andoyer::{applies, spread};
+use super::error::FlowError;
+use super::motion::point;
+use super::section::{SectionOrbit, SectionRequest, section};
+use super::start::fixed_parameters;
+use crate::case::{Angle, Case, Direction};
+use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::number::float::Float;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// Orbits, and crossings of each.
+const ORBITS: usize = 24;
+const CROSSINGS: usize = 120;
+/// Directions in which the potential is looked at.
+const DIRECTIONS: usize = 400;
+/// The energy is above the largest potential by this part of the potential's range.
+const ABOVE: f64 = 0.25;
+
+/// A section with what it was asked for.
+pub struct Portrait {
+    /// Which section.
+    pub request: SectionRequest,
+    /// Its orbits.
+    pub orbits: Vec<SectionOrbit>,
+    /// Are parameters drawn?
+    pub is_drawn: bool,
+}
+
+/// The section of the case, or one at an energy above the potential, of few orbits.
+pub fn portrait(case: &Case, seed: u64, threads: usize) -> Result<Portrait, FlowError> {
+    if !applies(&case.model) {
+        return Err(FlowError::NoAndoyer);
+    }
+    if case.model.system.has_arbitrary_function() {
+        return Err(FlowError::Arbitrary);
+    }
+    let (g0, energy) = match &case.section {
+        Some(plan) => (plan.g0.clone(), plan.energy.clone()),
+        None => (Angle::QuarterTurns(2), energy(case, seed)?),
+    };
+    let request = SectionRequest {
+        g0,
+        energy,
+        direction: Direction::Both,
+        crossings: CROSSINGS,
+        skip: 0,
+        starts: spread(ORBITS),
+        backwards: false,
+        seed,
+        index: 0,
+    };
+    let orbits = section(case, &request, threads, &|| ())?;
+    let problem = orbits.iter().find_map(|orbit| orbit.problem.clone());
+    match problem {
+        Some(problem) if orbits.iter().all(|orbit| orbit.crossings.is_empty()) => Err(problem),
+        _ => Ok(Portrait { request, orbits, is_drawn: case.model.free_components() > 0 }),
+    }
+}
+
+/// An energy somewhat above the largest value of the potential; 1 without one.
+fn energy(case: &Case, seed: u64) -> Result<Rational, FlowError> {
+    let parameters = fixed_parameters(case, seed, 0)?;
+    let (graph, potential) = record(3, |gamma| {
+        let zero = Expr::rational(&Rational::from(0));
+        let state = [[zero; 3].as_slice(), gamma].concat();
+        case.model.system.energy(&point(&case.model, &parameters, &state)).unwrap_or(zero)
+    })?;
+    let tape = Tape::new(&graph, &[potential]);
+    let mut evaluator = Evaluator::new(&tape, Float::<1>);
+    let mut at = |[angle, z]: [f64; 2]| {
+        let s = (1.0 - z * z).sqrt();
+        evaluator.run(&[[s * libm::sin(angle)], [s * libm::cos(angle)], [z]]);
+        evaluator.output(0)[0]
+    };
+    let values: Vec<f64> = spread(DIRECTIONS).into_iter().map(&mut at).collect();
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_level = high - low <= f64::EPSILON * high.abs();
+    let above = if is_level { high + 1.0 } else { high + ABOVE * (high - low) };
+    // Two digits are enough, rounded up.
+    let unit = libm::pow(10.0, libm::floor(libm::log10(above.abs().max(1e-300))) - 1.0);
+    Rational::from_f64(libm::ceil(above / unit) * unit).ok_or(FlowError::NoStart)
+}
