@@ -88,7 +88,7 @@ fn numbers_that_are_wrong_are_refuted() {
     let wrong = [
         "time = 4.442882939\nargument = 0.40007",
         "argument = 0.40009",
-        "product = 0.999999",
+        "product = 0.99999",
         "stability = \"hyperbolic\"",
         "multiplier = 1.3",
         "period = 2",

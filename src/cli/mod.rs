@@ -208,7 +208,7 @@ pub struct Search {
     #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub conditions: Option<String>,
     /// Look for integrals that are polynomials of at most this degree in the positions, over denominators
-    /// of the geometry, even where the counts leave none: --ansatz, --ansatz=12
+    /// of the geometry, where the counts leave some: --ansatz, --ansatz=12
     #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
         value_parser = clap::value_parser!(u32).range(0..=40))]
     pub ansatz: Option<u32>,

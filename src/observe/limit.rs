@@ -16,11 +16,16 @@ const VALUES: i64 = 5;
 /// error of C. If they grow, the order is lower than claimed; if C is not above its error, higher.
 pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
+    let mut finding = Finding::default();
+    let Some(component) = claim.component else {
+        finding.leave_open("the parameter has a fixed value: give it a range".to_string());
+        return Ok(finding);
+    };
     let model = &scene.case.model;
     let drawn = scene.parameters()?;
     let at = |value: Rational| {
         let mut parameters = drawn.clone();
-        parameters[claim.component] = value;
+        parameters[component] = value;
         let start = scene.state(point, parameters)?;
         let time = Pair::from_f64(claim.time);
         let found = orbit(scene.case, start, time, Precision::Pair)?;
@@ -30,7 +35,7 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
     let mut quotients = Vec::new();
     let mut divisor = 1;
     for _ in 0..VALUES {
-        let value = &drawn[claim.component] * &Rational::new(1, divisor);
+        let value = &drawn[component] * &Rational::new(1, divisor);
         let size = libm::pow(value.to_f64().0.abs(), claim.order as f64);
         let squares = at(value)?;
         let squares = squares.iter().zip(&limit).map(|(x, y)| (*x - *y).hi * (*x - *y).hi);
@@ -41,7 +46,6 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
         quotients.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let last = quotients.len() - 1;
     let found = Measured { value: quotients[last], error: differences[last - 1] };
-    let mut finding = Finding::default();
     match &claim.constant {
         Some(stated) => finding.compare("constant", found, stated),
         None => finding.show("constant", found),

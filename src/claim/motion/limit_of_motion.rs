@@ -10,8 +10,8 @@ use crate::formula::Formula;
 pub struct LimitOfMotion {
     /// F, at the end of the motion.
     pub function: Formula,
-    /// ε, as a component of the free parameters.
-    pub component: usize,
+    /// ε, as a component of the free parameters; `None` where it has a fixed value.
+    pub component: Option<usize>,
     /// The order of the error.
     pub order: usize,
     /// C
@@ -29,13 +29,9 @@ impl Motional for LimitOfMotion {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let parameter = scalar_parameter(from, "parameter")?;
-        let component = from.model().free_component(parameter).ok_or_else(|| {
-            let message = "a parameter that goes to 0 is no fixed number".to_string();
-            from.complaint("parameter", message, "give it a range in [parameters]")
-        })?;
         Ok(Self {
             function: from.required(Self::NAME, None)?,
-            component,
+            component: from.model().free_component(parameter),
             order: count(from, "order")?.unwrap_or(1),
             constant: number(from, "constant")?,
             beginning: Beginning::read(from)?,

@@ -20,7 +20,7 @@ use crate::proof::reconstruct;
 /// Primes after which rational coefficients are given up.
 const PRIMES: u64 = 8;
 /// Coefficients of a numerator and denominator together.
-const MOST: usize = 340;
+const MOST: usize = 640;
 /// Samples beyond the number of unknowns.
 const SPARE: usize = 8;
 /// Choices of parameters beyond those that are wanted, where some have no value.

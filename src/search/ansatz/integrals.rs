@@ -30,8 +30,7 @@ enum Outcome {
     Open,
 }
 
-/// Looks for integrals of the degrees at which the counts leave some; if it is wanted, also where nothing
-/// was counted.
+/// Looks for integrals of the degrees at which the counts leave some, and where nothing was counted.
 pub fn integrals(
     case: &Case,
     effort: &Effort,
@@ -51,10 +50,20 @@ pub fn integrals(
         let known = generators.products(degree, mixed);
         let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
         let dimension = count.map(|count| count.dimension);
-        if !dimension.map_or(effort.ansatz.wanted, |dimension| dimension > known) {
+        if dimension.is_some_and(|dimension| dimension <= known) {
             continue;
         }
-        for below in denominators(&case.model, effort.ansatz.wanted) {
+        if !effort.ansatz.wanted {
+            if dimension.is_none() {
+                continue;
+            }
+            report.remark(format!(
+                "more integrals of degree {degree} are counted than known: --ansatz looks for them \
+                 among polynomials"
+            ));
+            return Ok(());
+        }
+        for below in denominators(&case.model) {
             let mut search = Search {
                 case,
                 effort,
@@ -72,13 +81,9 @@ pub fn integrals(
     Ok(())
 }
 
-/// What polynomials may be divided by, simple ones first; `all` that a pole of the field allows, or those
-/// of low degree.
-fn denominators(model: &Model, all: bool) -> Vec<Term> {
+/// What polynomials may be divided by, simple ones first: all that a pole of the field allows.
+fn denominators(model: &Model) -> Vec<Term> {
     let mut texts = library::denominators(model);
-    if !all {
-        return read(texts, &model.vocabulary);
-    }
     let further: &[&str] = match &model.system {
         Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
         Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
@@ -329,7 +334,12 @@ mod tests {
                     I='inertia(0.5..5)'\n";
         let cases = [
             (format!("{ball}[body]\nshape='ball'\n"), 4),
-            (format!("{ball}c='vector(-0.5..0.5)'\n[body]\nshape='ball'\n"), 4),
+            (
+                "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1.3\nR=3\nI=[2.6,1.2,1.8]\n\
+                 c=[0.7,-0.4,1.1]\n[body]\nshape='ball'\n"
+                    .to_string(),
+                4,
+            ),
             (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
             (
                 "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
