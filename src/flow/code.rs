@@ -45,6 +45,8 @@ pub(super) struct Code<T> {
     pub(super) products: Vec<Product>,
     pub(super) factors: Vec<Factor<T>>,
     pub(super) terms: Vec<Term<T>>,
+    /// The terms n x_n, whose slope is the order.
+    pub(super) thetas: Vec<u32>,
     pub(super) copies: Vec<Copied<T>>,
     /// How many copies of the state are before those of the operations.
     pub(super) of_state: usize,
@@ -116,8 +118,6 @@ pub(super) enum Order {
     Free,
     /// The inner sum is divided by it.
     Divides,
-    /// The terms are multiplied by it.
-    Multiplies,
 }
 
 /// A rule with places in the place of rows.
@@ -195,6 +195,7 @@ impl<T: Number> Code<T> {
             products,
             factors: Vec::new(),
             terms: Vec::new(),
+            thetas: Vec::new(),
             copies: Vec::new(),
             of_state: 0,
             state: Vec::new(),
@@ -233,7 +234,10 @@ impl<T: Number> Code<T> {
         let at = |row: &Row| layout.row(*row);
         let (order, rule) = match &instruction.rule {
             Rule::Sum => (Order::Free, Bound::Sum),
-            Rule::Theta(_) => (Order::Multiplies, Bound::Theta),
+            Rule::Theta(_) => {
+                self.thetas.push(self.terms.len() as u32);
+                (Order::Free, Bound::Theta)
+            }
             Rule::Recip(x) => (Order::Free, Bound::Recip(at(x))),
             Rule::Sqrt(x) => (Order::Free, Bound::Sqrt(at(x))),
             Rule::Exp(x) => (Order::Divides, Bound::Exp(at(x))),

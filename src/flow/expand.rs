@@ -67,6 +67,9 @@ impl<T: Number> Series<T> {
     /// Order n ≥ 1 of every row.
     #[inline(always)]
     fn finish(&mut self, n: usize) {
+        for theta in &self.code.thetas {
+            self.code.terms[*theta as usize].slope = T::float(n as f64);
+        }
         let mut terms = self.code.terms.as_slice();
         let mut copies = &self.code.copies[self.code.of_state..];
         let mut rows = Rows { memory: &mut self.memory, n, copied: T::copied(self.orders, n) };
@@ -79,11 +82,7 @@ impl<T: Number> Series<T> {
             for term in first(&mut terms, finish.terms) {
                 value = value.fused(term.slope, rows.at(term.x));
             }
-            let mut value = value.settled();
-            if let Order::Multiplies = finish.order {
-                value = value * T::float(n as f64);
-            }
-            rows.put(finish.place, first(&mut copies, finish.copies), value);
+            rows.put(finish.place, first(&mut copies, finish.copies), value.settled());
         }
     }
 
