@@ -225,7 +225,8 @@ impl Assembler {
             Width::Four => self.bytes.extend([
                 0xc4,
                 not(register >> 3) << 7 | 1 << 6 | not(bit3) << 5 | map,
-                0x80 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
+                // Of these instructions the fused ones alone look at the topmost bit.
+                u8::from(map == MAP_0F38) << 7 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
             ]),
         }
         self.bytes.push(opcode);
