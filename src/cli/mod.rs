@@ -218,6 +218,10 @@ pub struct Search {
     /// Find the rotors under which the known integrals survive
     #[arg(long)]
     pub gyrostats: bool,
+    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian, or for
+    /// one that is given: --poisson, --poisson=H
+    #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub poisson: Option<String>,
     /// Leave out an ansatz whose matrix takes more memory than this
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,

@@ -36,6 +36,10 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             gyrostats: options.gyrostats,
             megabytes: options.megabytes,
         },
+        poisson: options.poisson.as_ref().map(|formula| match formula.as_str() {
+            "" => search::Hamiltonians::Known,
+            formula => search::Hamiltonians::Given(formula.to_string()),
+        }),
         halt: options.within.map_or_else(Halt::default, Halt::within),
         options: liouville::verdict::Options {
             seed: options.seed,

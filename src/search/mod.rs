@@ -35,7 +35,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
-pub use ansatz::Ansatz;
+pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
 pub use halt::Halt;
@@ -123,6 +123,8 @@ pub struct Effort {
     pub seconds: f64,
     /// What is looked for in a global ansatz.
     pub ansatz: Ansatz,
+    /// Look for brackets, with these Hamiltonians.
+    pub poisson: Option<Hamiltonians>,
     /// When to stop before the end.
     pub halt: Halt,
     /// How finds are judged.
@@ -139,6 +141,7 @@ impl Default for Effort {
             conditions: None,
             seconds: 60.0,
             ansatz: Ansatz::default(),
+            poisson: None,
             halt: Halt::default(),
             options: Options::default(),
         }
@@ -148,14 +151,15 @@ impl Default for Effort {
 /// Something that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
-    /// `integral`, `density` or `symmetry-field`.
+    /// `integral`, `density`, `symmetry-field` or `bracket`.
     pub kind: &'static str,
     /// In the names of the case.
     pub formula: String,
     /// Abbreviations in it that are not the case's, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// What it holds with that the case has not: `potential` or `gyrostat`, and which.
+    /// What it holds with: a `potential` or `gyrostat` that the case has not; a bracket with its
+    /// `Hamiltonian`, and each `Casimir` that is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Is it a function of the energy and the level? Such finds are not told, so it never is.

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! [`potentials`] and [`gyrostats`] have the leading form of an integral given: then a potential, or the
-//! direction of a rotor, enters linearly beside what the integral gains.
+//! direction of a rotor, enters linearly beside what the integral gains. [`poisson`] has a Hamiltonian
+//! given: then the entries of a bracket enter linearly.
 
 mod characters;
 mod coefficients;
@@ -18,6 +19,7 @@ mod forces;
 mod gyrostats;
 mod integrals;
 mod monomials;
+mod poisson;
 mod potentials;
 mod size;
 mod subspace;
@@ -28,6 +30,7 @@ use super::terms::{Term, read};
 use super::{Effort, Report, SearchError};
 use crate::case::Case;
 use monomials::Variables;
+pub use poisson::Hamiltonians;
 use system::Column;
 
 /// What is looked for in a linear ansatz, and how far.
@@ -64,6 +67,9 @@ pub fn search(
     }
     if effort.ansatz.gyrostats {
         gyrostats::gyrostats(case, effort, report, progress)?;
+    }
+    if let Some(wanted) = &effort.poisson {
+        poisson::brackets(case, wanted, effort, report, progress)?;
     }
     Ok(())
 }
