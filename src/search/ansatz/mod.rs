@@ -13,6 +13,7 @@
 //! direction of a rotor, enters linearly beside what the integral gains. [`poisson`] has a Hamiltonian
 //! given: then the entries of a bracket enter linearly.
 
+mod brackets;
 mod characters;
 mod coefficients;
 mod forces;
