@@ -64,7 +64,6 @@ fn errors_are_in_the_order_that_theory_gives() {
         for (method, domain) in [
             (Method::ComplexStep, "complex f64"),
             (Method::MergedTape, "f64"),
-            (Method::NumDual, "f64"),
             (Method::NumDualByHand, "f64"),
             (Method::NumDualClosedForm, "f64"),
         ] {
@@ -100,7 +99,7 @@ fn json_has_the_documented_form() {
     let names: Vec<&Value> = items.iter().map(|item| &item["name"]).collect();
     assert_eq!(names, ["W1", "W2", "W3"], "the work items");
     for item in items {
-        for key in ["ns_per_state", "num_dual_ns_per_state", "num_dual_generic_ns_per_state"] {
+        for key in ["ns_per_state", "num_dual_ns_per_state"] {
             assert!(item[key].as_f64().is_some_and(|time| time > 0.0), "{key} in {item}");
         }
         assert!(item["operations"].is_u64() && item["max_error"].is_f64(), "{item}");

@@ -6,8 +6,7 @@
 //! | tape | the recorded residual, in each number domain |
 //! | merged tape | the same residual from fewer operations, by each engine of f64 |
 //! | floor | as many fused sums as the engine takes steps, at the speed this machine can reach |
-//! | num-dual | the definitions that are recorded, over num-dual's numbers at f64, state by state |
-//! | num-dual by hand | the same for the work items, written out plainly, without formulas |
+//! | num-dual by hand | the work items over num-dual's numbers at f64, state by state, written out plainly |
 //! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
 //! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
@@ -29,7 +28,7 @@ mod complex_step;
 mod engines;
 mod items;
 mod measure;
-mod num_dual;
+mod one_by_one;
 mod reference;
 mod subject;
 mod tapes;
@@ -55,9 +54,6 @@ pub enum Method {
     /// What the tape's steps would take if each were a fused sum that waits for nothing.
     #[serde(rename = "floor")]
     Floor,
-    /// The definitions over num-dual's numbers.
-    #[serde(rename = "num-dual")]
-    NumDual,
     /// The residual written by hand over num-dual's numbers.
     #[serde(rename = "num-dual by hand")]
     NumDualByHand,
@@ -74,11 +70,10 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 8] = [
+    pub const ALL: [Method; 7] = [
         Method::Tape,
         Method::MergedTape,
         Method::Floor,
-        Method::NumDual,
         Method::NumDualByHand,
         Method::NumDualClosedForm,
         Method::ComplexStep,
@@ -91,7 +86,6 @@ impl Method {
             Method::Tape => "tape",
             Method::MergedTape => "merged tape",
             Method::Floor => "floor",
-            Method::NumDual => "num-dual",
             Method::NumDualByHand => "num-dual by hand",
             Method::NumDualClosedForm => "num-dual, closed form",
             Method::ComplexStep => "complex step",

@@ -6,7 +6,7 @@ use super::candidate::{Block, Candidate, states};
 use super::central::Central;
 use super::complex_step::ComplexStep;
 use super::engines;
-use super::num_dual::{OneByOne, by_definition};
+use super::one_by_one::OneByOne;
 use super::tapes;
 use super::underived::{Reason, Underived};
 use super::{BenchError, Item, Method};
@@ -29,7 +29,6 @@ pub struct Subject<'i> {
     residual: Tape,
     merged: Tape,
     merging: Duration,
-    antiderivatives: usize,
     recording: Duration,
     underived: Result<(Underived, Duration), Reason>,
 }
@@ -64,17 +63,7 @@ impl<'i> Subject<'i> {
             states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
         let (underived, time) = timed(|| Underived::record(case, claim))?;
         let underived = underived.map(|underived| (underived, time));
-        Ok(Self {
-            item,
-            claim,
-            states,
-            residual,
-            merged,
-            merging,
-            antiderivatives,
-            recording,
-            underived,
-        })
+        Ok(Self { item, claim, states, residual, merged, merging, recording, underived })
     }
 
     /// The states, block by block.
@@ -114,11 +103,6 @@ impl<'i> Subject<'i> {
             entries.push(Entry { method, domain, operations, set_up, candidate });
         };
         let none = Duration::ZERO;
-        if self.antiderivatives == 0 {
-            let definition = by_definition(&self.item.case, self.claim);
-            let candidate = Box::new(OneByOne::new(definition, &self.states));
-            at_f64(Method::NumDual, "f64", None, none, candidate);
-        }
         for (method, by_hand) in &self.item.by_hand {
             let candidate = Box::new(OneByOne::new(by_hand, &self.states));
             at_f64(*method, "f64", None, none, candidate);
@@ -137,9 +121,6 @@ impl<'i> Subject<'i> {
     /// The methods that are not measured, and why.
     pub fn skipped(&self) -> Vec<(Method, Reason)> {
         let mut skipped = Vec::new();
-        if self.antiderivatives > 0 {
-            skipped.push((Method::NumDual, "an ∫ has no value at f64"));
-        }
         if let Err(reason) = &self.underived {
             skipped.push((Method::ComplexStep, *reason));
             skipped.push((Method::CentralDifference, *reason));

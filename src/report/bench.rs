@@ -59,11 +59,10 @@ struct ItemEntry<'a> {
     /// By the quickest engine.
     engine_ns_per_state: Option<f64>,
     floor_ns_per_state: Option<f64>,
-    /// By hand where there is such code, else by the generic definitions.
+    /// By hand, where there is such code.
     num_dual_ns_per_state: Option<f64>,
     /// The quickest engine over num-dual by hand.
     ratio_to_num_dual: Option<f64>,
-    num_dual_generic_ns_per_state: Option<f64>,
     operations: Option<usize>,
     merged_operations: Option<usize>,
     max_error: Option<f64>,
@@ -139,9 +138,8 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
         ns_per_state: tape.map(|row| row.ns_per_state),
         engine_ns_per_state: measured.quickest().map(|row| row.ns_per_state),
         floor_ns_per_state: time(Method::Floor),
-        num_dual_ns_per_state: time(Method::NumDualByHand).or(time(Method::NumDual)),
+        num_dual_ns_per_state: time(Method::NumDualByHand),
         ratio_to_num_dual: measured.ratio_to_num_dual(),
-        num_dual_generic_ns_per_state: time(Method::NumDual),
         operations: tape.and_then(|row| row.operations),
         merged_operations: merged.and_then(|row| row.operations),
         max_error: tape.and_then(|row| row.max_error),

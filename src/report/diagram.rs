@@ -203,7 +203,6 @@ fn marker(method: Method, class: &str, x: f64, y: f64) -> String {
             format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>\n")
         }
         Method::MergedTape => polygon(&[(-6.0, -2.0), (6.0, -2.0), (6.0, 2.0), (-6.0, 2.0)]),
-        Method::NumDual => polygon(&[(-4.5, -4.5), (4.5, -4.5), (4.5, 4.5), (-4.5, 4.5)]),
         Method::NumDualByHand => polygon(&[(0.0, -6.0), (6.0, 0.0), (0.0, 6.0), (-6.0, 0.0)]),
         Method::NumDualClosedForm => polygon(&[(0.0, -6.0), (3.0, 0.0), (0.0, 6.0), (-3.0, 0.0)]),
         Method::ComplexStep => polygon(&[(0.0, -5.5), (5.5, 4.5), (-5.5, 4.5)]),

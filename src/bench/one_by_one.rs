@@ -1,9 +1,6 @@
-//! num-dual at f64, one state at a time: by the definitions that the tape records, or by hand.
+//! A function written by hand, one state at a time.
 
 use super::candidate::{Block, Candidate};
-use crate::case::{Case, Claim};
-use crate::mechanics::Phase;
-use crate::mechanics::calculus::Jet;
 use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
@@ -36,16 +33,5 @@ impl<F: Fn(&[f64]) -> f64> Candidate for OneByOne<F> {
 
     fn value(&self, lane: usize) -> Option<Approximation> {
         Approximation::from_f64(self.results[lane])
-    }
-}
-
-/// The residual of a claim by its own definition, over num-dual's numbers at f64.
-pub fn by_definition<'c>(case: &'c Case, claim: &'c Claim) -> impl Fn(&[f64]) -> f64 + 'c {
-    let free = case.model.free_components();
-    let end = free + case.model.dimension();
-    move |inputs| {
-        let jet = Jet::new(Phase::new(&case.model, &inputs[..free], &inputs[free..end]));
-        let residual = claim.kind.residual(&jet, &claim.place.kept);
-        residual.first().copied().unwrap_or(f64::NAN)
     }
 }
