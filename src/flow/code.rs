@@ -35,6 +35,14 @@ pub(super) fn part_mut<X>(list: &mut [X], part: Part) -> &mut [X] {
     &mut list[part.0 as usize..part.1 as usize]
 }
 
+/// The first entries of a list, which goes on with the others.
+#[inline(always)]
+pub(super) fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
+    let (first, others) = list.split_at(count as usize);
+    *list = others;
+    first
+}
+
 /// A program bound to places.
 pub(super) struct Code<T> {
     pub(super) operations: Vec<Operation<T>>,

@@ -1,9 +1,10 @@
 //! One expansion: the coefficients of all rows, order by order, in two phases each.
 //!
 //! The inner sums of all products need lower orders only, and are made first, as dot products; then
-//! each row is finished in turn, from the same order of the rows before it.
+//! each row is finished in turn, from the same order of the rows before it. Where many expansions are asked for,
+//! machine code does the same.
 
-use super::code::{Bound, Code, Copied, Order, Place, part, part_mut};
+use super::code::{Bound, Code, Copied, Order, Place, first, part, part_mut};
 use super::number::{BLOCK, Number};
 use super::series::Series;
 use crate::graph::Work;
@@ -20,6 +21,9 @@ impl<T: Number> Work for Expansion<'_, T> {
         series.code.slopes(&series.memory);
         series.inner.fill(T::ZERO);
         series.next_order(0);
+        if T::by_machine(series) {
+            return;
+        }
         for n in 1..series.order {
             if n >= 2 {
                 series.inner_sums(n);
@@ -132,14 +136,6 @@ impl<T: Number> Series<T> {
             rows.put(finish.place, &[], value);
         }
     }
-}
-
-/// The first entries of a list, which goes on with the others.
-#[inline(always)]
-fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
-    let (first, others) = list.split_at(count as usize);
-    *list = others;
-    first
 }
 
 /// Rows at one order.

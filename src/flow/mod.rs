@@ -18,6 +18,7 @@ mod event;
 mod expand;
 mod form;
 mod lyapunov;
+mod machine;
 mod merge;
 mod motion;
 mod number;

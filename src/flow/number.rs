@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
+use super::series::Series;
 use crate::number::float::Float;
 use crate::number::pair::{Pair, two_product, two_sum};
 use crate::number::rational::Rational;
@@ -63,6 +64,12 @@ pub trait Number:
     fn power(self, exponent: &Rational) -> Self;
     /// Adds an increment to a compensated sum hi + lo.
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
+
+    /// All orders above 0 of an expansion by machine code; no where there is none for such numbers.
+    #[inline(always)]
+    fn by_machine(_: &mut Series<Self>) -> bool {
+        false
+    }
 
     /// No products yet.
     fn nothing() -> Self::Partial;
@@ -149,6 +156,10 @@ impl Number for f64 {
     #[inline(always)]
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
         (*hi, *lo) = two_sum(*hi, *lo + increment);
+    }
+    #[inline(always)]
+    fn by_machine(series: &mut Series<f64>) -> bool {
+        series.by_machine()
     }
     #[inline(always)]
     fn nothing() -> Lanes<WIDTH> {

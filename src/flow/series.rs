@@ -2,6 +2,7 @@
 
 use super::code::{Code, LINE};
 use super::expand::Expansion;
+use super::machine::Machine;
 use super::number::{BLOCK, Number};
 use super::program::Program;
 use crate::graph::with_widest_vectors;
@@ -20,6 +21,9 @@ pub struct Series<T: Number> {
     pub(super) partial: Vec<T::Partial>,
     pub(super) inner: Vec<T>,
     pub(super) memory: Vec<T>,
+    /// How many expansions there were, up to where machine code pays.
+    pub(super) expansions: u32,
+    pub(super) machine: Option<Machine>,
 }
 
 impl<T: Number> Series<T> {
@@ -41,6 +45,8 @@ impl<T: Number> Series<T> {
             partial: vec![T::nothing(); sums],
             inner: vec![T::ZERO; sums],
             memory,
+            expansions: 0,
+            machine: None,
         }
     }
 
@@ -61,7 +67,28 @@ impl<T: Number> Series<T> {
     pub fn clear(&mut self) {
         self.memory.fill(T::ZERO);
     }
+}
 
+/// So many expansions take as long as making machine code.
+const MANY: u32 = 32;
+
+impl Series<f64> {
+    /// Orders above 0 by machine code; no where there is none.
+    #[inline(always)]
+    pub(super) fn by_machine(&mut self) -> bool {
+        if self.expansions < MANY {
+            self.expansions += 1;
+            if self.expansions == MANY {
+                self.machine = Machine::new(&self.code, self.order);
+            }
+        }
+        let Some(machine) = &mut self.machine else { return false };
+        machine.run(&self.code, &self.inverses, &mut self.memory);
+        true
+    }
+}
+
+impl<T: Number> Series<T> {
     /// The coefficients of a component of the state, orders 0 to `order`.
     #[inline(always)]
     pub fn component(&self, index: usize) -> &[T] {

@@ -1,0 +1,69 @@
+//! Machine code in memory that is written first and executed then, never both.
+
+#![allow(
+    unsafe_code,
+    reason = "generated instructions are called; measured in docs/performance.md"
+)]
+
+use memmap2::{Mmap, MmapMut};
+
+use super::encode::Assembler;
+
+/// Rows, copies, constants, sums.
+#[cfg(target_arch = "x86_64")]
+type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *const f64, *mut f64);
+
+/// Never called: there is no code for other processors.
+#[cfg(not(target_arch = "x86_64"))]
+type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *const f64, *mut f64);
+
+/// A function that can be called.
+pub(super) struct Executable {
+    memory: Mmap,
+    touched: [(i32, i32); 4],
+}
+
+/// What a function is given.
+pub(super) struct Given<'m> {
+    /// Rows and copies, and where the bases point to in it.
+    pub(super) memory: &'m mut [f64],
+    pub(super) rows: usize,
+    pub(super) copies: usize,
+    pub(super) constants: &'m [f64],
+    pub(super) sums: &'m mut [f64],
+}
+
+impl Executable {
+    /// `None` where the system refuses the memory. The processor is to have the instructions.
+    pub(super) fn new(assembler: &Assembler) -> Option<Self> {
+        if cfg!(not(target_arch = "x86_64")) {
+            return None;
+        }
+        let mut memory = MmapMut::map_anon(assembler.bytes.len()).ok()?;
+        memory.copy_from_slice(&assembler.bytes);
+        Some(Self { memory: memory.make_exec().ok()?, touched: assembler.touched })
+    }
+
+    /// Calls the function. Panics where it would touch what it is not given.
+    pub(super) fn call(&self, given: Given<'_>) {
+        let Given { memory, rows, copies, constants, sums } = given;
+        let within = |(least, most): (i32, i32), base: usize, length: usize| {
+            let (base, length) = (base as i64, length as i64);
+            base <= length && base + i64::from(least) >= 0 && base + i64::from(most) <= length
+        };
+        let [of_rows, of_copies, of_constants, of_sums] = self.touched;
+        let enough = within(of_rows, rows, memory.len())
+            && within(of_copies, copies, memory.len())
+            && within(of_constants, 0, constants.len())
+            && within(of_sums, 0, sums.len());
+        assert!(enough, "machine code needs {:?}", self.touched);
+        // SAFETY: the bytes are made by the assembler alone, as a function of this type that has no jumps
+        // and touches no more than is said, which is within what is given; constants it only reads.
+        // It is made only where the processor has its instructions.
+        unsafe {
+            let entry: Entry = std::mem::transmute(self.memory.as_ptr());
+            let all = memory.as_mut_ptr();
+            entry(all.add(rows), all.add(copies), constants.as_ptr(), sums.as_mut_ptr());
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! The few x86-64 instructions that an expansion needs, as bytes.
+//!
+//! Operands in memory are a base register and a distance in f64; encodings are those of the Intel SDM,
+//! vol. 2A, 2.3 (VEX) and 2.7 (EVEX). The tests read everything back with a disassembler.
+
+/// A register, by its number; vectors use the same sixteen.
+pub(super) type Register = u8;
+
+/// What a base register points to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Base {
+    /// The rows, at an order: rdi.
+    Rows,
+    /// The copies, at an order: rsi.
+    Copies,
+    /// Slopes, scales and weights: rdx.
+    Constants,
+    /// Inner sums, or their parts: rcx.
+    Sums,
+}
+
+/// A number in memory, or the first of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct At(pub(super) Base, pub(super) i32);
+
+/// How many numbers an instruction treats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Width {
+    One,
+    /// AVX2 and FMA.
+    Four,
+    /// AVX-512F.
+    Eight,
+}
+
+impl Width {
+    pub(super) fn numbers(self) -> usize {
+        match self {
+            Width::One => 1,
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
+}
+
+/// Maps of opcodes, and prefixes in compressed form.
+const MAP_0F: u8 = 1;
+const MAP_0F38: u8 = 2;
+const PACKED: u8 = 1;
+const SCALAR: u8 = 3;
+
+/// Instructions one after the other, and what they touch.
+#[derive(Debug, Default)]
+pub(super) struct Assembler {
+    pub(super) bytes: Vec<u8>,
+    /// The least and the largest distance from each base, the latter exclusive.
+    pub(super) touched: [(i32, i32); 4],
+}
+
+impl Assembler {
+    /// register = 0, in all lanes
+    pub(super) fn zero(&mut self, register: Register) {
+        // vxorpd of 128 bits clears what is above them.
+        let high = (register >> 3 ^ 1) & 1;
+        let first = high << 7 | 1 << 6 | high << 5 | MAP_0F;
+        let low = register & 7;
+        let fields = 0b11 << 6 | low << 3 | low;
+        self.bytes.extend([0xc4, first, (!register & 15) << 3 | PACKED, 0x57, fields]);
+    }
+
+    /// register = numbers
+    pub(super) fn load(&mut self, width: Width, register: Register, from: At) {
+        self.plain(width, 0x10, register, 0, from);
+    }
+
+    /// numbers = register
+    pub(super) fn store(&mut self, width: Width, register: Register, to: At) {
+        self.plain(width, 0x11, register, 0, to);
+    }
+
+    /// register = x · y, one number
+    pub(super) fn multiply(&mut self, register: Register, x: Register, y: At) {
+        self.plain(Width::One, 0x59, register, x, y);
+    }
+
+    /// register = register + x · y, rounded once
+    pub(super) fn fused(&mut self, width: Width, register: Register, x: Register, y: At) {
+        let opcode = if width == Width::One { 0xb9 } else { 0xb8 };
+        self.instruction(width, MAP_0F38, PACKED, 1, [opcode, register, x], y);
+    }
+
+    /// The end of a function.
+    pub(super) fn end(&mut self) {
+        // vzeroupper; ret
+        self.bytes.extend([0xc5, 0xf8, 0x77, 0xc3]);
+    }
+
+    fn plain(&mut self, width: Width, opcode: u8, register: Register, x: Register, at: At) {
+        let prefix = if width == Width::One { SCALAR } else { PACKED };
+        let wide = u8::from(width == Width::Eight);
+        self.instruction(width, MAP_0F, prefix, wide, [opcode, register, x], at);
+    }
+
+    fn instruction(
+        &mut self,
+        width: Width,
+        map: u8,
+        prefix: u8,
+        wide: u8,
+        [opcode, register, x]: [u8; 3],
+        At(base, distance): At,
+    ) {
+        // Bits of registers in prefixes are inverted; bases are below 8.
+        let first = ((register >> 3 ^ 1) & 1) << 7 | 0b11 << 5 | map;
+        let second = wide << 7 | (!x & 15) << 3 | prefix;
+        match width {
+            Width::Eight => self.bytes.extend([0x62, first | 1 << 4, second | 1 << 2, 0b0100_1000]),
+            Width::Four => self.bytes.extend([0xc4, first, second | 1 << 2]),
+            Width::One => self.bytes.extend([0xc4, first, second]),
+        }
+        let number = match base {
+            Base::Rows => 7,
+            Base::Copies => 6,
+            Base::Constants => 2,
+            Base::Sums => 1,
+        };
+        self.bytes.extend([opcode, 0b10 << 6 | (register & 7) << 3 | number]);
+        self.bytes.extend((8 * distance).to_le_bytes());
+        let (least, most) = &mut self.touched[base as usize];
+        *least = (*least).min(distance);
+        *most = (*most).max(distance + width.numbers() as i32);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register as Iced};
+
+    use super::*;
+
+    const BASES: [(Base, Iced); 4] = [
+        (Base::Rows, Iced::RDI),
+        (Base::Copies, Iced::RSI),
+        (Base::Constants, Iced::RDX),
+        (Base::Sums, Iced::RCX),
+    ];
+
+    /// The only instruction that `emit` writes.
+    fn one(emit: impl FnOnce(&mut Assembler)) -> Instruction {
+        let mut assembler = Assembler::default();
+        emit(&mut assembler);
+        let mut decoder = Decoder::with_ip(64, &assembler.bytes, 0, DecoderOptions::NONE);
+        let found = decoder.decode();
+        assert!(!found.is_invalid(), "{:02x?}", assembler.bytes);
+        assert_eq!(found.len(), assembler.bytes.len(), "one: {:02x?}", assembler.bytes);
+        found
+    }
+
+    fn named(width: Width, register: Register) -> Iced {
+        let first = match width {
+            Width::One => Iced::XMM0,
+            Width::Four => Iced::YMM0,
+            Width::Eight => Iced::ZMM0,
+        };
+        first + u32::from(register)
+    }
+
+    #[test]
+    fn a_disassembler_reads_what_was_meant() {
+        for (base, pointer) in BASES {
+            for distance in [-9, -1, 0, 1, 8, 15, 16, 1000, 1 << 20] {
+                for register in 0..16 {
+                    let x = (register * 7 + 5) % 16;
+                    let at = At(base, distance);
+                    let assert_memory = |found: &Instruction, operand| {
+                        assert_eq!(found.op_kind(operand), OpKind::Memory, "{found}");
+                        assert_eq!(found.memory_base(), pointer, "{found}");
+                        assert_eq!(found.memory_index(), Iced::None, "{found}");
+                        let bytes = found.memory_displacement64() as i64;
+                        assert_eq!(bytes, 8 * i64::from(distance), "{found}");
+                        assert!(!found.is_broadcast(), "{found}");
+                        assert_eq!(found.op_mask(), Iced::None, "{found}");
+                    };
+                    for width in [Width::One, Width::Four, Width::Eight] {
+                        let is_one = width == Width::One;
+                        let moves = if is_one { Mnemonic::Vmovsd } else { Mnemonic::Vmovupd };
+                        let found = one(|to| to.load(width, register, at));
+                        assert_eq!(found.mnemonic(), moves, "load");
+                        assert_eq!(found.op_register(0), named(width, register), "{found}");
+                        assert_memory(&found, 1);
+                        let found = one(|to| to.store(width, register, at));
+                        assert_eq!(found.mnemonic(), moves, "store");
+                        assert_eq!(found.op_register(1), named(width, register), "{found}");
+                        assert_memory(&found, 0);
+                        let found = one(|to| to.fused(width, register, x, at));
+                        let fused =
+                            if is_one { Mnemonic::Vfmadd231sd } else { Mnemonic::Vfmadd231pd };
+                        assert_eq!(found.mnemonic(), fused, "fused");
+                        assert_eq!(found.op_register(0), named(width, register), "{found}");
+                        assert_eq!(found.op_register(1), named(width, x), "{found}");
+                        assert_memory(&found, 2);
+                    }
+                    let found = one(|to| to.multiply(register, x, at));
+                    assert_eq!(found.mnemonic(), Mnemonic::Vmulsd, "multiply");
+                    assert_eq!(found.op_register(0), named(Width::One, register), "{found}");
+                    assert_eq!(found.op_register(1), named(Width::One, x), "{found}");
+                    assert_memory(&found, 2);
+                    let found = one(|to| to.zero(register));
+                    assert_eq!(found.mnemonic(), Mnemonic::Vxorpd, "zero");
+                    for operand in 0..3 {
+                        assert_eq!(
+                            found.op_register(operand),
+                            named(Width::One, register),
+                            "{found}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_touched_is_known() {
+        let mut assembler = Assembler::default();
+        assembler.load(Width::Eight, 1, At(Base::Rows, 5));
+        assembler.store(Width::One, 1, At(Base::Copies, -1));
+        assembler.fused(Width::Four, 2, 1, At(Base::Sums, 8));
+        assert_eq!(assembler.touched, [(0, 13), (-1, 0), (0, 0), (0, 12)], "to the last number");
+    }
+}

@@ -1,0 +1,89 @@
+//! Machine code for the orders above 0 of a program over f64.
+//!
+//! An interpreter of programs spends most of its time on where things stand. Here places are part of the
+//! instructions, and what has just been computed stays in registers. The same sums are made in the same
+//! order, so that the bits are those of the interpreter.
+
+mod call;
+mod emit;
+mod encode;
+
+use super::code::{Code, LINE};
+use super::number::{BLOCK, Lanes, Number};
+use crate::graph::{Vectors, widest};
+use call::{Executable, Given};
+use emit::Constants;
+use encode::Width;
+
+/// The functions of a program, and what they need beside its memory.
+pub(super) struct Machine {
+    order: usize,
+    orders: usize,
+    /// By how many vectors along the order they take, less one.
+    inner_sums: Vec<Executable>,
+    finish: Executable,
+    constants: Constants,
+    /// Inner sums, before and after their parts are added up.
+    partial: Vec<f64>,
+    aligned: usize,
+    inner: Vec<f64>,
+}
+
+impl Machine {
+    /// Machine code for a program, if there can be any.
+    pub(super) fn new(code: &Code<f64>, order: usize) -> Option<Self> {
+        let width = match widest() {
+            Vectors::Avx512 => Width::Eight,
+            Vectors::Avx2 => Width::Four,
+            Vectors::Baseline => return None,
+        };
+        let constants = Constants::new(code);
+        let lengths = 1..=order.div_ceil(BLOCK);
+        let inner_sums = lengths.map(|n| Executable::new(&emit::inner_sums(code, width, n)));
+        let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
+        let partial = vec![0.0; (sums + 1) * BLOCK];
+        Some(Self {
+            order,
+            orders: order.next_multiple_of(BLOCK),
+            inner_sums: inner_sums.collect::<Option<_>>()?,
+            finish: Executable::new(&emit::finish(code, &constants))?,
+            constants,
+            aligned: partial.as_ptr().align_offset(LINE).min(BLOCK),
+            partial,
+            inner: vec![0.0; sums],
+        })
+    }
+
+    /// Orders 1 to `order` - 1 of all rows, and to `order` of the state, from orders 0 and 1 of the state
+    /// and the slopes.
+    #[inline(always)]
+    pub(super) fn run(&mut self, code: &Code<f64>, inverses: &[f64], memory: &mut [f64]) {
+        self.constants.take(code);
+        self.inner.fill(0.0);
+        for n in 1..self.order {
+            let copies = |n: usize| f64::copied(self.orders, n);
+            if n >= 2 {
+                self.inner_sums[(n - 2) / BLOCK].call(Given {
+                    memory,
+                    rows: 0,
+                    copies: copies(n - 1),
+                    constants: &[],
+                    sums: &mut self.partial[self.aligned..],
+                });
+                let (totals, _) = self.inner.as_chunks_mut::<BLOCK>();
+                let (parts, _) = self.partial[self.aligned..].as_chunks::<BLOCK>();
+                for (totals, parts) in totals.iter_mut().zip(parts.as_chunks::<BLOCK>().0) {
+                    f64::totals(&parts.map(Lanes), totals);
+                }
+            }
+            self.constants.at_order(code, n, inverses);
+            self.finish.call(Given {
+                memory,
+                rows: n,
+                copies: copies(n),
+                constants: &self.constants.list,
+                sums: &mut self.inner,
+            });
+        }
+    }
+}
