@@ -1,8 +1,8 @@
 //! From bound operations to instructions.
 
-use super::super::code::{Code, Order, Place, first};
+use super::super::code::{Code, Order, Place, Product, first};
 use super::super::number::BLOCK;
-use super::encode::{Assembler, At, Base, Register, Width};
+use super::encode::{Assembler, At, Base, Pairs, Register, Width};
 
 /// Registers 0 and 1 are for what is used at once; the others keep the last rows in turn.
 const KEPT: std::ops::Range<usize> = 2..16;
@@ -42,30 +42,84 @@ impl Constants {
     }
 }
 
-/// The inner sums, in parts, of so many vectors along the order. The rows are given at order 0, the copies at
-/// the last order that there is.
+/// The inner sums along so many vectors. The rows are given at order 0, the copies at the last order
+/// that there is.
 pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Assembler {
     let mut to = Assembler::default();
-    let pieces = BLOCK / width.numbers();
     let mut products = code.products.as_slice();
-    for (index, count) in code.counts.iter().enumerate() {
-        let own = first(&mut products, *count);
-        for piece in 0..pieces {
-            let (sum, x) = ((2 * piece) as Register, (2 * piece + 1) as Register);
-            let within = (piece * width.numbers()) as i32;
-            to.zero(sum);
-            for product in own {
-                for vector in 0..vectors {
-                    let along = (vector * BLOCK) as i32 + within;
-                    to.load(width, x, At(Base::Rows, product.x as i32 + 1 + along));
-                    to.fused(width, sum, x, At(Base::Copies, product.cy as i32 + along));
-                }
-            }
-            to.store(width, sum, At(Base::Sums, (index * BLOCK) as i32 + within));
+    for (block, counts) in code.counts.chunks(BLOCK).enumerate() {
+        for (lane, count) in counts.iter().enumerate() {
+            let own = first(&mut products, *count);
+            inner_sum(&mut to, width, own, vectors, lane as Register);
         }
+        (counts.len()..BLOCK).for_each(|lane| to.zero(lane as Register));
+        totals(&mut to, width, (block * BLOCK) as i32);
     }
     to.end();
     to
+}
+
+/// The products of one operation added up, in the lanes of a register; of four lanes, halves of eight are added.
+fn inner_sum(
+    to: &mut Assembler,
+    width: Width,
+    products: &[Product],
+    vectors: usize,
+    register: Register,
+) {
+    const X: Register = 8;
+    const UPPER: Register = 9;
+    for (sum, within) in [(register, 0), (UPPER, 4)] {
+        if within > 0 && width == Width::Eight {
+            break;
+        }
+        to.zero(sum);
+        for product in products {
+            for vector in 0..vectors {
+                let along = (vector * BLOCK) as i32 + within;
+                to.load(width, X, At(Base::Rows, product.x as i32 + 1 + along));
+                to.fused(width, sum, X, At(Base::Copies, product.cy as i32 + along));
+            }
+        }
+    }
+    if width == Width::Four {
+        to.add(width, register, register, UPPER);
+    }
+}
+
+/// The lanes of registers 0 to 7 added up, as the interpreter does: ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)).
+fn totals(to: &mut Assembler, width: Width, at: i32) {
+    const X: Register = 8;
+    const Y: Register = 9;
+    let mut folded = |first: Pairs, second: Pairs, [out, a, b]: [Register; 3]| {
+        to.pairs(width, first, [X, a, b]);
+        to.pairs(width, second, [Y, a, b]);
+        to.add(width, out, X, Y);
+    };
+    let mut mixed = Vec::new();
+    match width {
+        Width::Eight => {
+            for [a, b] in [[0, 2], [4, 6], [1, 3], [5, 7]] {
+                folded(Pairs::Lower, Pairs::Upper, [a, a, b]);
+            }
+            for [a, b] in [[0, 4], [1, 5]] {
+                folded(Pairs::Even, Pairs::Odd, [a, a, b]);
+            }
+            mixed.push([0, 1]);
+        }
+        _ => {
+            for [a, b] in [[0, 2], [1, 3], [4, 6], [5, 7]] {
+                folded(Pairs::Even, Pairs::Odd, [a, a, b]);
+            }
+            mixed.extend([[0, 1], [4, 5]]);
+        }
+    }
+    for (index, [a, b]) in mixed.into_iter().enumerate() {
+        to.mix(width, false, [X, a, b]);
+        to.mix(width, true, [Y, a, b]);
+        to.add(width, X, X, Y);
+        to.store(width, X, At(Base::Sums, at + (index * width.numbers()) as i32));
+    }
 }
 
 /// Order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are given at order n.

@@ -43,9 +43,23 @@ impl Width {
     }
 }
 
+/// Which pairs of neighbours among four or eight numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pairs {
+    /// The first half.
+    Lower,
+    /// The second half.
+    Upper,
+    /// The first, the third.
+    Even,
+    /// The second, the fourth.
+    Odd,
+}
+
 /// Maps of opcodes, and prefixes in compressed form.
 const MAP_0F: u8 = 1;
 const MAP_0F38: u8 = 2;
+const MAP_0F3A: u8 = 3;
 const PACKED: u8 = 1;
 const SCALAR: u8 = 3;
 
@@ -89,6 +103,31 @@ impl Assembler {
         self.instruction(width, MAP_0F38, PACKED, 1, [opcode, register, x], y);
     }
 
+    /// register = x + y of vectors
+    pub(super) fn add(&mut self, width: Width, register: Register, x: Register, y: Register) {
+        self.between(width, MAP_0F, [0x58, register, x, y]);
+    }
+
+    /// Even and odd numbers of x and y in turn: x₀ y₀ x₂ y₂ … or x₁ y₁ x₃ y₃ …
+    pub(super) fn mix(&mut self, width: Width, odd: bool, [register, x, y]: [Register; 3]) {
+        self.between(width, MAP_0F, [0x14 + u8::from(odd), register, x, y]);
+    }
+
+    /// Pairs of x, then pairs of y: of four numbers the first or the second pair of each, of eight the two
+    /// that are meant.
+    pub(super) fn pairs(&mut self, width: Width, which: Pairs, [register, x, y]: [Register; 3]) {
+        let (opcode, choice) = match (width, which) {
+            (Width::Eight, Pairs::Lower) => (0x23, 0x44),
+            (Width::Eight, Pairs::Upper) => (0x23, 0xee),
+            (Width::Eight, Pairs::Even) => (0x23, 0x88),
+            (Width::Eight, Pairs::Odd) => (0x23, 0xdd),
+            (_, Pairs::Lower | Pairs::Even) => (0x06, 0x20),
+            (_, Pairs::Upper | Pairs::Odd) => (0x06, 0x31),
+        };
+        self.between(width, MAP_0F3A, [opcode, register, x, y]);
+        self.bytes.push(choice);
+    }
+
     /// The end of a function.
     pub(super) fn end(&mut self) {
         // vzeroupper; ret
@@ -99,6 +138,18 @@ impl Assembler {
         let prefix = if width == Width::One { SCALAR } else { PACKED };
         let wide = u8::from(width == Width::Eight);
         self.instruction(width, MAP_0F, prefix, wide, [opcode, register, x], at);
+    }
+
+    /// An instruction of vectors without memory.
+    fn between(&mut self, width: Width, map: u8, [opcode, register, x, y]: [u8; 4]) {
+        let not = |register: Register| (register >> 3 ^ 1) & 1;
+        let first = not(register) << 7 | 1 << 6 | not(y) << 5 | map;
+        let second = (!x & 15) << 3 | 1 << 2 | PACKED;
+        match width {
+            Width::Eight => self.bytes.extend([0x62, first | 1 << 4, 1 << 7 | second, 0b0100_1000]),
+            _ => self.bytes.extend([0xc4, first, second]),
+        }
+        self.bytes.extend([opcode, 0b11 << 6 | (register & 7) << 3 | y & 7]);
     }
 
     fn instruction(
@@ -214,6 +265,40 @@ mod tests {
                             "{found}"
                         );
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_disassembler_reads_what_is_done_between_registers() {
+        for width in [Width::Four, Width::Eight] {
+            for register in 0..16 {
+                let [x, y] = [(register * 7 + 5) % 16, (register * 3 + 11) % 16];
+                let assert_three = |found: &Instruction, mnemonic| {
+                    assert_eq!(found.mnemonic(), mnemonic, "{found}");
+                    for (operand, own) in [register, x, y].into_iter().enumerate() {
+                        let own = named(width, own);
+                        assert_eq!(found.op_register(operand as u32), own, "{found}");
+                    }
+                    assert_eq!(found.op_mask(), Iced::None, "{found}");
+                };
+                assert_three(&one(|to| to.add(width, register, x, y)), Mnemonic::Vaddpd);
+                let mixed = |odd| one(|to| to.mix(width, odd, [register, x, y]));
+                assert_three(&mixed(false), Mnemonic::Vunpcklpd);
+                assert_three(&mixed(true), Mnemonic::Vunpckhpd);
+                let pairs = [Pairs::Lower, Pairs::Upper, Pairs::Even, Pairs::Odd];
+                let choices = match width {
+                    Width::Eight => [0x44, 0xee, 0x88, 0xdd],
+                    _ => [0x20, 0x31, 0x20, 0x31],
+                };
+                for (which, choice) in pairs.into_iter().zip(choices) {
+                    let found = one(|to| to.pairs(width, which, [register, x, y]));
+                    let is_eight = width == Width::Eight;
+                    let shuffle =
+                        if is_eight { Mnemonic::Vshuff64x2 } else { Mnemonic::Vperm2f128 };
+                    assert_three(&found, shuffle);
+                    assert_eq!(found.immediate(3), choice, "{found}");
                 }
             }
         }

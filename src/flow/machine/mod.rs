@@ -8,8 +8,8 @@ mod call;
 mod emit;
 mod encode;
 
-use super::code::{Code, LINE};
-use super::number::{BLOCK, Lanes, Number};
+use super::code::Code;
+use super::number::{BLOCK, Number};
 use crate::graph::{Vectors, widest};
 use call::{Executable, Given};
 use emit::Constants;
@@ -23,9 +23,7 @@ pub(super) struct Machine {
     inner_sums: Vec<Executable>,
     finish: Executable,
     constants: Constants,
-    /// Inner sums, before and after their parts are added up.
-    partial: Vec<f64>,
-    aligned: usize,
+    /// The inner sums.
     inner: Vec<f64>,
 }
 
@@ -41,15 +39,12 @@ impl Machine {
         let lengths = 1..=order.div_ceil(BLOCK);
         let inner_sums = lengths.map(|n| Executable::new(&emit::inner_sums(code, width, n)));
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
-        let partial = vec![0.0; (sums + 1) * BLOCK];
         Some(Self {
             order,
             orders: order.next_multiple_of(BLOCK),
             inner_sums: inner_sums.collect::<Option<_>>()?,
             finish: Executable::new(&emit::finish(code, &constants))?,
             constants,
-            aligned: partial.as_ptr().align_offset(LINE).min(BLOCK),
-            partial,
             inner: vec![0.0; sums],
         })
     }
@@ -68,13 +63,8 @@ impl Machine {
                     rows: 0,
                     copies: copies(n - 1),
                     constants: &[],
-                    sums: &mut self.partial[self.aligned..],
+                    sums: &mut self.inner,
                 });
-                let (totals, _) = self.inner.as_chunks_mut::<BLOCK>();
-                let (parts, _) = self.partial[self.aligned..].as_chunks::<BLOCK>();
-                for (totals, parts) in totals.iter_mut().zip(parts.as_chunks::<BLOCK>().0) {
-                    f64::totals(&parts.map(Lanes), totals);
-                }
             }
             self.constants.at_order(code, n, inverses);
             self.finish.call(Given {
