@@ -17,13 +17,11 @@ impl<T: Number> Work for Expansion<'_, T> {
     #[inline(always)]
     fn run(self) {
         let series = self.0;
-        series.values();
-        series.code.slopes(&series.memory);
-        series.inner.fill(T::ZERO);
-        series.next_order(0);
         if T::by_machine(series) {
             return;
         }
+        series.begin();
+        series.inner.fill(T::ZERO);
         for n in 1..series.order {
             if n >= 2 {
                 series.inner_sums(n);
@@ -35,6 +33,14 @@ impl<T: Number> Work for Expansion<'_, T> {
 }
 
 impl<T: Number> Series<T> {
+    /// Order 0 of all rows and order 1 of the state, with the slopes.
+    #[inline(always)]
+    pub(super) fn begin(&mut self) {
+        self.values();
+        self.code.slopes(&self.memory);
+        self.next_order(0);
+    }
+
     /// Σ c x_k y_{n-k} from k = 1 to n - 1 for each operation; lower orders only.
     #[inline(always)]
     fn inner_sums(&mut self, n: usize) {

@@ -65,7 +65,7 @@ pub trait Number:
     /// Adds an increment to a compensated sum hi + lo.
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
 
-    /// All orders above 0 of an expansion by machine code; no where there is none for such numbers.
+    /// All orders of an expansion by machine code; no where there is none for such numbers.
     #[inline(always)]
     fn by_machine(_: &mut Series<Self>) -> bool {
         false

@@ -23,7 +23,7 @@ pub struct Series<T: Number> {
     pub(super) memory: Vec<T>,
     /// How many expansions there were, up to where machine code pays.
     pub(super) expansions: u32,
-    pub(super) machine: Option<Machine>,
+    pub(super) machine: Option<Box<Machine>>,
 }
 
 impl<T: Number> Series<T> {
@@ -73,17 +73,22 @@ impl<T: Number> Series<T> {
 const MANY: u32 = 32;
 
 impl Series<f64> {
-    /// Orders above 0 by machine code; no where there is none.
+    /// All orders by machine code; no where there is none.
     #[inline(always)]
     pub(super) fn by_machine(&mut self) -> bool {
         if self.expansions < MANY {
             self.expansions += 1;
             if self.expansions == MANY {
-                self.machine = Machine::new(&self.code, self.order);
+                self.machine = Machine::new(&self.code, self.order).map(Box::new);
             }
         }
-        let Some(machine) = &mut self.machine else { return false };
+        let Some(mut machine) = self.machine.take() else { return false };
+        if !machine.begin(&self.inverses, &mut self.memory) {
+            self.begin();
+            machine.take(&self.code);
+        }
         machine.run(&self.code, &self.inverses, &mut self.memory);
+        self.machine = Some(machine);
         true
     }
 }

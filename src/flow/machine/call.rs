@@ -11,11 +11,11 @@ use super::encode::Assembler;
 
 /// Rows, copies, constants, sums.
 #[cfg(target_arch = "x86_64")]
-type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *const f64, *mut f64);
+type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 
 /// Never called: there is no code for other processors.
 #[cfg(not(target_arch = "x86_64"))]
-type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *const f64, *mut f64);
+type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 
 /// A function that can be called.
 pub(super) struct Executable {
@@ -29,7 +29,7 @@ pub(super) struct Given<'m> {
     pub(super) memory: &'m mut [f64],
     pub(super) rows: usize,
     pub(super) copies: usize,
-    pub(super) constants: &'m [f64],
+    pub(super) constants: &'m mut [f64],
     pub(super) sums: &'m mut [f64],
 }
 
@@ -58,12 +58,12 @@ impl Executable {
             && within(of_sums, 0, sums.len());
         assert!(enough, "machine code needs {:?}", self.touched);
         // SAFETY: the bytes are made by the assembler alone, as a function of this type that has no jumps
-        // and touches no more than is said, which is within what is given; constants it only reads.
+        // and touches no more than is said, which is within what is given.
         // It is made only where the processor has its instructions.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
             let all = memory.as_mut_ptr();
-            entry(all.add(rows), all.add(copies), constants.as_ptr(), sums.as_mut_ptr());
+            entry(all.add(rows), all.add(copies), constants.as_mut_ptr(), sums.as_mut_ptr());
         }
     }
 }

@@ -2,46 +2,11 @@
 
 use super::super::code::{Code, Order, Place, Product, first};
 use super::super::number::BLOCK;
+use super::constants::Constants;
 use super::encode::{Assembler, At, Base, Pairs, Register, Width};
 
 /// Registers 0 and 1 are for what is used at once; the others keep the last rows in turn.
 const KEPT: std::ops::Range<usize> = 2..16;
-/// Where constants begin: 1/n and 1/(n + 1) are before the scales.
-const BY_N: i32 = 0;
-const BY_NEXT: i32 = 1;
-const SCALES: usize = 2;
-
-/// The numbers that instructions read beside the rows: 1/n, 1/(n + 1), a scale for each operation, a slope for
-/// each term, a weight for each copy.
-pub(super) struct Constants {
-    pub(super) list: Vec<f64>,
-    slopes: usize,
-}
-
-impl Constants {
-    pub(super) fn new(code: &Code<f64>) -> Self {
-        let slopes = SCALES + code.finishes.len();
-        let mut list = vec![0.0; slopes + code.terms.len()];
-        list.extend(code.copies.iter().map(|copy| copy.weight));
-        Self { list, slopes }
-    }
-
-    /// Takes the scales and slopes of an expansion.
-    pub(super) fn take(&mut self, code: &Code<f64>) {
-        let (scales, slopes) = self.list[SCALES..].split_at_mut(self.slopes - SCALES);
-        scales.iter_mut().zip(&code.finishes).for_each(|(own, finish)| *own = finish.scale);
-        slopes.iter_mut().zip(&code.terms).for_each(|(own, term)| *own = term.slope);
-    }
-
-    /// Takes what depends on the order.
-    pub(super) fn at_order(&mut self, code: &Code<f64>, n: usize, inverses: &[f64]) {
-        (self.list[BY_N as usize], self.list[BY_NEXT as usize]) = (inverses[n], inverses[n + 1]);
-        for theta in &code.thetas {
-            self.list[self.slopes + *theta as usize] = n as f64;
-        }
-    }
-}
-
 /// The inner sums along so many vectors. The rows are given at order 0, the copies at the last order
 /// that there is.
 pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Assembler {
@@ -125,70 +90,77 @@ fn totals(to: &mut Assembler, width: Width, at: i32) {
 /// Order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are given at order n.
 pub(super) fn finish(code: &Code<f64>, constants: &Constants) -> Assembler {
     let mut to = Assembler::default();
-    let mut kept = Kept { rows: [None; KEPT.end], next: KEPT.start };
-    let constant = |index: usize| At(Base::Constants, index as i32);
-    let weights = constants.slopes + code.terms.len();
-    let mut term = constants.slopes;
+    let mut kept = Kept::new();
+    let mut term = 0;
     let mut copy = code.of_state;
     let mut terms = code.terms.as_slice();
     for (index, finish) in code.finishes.iter().enumerate() {
         let own = first(&mut terms, finish.terms);
         let sum = kept.place_of(finish.place);
-        to.load(Width::One, sum, constant(SCALES + index));
+        to.load(Width::One, sum, constants.scale(index));
         to.multiply(sum, sum, At(Base::Sums, finish.inner as i32));
         if let Order::Divides = finish.order {
-            to.multiply(sum, sum, At(Base::Constants, BY_N));
+            to.multiply(sum, sum, Constants::BY_N);
         }
         for read in own {
             let x = kept.find(read.x).unwrap_or_else(|| {
                 to.load(Width::One, 0, At(Base::Rows, read.x as i32));
                 0
             });
-            to.fused(Width::One, sum, x, constant(term));
+            to.fused(Width::One, sum, x, constants.slope(term));
             term += 1;
         }
         to.store(Width::One, sum, At(Base::Rows, finish.place as i32));
         for _ in 0..finish.copies {
-            to.multiply(1, sum, constant(weights + copy));
+            to.multiply(1, sum, constants.weight(copy));
             to.store(Width::One, 1, At(Base::Copies, code.copies[copy].place as i32));
             copy += 1;
         }
     }
+    next_order(code, constants, &mut to, &kept);
+    to.end();
+    to
+}
+
+/// Order n + 1 of the state.
+pub(super) fn next_order(code: &Code<f64>, constants: &Constants, to: &mut Assembler, kept: &Kept) {
     let mut copy = 0;
     for component in &code.state {
         let rate = kept.find(component.rate).unwrap_or_else(|| {
             to.load(Width::One, 0, At(Base::Rows, component.rate as i32));
             0
         });
-        to.multiply(1, rate, At(Base::Constants, BY_NEXT));
+        to.multiply(1, rate, Constants::BY_NEXT);
         to.store(Width::One, 1, At(Base::Rows, component.place as i32 + 1));
         for _ in 0..component.copies {
-            to.multiply(0, 1, constant(weights + copy));
+            to.multiply(0, 1, constants.weight(copy));
             // Copies run backwards.
             to.store(Width::One, 0, At(Base::Copies, code.copies[copy].place as i32 - 1));
             copy += 1;
         }
     }
-    to.end();
-    to
 }
 
 /// The rows that are in registers.
-struct Kept {
+pub(super) struct Kept {
     rows: [Option<Place>; KEPT.end],
     next: usize,
 }
 
 impl Kept {
+    pub(super) fn new() -> Self {
+        Self { rows: [None; KEPT.end], next: KEPT.start }
+    }
+
     /// The register for a row that is to be made.
-    fn place_of(&mut self, row: Place) -> Register {
+    pub(super) fn place_of(&mut self, row: Place) -> Register {
         let register = self.next;
         self.next = if register + 1 == KEPT.end { KEPT.start } else { register + 1 };
         self.rows[register] = Some(row);
         register as Register
     }
 
-    fn find(&self, row: Place) -> Option<Register> {
+    pub(super) fn find(&self, row: Place) -> Option<Register> {
         self.rows.iter().position(|own| *own == Some(row)).map(|register| register as Register)
     }
 }

@@ -97,6 +97,16 @@ impl Assembler {
         self.plain(Width::One, 0x59, register, x, y);
     }
 
+    /// register = x / y, one number
+    pub(super) fn divide(&mut self, register: Register, x: Register, y: At) {
+        self.plain(Width::One, 0x5e, register, x, y);
+    }
+
+    /// register = √x, one number
+    pub(super) fn square_root(&mut self, register: Register, x: At) {
+        self.plain(Width::One, 0x51, register, register, x);
+    }
+
     /// register = register + x · y, rounded once
     pub(super) fn fused(&mut self, width: Width, register: Register, x: Register, y: At) {
         let opcode = if width == Width::One { 0xb9 } else { 0xb8 };
@@ -224,45 +234,50 @@ mod tests {
                     let x = (register * 7 + 5) % 16;
                     let at = At(base, distance);
                     let assert_memory = |found: &Instruction, operand| {
-                        assert_eq!(found.op_kind(operand), OpKind::Memory, "{found}");
-                        assert_eq!(found.memory_base(), pointer, "{found}");
-                        assert_eq!(found.memory_index(), Iced::None, "{found}");
+                        assert_eq!(found.op_kind(operand), OpKind::Memory, "{found:?}");
+                        assert_eq!(found.memory_base(), pointer, "{found:?}");
+                        assert_eq!(found.memory_index(), Iced::None, "{found:?}");
                         let bytes = found.memory_displacement64() as i64;
-                        assert_eq!(bytes, 8 * i64::from(distance), "{found}");
-                        assert!(!found.is_broadcast(), "{found}");
-                        assert_eq!(found.op_mask(), Iced::None, "{found}");
+                        assert_eq!(bytes, 8 * i64::from(distance), "{found:?}");
+                        assert!(!found.is_broadcast(), "{found:?}");
+                        assert_eq!(found.op_mask(), Iced::None, "{found:?}");
                     };
                     for width in [Width::One, Width::Four, Width::Eight] {
                         let is_one = width == Width::One;
                         let moves = if is_one { Mnemonic::Vmovsd } else { Mnemonic::Vmovupd };
                         let found = one(|to| to.load(width, register, at));
                         assert_eq!(found.mnemonic(), moves, "load");
-                        assert_eq!(found.op_register(0), named(width, register), "{found}");
+                        assert_eq!(found.op_register(0), named(width, register), "{found:?}");
                         assert_memory(&found, 1);
                         let found = one(|to| to.store(width, register, at));
                         assert_eq!(found.mnemonic(), moves, "store");
-                        assert_eq!(found.op_register(1), named(width, register), "{found}");
+                        assert_eq!(found.op_register(1), named(width, register), "{found:?}");
                         assert_memory(&found, 0);
                         let found = one(|to| to.fused(width, register, x, at));
                         let fused =
                             if is_one { Mnemonic::Vfmadd231sd } else { Mnemonic::Vfmadd231pd };
                         assert_eq!(found.mnemonic(), fused, "fused");
-                        assert_eq!(found.op_register(0), named(width, register), "{found}");
-                        assert_eq!(found.op_register(1), named(width, x), "{found}");
+                        assert_eq!(found.op_register(0), named(width, register), "{found:?}");
+                        assert_eq!(found.op_register(1), named(width, x), "{found:?}");
                         assert_memory(&found, 2);
                     }
-                    let found = one(|to| to.multiply(register, x, at));
-                    assert_eq!(found.mnemonic(), Mnemonic::Vmulsd, "multiply");
-                    assert_eq!(found.op_register(0), named(Width::One, register), "{found}");
-                    assert_eq!(found.op_register(1), named(Width::One, x), "{found}");
-                    assert_memory(&found, 2);
+                    for (found, mnemonic, x) in [
+                        (one(|to| to.multiply(register, x, at)), Mnemonic::Vmulsd, x),
+                        (one(|to| to.divide(register, x, at)), Mnemonic::Vdivsd, x),
+                        (one(|to| to.square_root(register, at)), Mnemonic::Vsqrtsd, register),
+                    ] {
+                        assert_eq!(found.mnemonic(), mnemonic, "{found:?}");
+                        assert_eq!(found.op_register(0), named(Width::One, register), "{found:?}");
+                        assert_eq!(found.op_register(1), named(Width::One, x), "{found:?}");
+                        assert_memory(&found, 2);
+                    }
                     let found = one(|to| to.zero(register));
                     assert_eq!(found.mnemonic(), Mnemonic::Vxorpd, "zero");
                     for operand in 0..3 {
                         assert_eq!(
                             found.op_register(operand),
                             named(Width::One, register),
-                            "{found}"
+                            "{found:?}"
                         );
                     }
                 }
@@ -276,12 +291,12 @@ mod tests {
             for register in 0..16 {
                 let [x, y] = [(register * 7 + 5) % 16, (register * 3 + 11) % 16];
                 let assert_three = |found: &Instruction, mnemonic| {
-                    assert_eq!(found.mnemonic(), mnemonic, "{found}");
+                    assert_eq!(found.mnemonic(), mnemonic, "{found:?}");
                     for (operand, own) in [register, x, y].into_iter().enumerate() {
                         let own = named(width, own);
-                        assert_eq!(found.op_register(operand as u32), own, "{found}");
+                        assert_eq!(found.op_register(operand as u32), own, "{found:?}");
                     }
-                    assert_eq!(found.op_mask(), Iced::None, "{found}");
+                    assert_eq!(found.op_mask(), Iced::None, "{found:?}");
                 };
                 assert_three(&one(|to| to.add(width, register, x, y)), Mnemonic::Vaddpd);
                 let mixed = |odd| one(|to| to.mix(width, odd, [register, x, y]));
@@ -298,7 +313,7 @@ mod tests {
                     let shuffle =
                         if is_eight { Mnemonic::Vshuff64x2 } else { Mnemonic::Vperm2f128 };
                     assert_three(&found, shuffle);
-                    assert_eq!(found.immediate(3), choice, "{found}");
+                    assert_eq!(found.immediate(3), choice, "{found:?}");
                 }
             }
         }

@@ -5,14 +5,19 @@
 //! order, so that the bits are those of the interpreter.
 
 mod call;
+mod constants;
 mod emit;
 mod encode;
+mod values;
+
+#[cfg(test)]
+mod tests;
 
 use super::code::Code;
 use super::number::{BLOCK, Number};
 use crate::graph::{Vectors, widest};
 use call::{Executable, Given};
-use emit::Constants;
+use constants::Constants;
 use encode::Width;
 
 /// The functions of a program, and what they need beside its memory.
@@ -22,6 +27,8 @@ pub(super) struct Machine {
     /// By how many vectors along the order they take, less one.
     inner_sums: Vec<Executable>,
     finish: Executable,
+    /// Order 0, where all its functions are instructions.
+    values: Option<Executable>,
     constants: Constants,
     /// The inner sums.
     inner: Vec<f64>,
@@ -30,11 +37,15 @@ pub(super) struct Machine {
 impl Machine {
     /// Machine code for a program, if there can be any.
     pub(super) fn new(code: &Code<f64>, order: usize) -> Option<Self> {
-        let width = match widest() {
-            Vectors::Avx512 => Width::Eight,
-            Vectors::Avx2 => Width::Four,
-            Vectors::Baseline => return None,
-        };
+        match widest() {
+            Vectors::Avx512 => Self::with_width(code, order, Width::Eight),
+            Vectors::Avx2 => Self::with_width(code, order, Width::Four),
+            Vectors::Baseline => None,
+        }
+    }
+
+    /// The processor is to have instructions of this width.
+    fn with_width(code: &Code<f64>, order: usize, width: Width) -> Option<Self> {
         let constants = Constants::new(code);
         let lengths = 1..=order.div_ceil(BLOCK);
         let inner_sums = lengths.map(|n| Executable::new(&emit::inner_sums(code, width, n)));
@@ -44,16 +55,39 @@ impl Machine {
             orders: order.next_multiple_of(BLOCK),
             inner_sums: inner_sums.collect::<Option<_>>()?,
             finish: Executable::new(&emit::finish(code, &constants))?,
+            values: match values::values(code, &constants) {
+                Some(values) => Some(Executable::new(&values)?),
+                None => None,
+            },
             constants,
             inner: vec![0.0; sums],
         })
     }
 
-    /// Orders 1 to `order` - 1 of all rows, and to `order` of the state, from orders 0 and 1 of the state
-    /// and the slopes.
+    /// Order 0 of all rows and order 1 of the state, with the slopes; no where it cannot.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, inverses: &[f64], memory: &mut [f64]) -> bool {
+        let Some(values) = &self.values else { return false };
+        self.constants.at_order(0, inverses);
+        values.call(Given {
+            memory,
+            rows: 0,
+            copies: self.orders,
+            constants: &mut self.constants.list,
+            sums: &mut [],
+        });
+        true
+    }
+
+    /// Takes the slopes that were computed elsewhere.
+    #[inline(always)]
+    pub(super) fn take(&mut self, code: &Code<f64>) {
+        self.constants.take(code);
+    }
+
+    /// Orders 1 to `order` - 1 of all rows, and to `order` of the state, from what was begun.
     #[inline(always)]
     pub(super) fn run(&mut self, code: &Code<f64>, inverses: &[f64], memory: &mut [f64]) {
-        self.constants.take(code);
         self.inner.fill(0.0);
         for n in 1..self.order {
             let copies = |n: usize| f64::copied(self.orders, n);
@@ -62,16 +96,17 @@ impl Machine {
                     memory,
                     rows: 0,
                     copies: copies(n - 1),
-                    constants: &[],
+                    constants: &mut [],
                     sums: &mut self.inner,
                 });
             }
-            self.constants.at_order(code, n, inverses);
+            self.constants.at_order(n, inverses);
+            self.constants.thetas(code, n);
             self.finish.call(Given {
                 memory,
                 rows: n,
                 copies: copies(n),
-                constants: &self.constants.list,
+                constants: &mut self.constants.list,
                 sums: &mut self.inner,
             });
         }
