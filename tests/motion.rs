@@ -153,6 +153,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("limit-cycle = 4\nstart = [1, 0]\ncrossings = 10", "do not show a cycle"),
         ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is no count"),
         ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "no part of the section"),
+        ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is no share"),
         ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
     ];
     for (claim, message) in wrong {

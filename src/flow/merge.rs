@@ -49,7 +49,10 @@ pub fn merged(
             // A multiple of 1.
             true => Some([field.one(); STATES - 1]),
             false if first == 0 => None,
-            false => Some(others.map(|value| field.mul(value, field.inverse(first)))),
+            false => {
+                let by_first = field.inverse(first);
+                Some(others.map(|value| field.mul(value, by_first)))
+            }
         }
     };
     let factor = |own: &Seen, other: &Seen| -> Option<Rational> {
@@ -102,7 +105,9 @@ fn residues(
         Step::Unary(Function::Neg, a) => Some(seen(a)?.residues.map(|x| field.sub(0, x))),
         Step::Unary(Function::Recip, a) => {
             let x = seen(a).filter(|x| x.residues.iter().all(|x| *x != 0))?;
-            Some(x.residues.map(|x| field.inverse(x)))
+            let mut inverses = [0; STATES];
+            field.inverses(&x.residues, &mut inverses);
+            Some(inverses)
         }
         Step::Unary(Function::Sqrt, a) => {
             let square = seen(a).filter(|x| x.is_constant())?;

@@ -128,6 +128,27 @@ impl Modulus {
         self.power(x, self.prime - 2)
     }
 
+    /// All 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for what is undefined.
+    pub fn inverses(&self, x: &[u64], out: &mut [u64]) {
+        let is_unit = |x: u64| x != 0 && x != UNDEFINED;
+        let mut product = self.one;
+        for (x, out) in x.iter().zip(out.iter_mut()) {
+            *out = product;
+            if is_unit(*x) {
+                product = self.mul(product, *x);
+            }
+        }
+        let mut rest = self.inverse(product);
+        for (x, out) in x.iter().zip(out).rev() {
+            if is_unit(*x) {
+                *out = self.mul(rest, *out);
+                rest = self.mul(rest, *x);
+            } else {
+                *out = UNDEFINED;
+            }
+        }
+    }
+
     /// The root of x that is itself a square, if x is a square and not 0 (for p = 3 mod 4).
     pub fn root(&self, x: u64) -> Option<u64> {
         // x^((p-3)/4): times x it is the root, and times the root it is χ(x).
@@ -175,6 +196,16 @@ impl<const N: usize> Prime<N> {
     /// The moduli of the lanes.
     pub fn moduli(&self) -> &[Modulus; N] {
         &self.moduli
+    }
+
+    /// Lanes of the same prime that are neighbours share an inversion.
+    fn reciprocals(&self, x: &[u64; N], out: &mut [u64; N]) {
+        let mut begin = 0;
+        for own in self.moduli.chunk_by(|a, b| a.prime == b.prime) {
+            let lanes = begin..begin + own.len();
+            own[0].inverses(&x[lanes.clone()], &mut out[lanes.clone()]);
+            begin = lanes.end;
+        }
     }
 
     #[inline(always)]
@@ -232,7 +263,7 @@ impl<const N: usize> Domain for Prime<N> {
     fn unary(&self, function: Function, x: &[u64; N], out: &mut [u64; N]) {
         match function {
             Function::Neg => self.map(x, out, |m, x| Some(m.sub(0, x))),
-            Function::Recip => self.map(x, out, |m, x| (x != 0).then(|| m.inverse(x))),
+            Function::Recip => self.reciprocals(x, out),
             Function::Sqrt => self.map(x, out, Modulus::root),
             Function::Abs => {
                 self.map(x, out, |m, x| Some(if m.is_square(x) { x } else { m.sub(0, x) }));
@@ -302,6 +333,19 @@ mod tests {
         assert!(!is_prime(3_825_123_056_546_413_051), "149491 · 747451 · 34233211");
         assert!(!is_prime(2_147_483_647 * 1_073_741_789), "(2^31 - 1)(2^30 - 35)");
         assert!(!is_prime(561), "3 · 11 · 17");
+    }
+
+    #[test]
+    fn many_inverses_take_one_inversion() {
+        let moduli = [3, 5, 7, 11].map(|n| Modulus::new((1u64 << 61) - if n > 5 { 1 } else { 31 }));
+        let x = [12, UNDEFINED, 0, 5];
+        let mut out = [0; 4];
+        Prime::new(moduli).unary(Function::Recip, &x, &mut out);
+        assert_eq!(out[1..3], [UNDEFINED; 2], "of nothing, and of 0");
+        for lane in [0, 3] {
+            let product = moduli[lane].mul(x[lane], out[lane]);
+            assert_eq!(product, moduli[lane].one(), "x · 1/x in lane {lane}");
+        }
     }
 
     #[test]

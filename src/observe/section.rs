@@ -71,7 +71,7 @@ fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
     }
 }
 
-/// Do the crossings stay in a part of the section?
+/// Do the crossings stay in a part of the section, or as many of them as are to?
 pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
     let axis = match claim.axis {
@@ -79,14 +79,21 @@ pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowErro
         Axis::Z => 1,
     };
     let values = orbit.crossings.iter().map(|crossing| crossing.at[axis]);
+    let [least, most] = &claim.between;
+    let is_beyond = |x: &f64| *x <= least.value || *x >= most.value;
+    let beyond = values.clone().filter(is_beyond).count();
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = values.fold(start, |(low, high), x| (low.min(x), high.max(x)));
     let mut finding = Finding::default();
     let rounded = |value: f64| Measured { value, error: f64::EPSILON * value.abs() };
     finding.show("lowest", rounded(low));
     finding.show("highest", rounded(high));
-    if low <= claim.between[0].value || high >= claim.between[1].value {
-        finding.refute(format!("the {} crossings go beyond", orbit.crossings.len()));
+    let all = orbit.crossings.len();
+    let told = format!("{beyond} of {all} crossings are beyond");
+    if beyond as f64 > (1.0 - claim.share) * all as f64 {
+        finding.refute(told);
+    } else if beyond > 0 {
+        finding.remark = Some(told);
     }
     Ok(finding)
 }

@@ -1,6 +1,6 @@
-//! Motions whose crossings stay in a part of the section.
+//! Motions whose crossings stay in a part of the section, all or most of them.
 
-use super::{Beginning, Motional, Stated, count, stated};
+use super::{Beginning, Motional, Stated, count, number, stated};
 use crate::claim::Reader;
 
 /// A coordinate of the section.
@@ -12,7 +12,7 @@ pub enum Axis {
     Z,
 }
 
-/// After some crossings, all those that follow lie between two bounds.
+/// After some crossings, those that follow lie between two bounds, or a share of them does.
 #[derive(Clone, Debug)]
 pub struct Confined {
     /// As it is typed.
@@ -21,6 +21,8 @@ pub struct Confined {
     pub axis: Axis,
     /// The bounds.
     pub between: [Stated; 2],
+    /// The least share of the crossings that is to lie there.
+    pub share: f64,
     /// Where the motion starts.
     pub beginning: Beginning,
     /// How many crossings are looked at, and how many are left out before them.
@@ -31,7 +33,7 @@ pub struct Confined {
 
 impl Motional for Confined {
     const NAME: &'static str = "confined";
-    const COMPANIONS: &'static [&'static str] = &["start", "crossings", "skip"];
+    const COMPANIONS: &'static [&'static str] = &["start", "crossings", "skip", "share"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let text = from.text(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
@@ -48,7 +50,12 @@ impl Motional for Confined {
         let beginning = Beginning::on_section(from)?;
         let crossings = count(from, "crossings")?.ok_or_else(|| from.missing("crossings"))?;
         let skip = count(from, "skip")?.unwrap_or(0);
-        Ok(Self { text, axis, between, beginning, crossings, skip })
+        let share = number(from, "share")?.map_or(1.0, |share| share.value);
+        if !(share > 0.0 && share <= 1.0) {
+            let message = format!("{share} is no share");
+            return Err(from.complaint("share", message, "write a number above 0, at most 1"));
+        }
+        Ok(Self { text, axis, between, share, beginning, crossings, skip })
     }
 
     fn beginning(&self) -> &Beginning {
@@ -56,6 +63,10 @@ impl Motional for Confined {
     }
 
     fn text(&self) -> String {
-        format!("stays in {} from {}", self.text, self.beginning.text())
+        let most = match self.share < 1.0 {
+            true => format!(" for {} of the crossings", self.share),
+            false => String::new(),
+        };
+        format!("stays in {}{most} from {}", self.text, self.beginning.text())
     }
 }
