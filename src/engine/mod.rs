@@ -34,6 +34,8 @@ mod tests;
 use std::sync::Arc;
 
 use crate::graph::{Tape, Vectors, widest};
+pub(crate) use machine::executable;
+
 use program::Program;
 
 /// States that are treated at once.

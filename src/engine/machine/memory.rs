@@ -19,6 +19,13 @@ type Entry = unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize);
 #[cfg(not(target_arch = "x86_64"))]
 type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64, usize);
 
+/// Instructions in memory from which they can be executed; `None` where the system refuses it.
+pub(crate) fn executable(bytes: &[u8]) -> Option<Mmap> {
+    let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
+    memory.copy_from_slice(bytes);
+    memory.make_exec().ok()
+}
+
 /// A function that can be called.
 #[derive(Debug)]
 pub(super) struct Executable {
@@ -37,9 +44,7 @@ impl Executable {
         if !has {
             return None;
         }
-        let mut memory = MmapMut::map_anon(assembly.bytes.len()).ok()?;
-        memory.copy_from_slice(&assembly.bytes);
-        let memory = memory.make_exec().ok()?;
+        let memory = executable(&assembly.bytes)?;
         Some(Self { memory, width: assembly.width, extent: assembly.extent })
     }
 

@@ -17,6 +17,8 @@ use crate::graph::Vectors;
 use encode::Width;
 use memory::Executable;
 
+pub(crate) use memory::executable;
+
 /// A program in machine code.
 #[derive(Debug)]
 pub(super) struct Code {

@@ -1,13 +1,14 @@
-//! Machine code in memory that is written first and executed then, never both.
+//! Calls of machine code.
 
 #![allow(
     unsafe_code,
     reason = "generated instructions are called; measured in docs/performance.md"
 )]
 
-use memmap2::{Mmap, MmapMut};
+use memmap2::Mmap;
 
 use super::encode::Assembler;
+use crate::engine::executable;
 
 /// Rows, copies, constants, sums.
 #[cfg(target_arch = "x86_64")]
@@ -39,9 +40,7 @@ impl Executable {
         if cfg!(not(target_arch = "x86_64")) {
             return None;
         }
-        let mut memory = MmapMut::map_anon(assembler.bytes.len()).ok()?;
-        memory.copy_from_slice(&assembler.bytes);
-        Some(Self { memory: memory.make_exec().ok()?, touched: assembler.touched })
+        Some(Self { memory: executable(&assembler.bytes)?, touched: assembler.touched })
     }
 
     /// Calls the function. Panics where it would touch what it is not given.
