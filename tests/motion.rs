@@ -108,6 +108,20 @@ fn numbers_that_are_wrong_are_refuted() {
 }
 
 #[test]
+fn a_share_of_the_crossings_may_go_beyond() {
+    // A curve around (π/2, 0) that is its own mirror image in l = π/2.
+    for (share, verdict) in
+        [("1", Verdict::Refuted), ("0.6", Verdict::Refuted), ("0.4", Verdict::Confirmed)]
+    {
+        let claim = format!(
+            "confined = \"0 < l < π/2\"\nstart = [1.2, 0.1]\ncrossings = 300\nshare = {share}"
+        );
+        let found = observe(&ball(&claim).expect("a case"), &Options::default());
+        assert_eq!(found[0].verdict, verdict, "{share}: {:?}", found[0].evidence);
+    }
+}
+
+#[test]
 fn nothing_is_proved_and_nothing_is_silent() {
     let case = ball("periodic-point = [\"π/2\", 0]").expect("a case");
     let report = judge(&case, &Options::default()).expect("it can be judged");
