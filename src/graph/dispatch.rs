@@ -31,10 +31,13 @@ pub(crate) enum Vectors {
 pub(crate) fn widest() -> Vectors {
     #[cfg(target_arch = "x86_64")]
     {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        let has_fused_sums = is_x86_feature_detected!("fma");
+        let has_avx512 =
+            is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+        if has_fused_sums && has_avx512 {
             return Vectors::Avx512;
         }
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        if has_fused_sums && is_x86_feature_detected!("avx2") {
             return Vectors::Avx2;
         }
     }

@@ -7,6 +7,7 @@ use super::encode::{Assembler, At, Base, Pairs, Register, Width};
 
 /// Registers 0 and 1 are for what is used at once; the others keep the last rows in turn.
 const KEPT: std::ops::Range<usize> = 2..16;
+
 /// The inner sums along so many vectors. The rows are given at order 0, the copies at the last order
 /// that there is.
 pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Assembler {
@@ -24,7 +25,7 @@ pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Asse
     to
 }
 
-/// The products of one operation added up, in the lanes of a register; of four lanes, halves of eight are added.
+/// The products of one operation added up in the lanes of a register: eight sums, or four where it has four lanes.
 fn inner_sum(
     to: &mut Assembler,
     width: Width,
@@ -52,7 +53,8 @@ fn inner_sum(
     }
 }
 
-/// The lanes of registers 0 to 7 added up, as the interpreter does: ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)).
+/// The lanes of registers 0 to 7 added up in the interpreter's order,
+/// ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)); of four lanes, s₀ + s₄ and so on are there already.
 fn totals(to: &mut Assembler, width: Width, at: i32) {
     const X: Register = 8;
     const Y: Register = 9;

@@ -1,4 +1,4 @@
-//! Machine code for the orders above 0 of a program over f64.
+//! Machine code for the expansions of a program over f64.
 //!
 //! An interpreter of programs spends most of its time on where things stand. Here places are part of the
 //! instructions, and what has just been computed stays in registers. The same sums are made in the same
