@@ -63,21 +63,32 @@
 //! # Ok::<(), liouville::graph::Fault>(())
 //! ```
 
+#![cfg_attr(
+    not(feature = "explore"),
+    allow(dead_code, unused_imports, reason = "some of the core is there for what explores")
+)]
+
+#[cfg(feature = "explore")]
 pub mod bench;
 pub mod case;
 pub mod claim;
 pub mod engine;
+#[cfg(feature = "explore")]
 pub mod flow;
 pub mod formula;
 pub mod graph;
 pub mod mechanics;
 pub mod number;
+#[cfg(feature = "explore")]
 pub mod observe;
 pub mod proof;
 pub mod report;
 pub mod scalar;
+#[cfg(feature = "explore")]
 pub mod search;
+#[cfg(feature = "explore")]
 pub mod stress;
+#[cfg(feature = "explore")]
 pub mod survey;
 pub mod sweep;
 #[cfg(feature = "testing")]

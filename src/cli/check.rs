@@ -3,15 +3,27 @@
 use std::io::IsTerminal;
 
 use liouville::report::{json, terminal};
-use liouville::verdict::Options;
+use liouville::verdict::{self, Options};
 
+use super::files::Judge;
 use super::{Answer, Check, colour, files, width};
+
+/// With the claims about motion, where they are asked for.
+#[cfg(feature = "explore")]
+fn judge(options: &Check) -> Judge {
+    if options.motion { liouville::observe::judge } else { verdict::judge }
+}
+
+#[cfg(not(feature = "explore"))]
+fn judge(_: &Check) -> Judge {
+    verdict::judge
+}
 
 pub fn run(options: &Check) -> Result<Answer, String> {
     let run = files::judge(
         &options.paths,
         &Options { mutants: options.mutants, ..options.sampling.options() },
-        options.motion,
+        judge(options),
         options.sampling.threads,
     )?;
     let text = if options.json {

@@ -6,19 +6,21 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use liouville::case::Case;
-use liouville::observe;
 use liouville::report::{Failure, Heading, Outcome, RunReport, diagnostic};
-use liouville::verdict::{self, Options};
+use liouville::verdict::{CaseReport, JudgeError, Options};
 use rayon::prelude::*;
 
 /// A progress bar appears after this time.
 const BLINK: Duration = Duration::from_millis(300);
 
-/// Judges every case under `paths`; the claims about motion too, if `motion` says so.
+/// How a case is judged.
+pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
+
+/// Judges every case under `paths`.
 pub fn judge(
     paths: &[PathBuf],
     options: &Options,
-    motion: bool,
+    judge: Judge,
     threads: Option<usize>,
 ) -> Result<RunReport, String> {
     let started = Instant::now();
@@ -34,7 +36,7 @@ pub fn judge(
             .par_iter()
             .map(|file| {
                 let outcome = match file {
-                    Ok(path) => judge_file(path, options, motion),
+                    Ok(path) => judge_file(path, options, judge),
                     Err((path, problem)) => failed(path, problem.clone()),
                 };
                 advance(&bar, started);
@@ -126,7 +128,7 @@ fn failed(path: &Path, problem: Failure) -> Outcome {
     Outcome { path, heading: Heading::default(), result: Err(problem) }
 }
 
-fn judge_file(path: &Path, options: &Options, motion: bool) -> Outcome {
+fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
     let shown = path.display().to_string();
     let (text, case) = Case::read(path, &[]);
     let case = match case {
@@ -135,11 +137,8 @@ fn judge_file(path: &Path, options: &Options, motion: bool) -> Outcome {
             return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
-    let judged = match motion {
-        true => observe::judge(&case, options),
-        false => verdict::judge(&case, options),
-    };
-    let result = judged.map_err(|error| plain(path, &error.to_string(), error.help()));
+    let result =
+        judge(&case, options).map_err(|error| plain(path, &error.to_string(), error.help()));
     let heading = Heading {
         title: case.title,
         source: case.source,

@@ -1,24 +1,15 @@
 //! Commands and their options.
 
-pub mod bench;
-pub mod chart;
 pub mod check;
 pub mod eval;
-pub mod exponents;
+#[cfg(feature = "explore")]
+pub mod explore;
 mod files;
-mod motion;
-pub mod orbit;
-pub mod periodic;
-pub mod report;
-pub mod search;
-pub mod section;
-pub mod stress;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -36,26 +27,11 @@ pub enum Command {
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     Eval(Eval),
-    /// Tell which invariants a body has: everything known is tried, and what is found is proved
-    Report(Report),
-    /// Look for integrals and densities that nobody typed: count them, find them, prove them
-    Search(Search),
-    /// Follow one motion: the state at the end, and how far integrals drift
-    Orbit(orbit::Orbit),
-    /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
-    Section(section::Section),
-    /// Measure the largest Lyapunov exponent and the mean divergence along motions
-    Exponents(exponents::Exponents),
-    /// Draw a plane of motions, such as two parameters, each point coloured by its class
-    Chart(chart::Chart),
-    /// Find fixed and periodic points of a section, with their multipliers
-    Periodic(periodic::Periodic),
+    #[cfg(feature = "explore")]
+    #[command(flatten)]
+    Explore(explore::Command),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
-    /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right
-    Stress(Stress),
-    /// Measure the ways to form derivatives: run time against error
-    Bench(Bench),
 }
 
 /// How states are drawn.
@@ -106,6 +82,7 @@ pub struct Check {
     /// Perturb every true formula, and refute each mutant that is not equivalent
     #[arg(long)]
     pub mutants: bool,
+    #[cfg(feature = "explore")]
     /// Follow motions too, for the claims about them: minutes for all of cases/figures
     #[arg(long)]
     pub motion: bool,
@@ -119,11 +96,6 @@ pub struct Check {
 fn parse_digits(text: &str) -> Result<usize, String> {
     let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
     (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
-}
-
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.ok_or("write a number of seconds".to_string())
 }
 
 #[derive(Debug, Args)]
@@ -144,94 +116,6 @@ pub struct Eval {
     #[arg(long, value_parser = parse_digits)]
     pub digits: Option<usize>,
     /// Seed of the draws
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct Report {
-    /// A case file; it needs no claims
-    pub case: PathBuf,
-    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    /// How to write it; for a terminal, unless --out says otherwise
-    #[arg(long, value_enum)]
-    pub format: Option<ReportFormat>,
-    /// Print JSON
-    #[arg(long, conflicts_with = "format")]
-    pub json: bool,
-    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-    /// Show evidence and witnesses in text
-    #[arg(short, long)]
-    pub verbose: bool,
-    #[command(flatten)]
-    pub sampling: Sampling,
-}
-
-/// How a report is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ReportFormat {
-    /// For a terminal
-    Text,
-    /// Markdown, with formulas as LaTeX between dollars
-    Markdown,
-    /// LaTeX: a document of its own
-    Latex,
-    /// One self-contained page
-    Html,
-}
-
-#[derive(Debug, Args)]
-pub struct Search {
-    /// A case file; it needs no claims
-    pub case: PathBuf,
-    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    /// Count integrals polynomial in the velocities up to this degree
-    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10))]
-    pub degree: u32,
-    /// Do not compare finds with what the case claims
-    #[arg(long)]
-    pub blind: bool,
-    /// A further term that integrals may contain; may be given several times
-    #[arg(long = "term", value_name = "FORMULA")]
-    pub terms: Vec<String>,
-    /// Find the parameters for which a density or more integrals exist, or a claim holds that fails
-    /// in general: --conditions, --conditions=NAME
-    #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
-    pub conditions: Option<String>,
-    /// Look for integrals that are polynomials of at most this degree in the positions, over denominators
-    /// of the geometry, where the counts leave some: --ansatz, --ansatz=12
-    #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
-        value_parser = clap::value_parser!(u32).range(0..=40))]
-    pub ansatz: Option<u32>,
-    /// Find the potentials under which the known integrals survive
-    #[arg(long)]
-    pub potentials: bool,
-    /// Find the rotors under which the known integrals survive
-    #[arg(long)]
-    pub gyrostats: bool,
-    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian, or for
-    /// one that is given: --poisson, --poisson=H
-    #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
-    pub poisson: Option<String>,
-    /// Leave out an ansatz whose matrix takes more memory than this
-    #[arg(long, default_value_t = 500)]
-    pub megabytes: u64,
-    /// Leave out a count or an ansatz that may take longer than this
-    #[arg(long, default_value_t = 60.0)]
-    pub seconds: f64,
-    /// Stop after this many seconds, and tell what was reached; so does Ctrl-C. The exit code is then 3
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
-    pub within: Option<Duration>,
-    /// Seed of primes, points and states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Print JSON
@@ -266,46 +150,6 @@ pub enum TableFormat {
     Markdown,
     /// LaTeX, for XeLaTeX or LuaLaTeX
     Latex,
-}
-
-#[derive(Debug, Args)]
-pub struct Bench {
-    /// Case files, or folders of them; by default three work items, W1 to W3
-    pub paths: Vec<PathBuf>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Write the work-precision diagram to this file
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
-    /// Seed of the states
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// At how many states errors are measured (rounded up to blocks of 64)
-    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=65536))]
-    pub states: u64,
-    /// Over how many interleaved rounds the median of the times is taken
-    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    pub rounds: u32,
-}
-
-#[derive(Debug, Args)]
-pub struct Stress {
-    /// How many random bodies are judged at each power of ten
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
-    pub bodies: u64,
-    /// Seed of all random numbers
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// How many threads to use; all cores by default
-    #[arg(long)]
-    pub threads: Option<usize>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Draw the heat map
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
 }
 
 /// Writes a file that the user asked for by an option.

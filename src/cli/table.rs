@@ -1,12 +1,17 @@
 //! `liouville table`
 
 use liouville::report::table;
+use liouville::verdict;
 
 use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
-    let run =
-        files::judge(&options.paths, &options.sampling.options(), false, options.sampling.threads)?;
+    let run = files::judge(
+        &options.paths,
+        &options.sampling.options(),
+        verdict::judge,
+        options.sampling.threads,
+    )?;
     for outcome in &run.outcomes {
         if let Err(failure) = &outcome.result {
             anstream::eprintln!("{}", failure.rendered);

@@ -1,17 +1,27 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
+#[cfg(feature = "explore")]
 pub mod bench;
+#[cfg(feature = "explore")]
 pub mod chart;
 pub mod diagnostic;
+#[cfg(feature = "explore")]
 pub mod diagram;
+#[cfg(feature = "explore")]
 pub mod exponents;
 pub mod json;
+#[cfg(feature = "explore")]
 pub mod orbit;
+#[cfg(feature = "explore")]
 pub mod picture;
 pub mod point;
+#[cfg(feature = "explore")]
 pub mod search;
+#[cfg(feature = "explore")]
 pub mod section;
+#[cfg(feature = "explore")]
 pub mod stress;
+#[cfg(feature = "explore")]
 pub mod survey;
 pub mod table;
 pub mod terminal;

@@ -1,16 +1,38 @@
 //! `liouville bench`
 
 use std::io::IsTerminal;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use clap::Args;
 use liouville::bench::{Item, Measured, Options, measure_item, work_items};
 use liouville::case::Case;
 use liouville::report::bench::{self, BenchRun};
 use liouville::report::{Failure, diagnostic, diagram, terminal};
 use liouville::verdict::LANES;
 
-use super::{Answer, Bench, colour, files, width};
+use super::{Answer, colour, files, width};
+
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// Case files, or folders of them; by default three work items, W1 to W3
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Write the work-precision diagram to this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Seed of the states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// At how many states errors are measured (rounded up to blocks of 64)
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=65536))]
+    pub states: u64,
+    /// Over how many interleaved rounds the median of the times is taken
+    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub rounds: u32,
+}
 
 pub fn run(options: &Bench) -> Result<Answer, String> {
     let amount = Options {

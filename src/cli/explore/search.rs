@@ -1,8 +1,11 @@
 //! `liouville search`
 
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
+use clap::Args;
 use indicatif::ProgressBar;
 use liouville::report::{diagnostic, search as written};
 use liouville::search::{self, Effort, Halt, Wanted};
@@ -10,13 +13,70 @@ use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use super::eval::open;
-use super::{Answer, Search, colour};
+use super::{Answer, colour};
 
 /// The exit code of a search that was stopped.
 const STOPPED: u8 = 3;
 
 /// The exit code of a program that Ctrl-C ends.
 const INTERRUPTED: i32 = 130;
+
+#[derive(Debug, Args)]
+pub struct Search {
+    /// A case file; it needs no claims
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Count integrals polynomial in the velocities up to this degree
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10))]
+    pub degree: u32,
+    /// Do not compare finds with what the case claims
+    #[arg(long)]
+    pub blind: bool,
+    /// A further term that integrals may contain; may be given several times
+    #[arg(long = "term", value_name = "FORMULA")]
+    pub terms: Vec<String>,
+    /// Find the parameters for which a density or more integrals exist, or a claim holds that fails
+    /// in general: --conditions, --conditions=NAME
+    #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub conditions: Option<String>,
+    /// Look for integrals that are polynomials of at most this degree in the positions, over denominators
+    /// of the geometry, where the counts leave some: --ansatz, --ansatz=12
+    #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
+        value_parser = clap::value_parser!(u32).range(0..=40))]
+    pub ansatz: Option<u32>,
+    /// Find the potentials under which the known integrals survive
+    #[arg(long)]
+    pub potentials: bool,
+    /// Find the rotors under which the known integrals survive
+    #[arg(long)]
+    pub gyrostats: bool,
+    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian, or for
+    /// one that is given: --poisson, --poisson=H
+    #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub poisson: Option<String>,
+    /// Leave out an ansatz whose matrix takes more memory than this
+    #[arg(long, default_value_t = 500)]
+    pub megabytes: u64,
+    /// Leave out a count or an ansatz that may take longer than this
+    #[arg(long, default_value_t = 60.0)]
+    pub seconds: f64,
+    /// Stop after this many seconds, and tell what was reached; so does Ctrl-C. The exit code is then 3
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub within: Option<Duration>,
+    /// Seed of primes, points and states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or("write a number of seconds".to_string())
+}
 
 pub fn run(options: &Search) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;

@@ -1,12 +1,33 @@
 //! `liouville stress`
 
+use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::Args;
 use liouville::report::stress::{Point, StressReport, SweepReport};
 use liouville::stress::{SCENARIOS, Scenario, StressError, Tally, digits_lost, verdicts};
 use rayon::prelude::*;
 
-use super::{Answer, Stress};
+use super::Answer;
+
+#[derive(Debug, Args)]
+pub struct Stress {
+    /// How many random bodies are judged at each power of ten
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub bodies: u64,
+    /// Seed of all random numbers
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// How many threads to use; all cores by default
+    #[arg(long)]
+    pub threads: Option<usize>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the heat map
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+}
 
 pub fn run(options: &Stress) -> Result<Answer, String> {
     let started = Instant::now();

@@ -1,7 +1,9 @@
 //! `liouville report`
 
 use std::io::IsTerminal;
+use std::path::PathBuf;
 
+use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 use liouville::case::Case;
 use liouville::flow;
@@ -10,7 +12,43 @@ use liouville::survey::{self, Survey};
 
 use super::eval::open;
 use super::motion::Threads;
-use super::{Answer, Report, ReportFormat, colour, width};
+use super::{Answer, Sampling, colour, width};
+
+#[derive(Debug, Args)]
+pub struct Report {
+    /// A case file; it needs no claims
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// How to write it; for a terminal, unless --out says otherwise
+    #[arg(long, value_enum)]
+    pub format: Option<ReportFormat>,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Show evidence and witnesses in text
+    #[arg(short, long)]
+    pub verbose: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+/// How a report is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReportFormat {
+    /// For a terminal
+    Text,
+    /// Markdown, with formulas as LaTeX between dollars
+    Markdown,
+    /// LaTeX: a document of its own
+    Latex,
+    /// One self-contained page
+    Html,
+}
 
 pub fn run(options: &Report) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;
