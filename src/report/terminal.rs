@@ -262,7 +262,11 @@ fn summary(run: &RunReport) -> String {
     }
     if summary.motions_left > 0 {
         let left = count(summary.motions_left, "claim");
-        line.push_str(&format!("; {left} about motion not looked at: add --motion"));
+        let how = match cfg!(feature = "explore") {
+            true => "add --motion",
+            false => "the feature `explore` is left out",
+        };
+        line.push_str(&format!("; {left} about motion not looked at: {how}"));
     }
     if let Some(mutants) = summary.mutants {
         line.push_str(&format!(
