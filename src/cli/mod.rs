@@ -22,6 +22,7 @@ pub struct Arguments {
 }
 
 #[derive(Debug, Subcommand)]
+#[allow(clippy::large_enum_variant, reason = "there is one of them, made once")]
 pub enum Command {
     /// Check the claims of case files; all of cases/ by default
     Check(Check),
