@@ -1,10 +1,5 @@
 //! The command line: arguments in, exit code out.
 
-#![cfg_attr(
-    not(feature = "explore"),
-    allow(dead_code, unused_imports, reason = "some of the core is there for what explores")
-)]
-
 mod cli;
 
 use std::process::ExitCode;

@@ -8,7 +8,7 @@ mod files;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -22,7 +22,6 @@ pub struct Arguments {
 }
 
 #[derive(Debug, Subcommand)]
-#[allow(clippy::large_enum_variant, reason = "there is one of them, made once")]
 pub enum Command {
     /// Check the claims of case files; all of cases/ by default
     Check(Check),
@@ -30,7 +29,7 @@ pub enum Command {
     Eval(Eval),
     #[cfg(feature = "explore")]
     #[command(flatten)]
-    Explore(explore::Command),
+    Explore(Box<explore::Command>),
     /// Print a hierarchy table of the paper, filled from verdicts
     Table(Table),
 }
@@ -151,16 +150,6 @@ pub enum TableFormat {
     Markdown,
     /// LaTeX, for XeLaTeX or LuaLaTeX
     Latex,
-}
-
-/// Writes a file that the user asked for by an option.
-pub fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
-            path.display()
-        )
-    })
 }
 
 /// What a command has to say: text for standard output, and the exit code.

@@ -17,6 +17,7 @@ mod error;
 mod event;
 mod expand;
 mod form;
+mod lanes;
 mod lyapunov;
 mod machine;
 mod merge;

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
+use super::lanes::Lanes;
 use super::series::Series;
 use crate::number::float::Float;
 use crate::number::pair::{Pair, two_product, two_sum};
@@ -87,13 +88,13 @@ pub trait Number:
 
 /// A function of an f64, by the platform-independent implementation that tapes use.
 #[inline(always)]
-fn applied(function: Function, x: f64) -> f64 {
+pub(super) fn applied(function: Function, x: f64) -> f64 {
     let mut out = [0.0];
     Float::<1>.unary(function, &[x], &mut out);
     out[0]
 }
 
-fn powered(x: f64, exponent: &Rational) -> f64 {
+pub(super) fn powered(x: f64, exponent: &Rational) -> f64 {
     let mut out = [0.0];
     Float::<1>.power(&[x], exponent, &mut out);
     out[0]
@@ -295,109 +296,4 @@ impl Number for Pair {
 pub struct PairLanes {
     hi: [f64; WIDTH],
     lo: [f64; WIDTH],
-}
-
-/// `N` f64 side by side, one orbit a lane.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub struct Lanes<const N: usize>(pub [f64; N]);
-
-macro_rules! lanewise {
-    ($($trait:ident $method:ident $operator:tt;)*) => {$(
-        impl<const N: usize> $trait for Lanes<N> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(mut self, other: Self) -> Self {
-                for lane in 0..N {
-                    self.0[lane] $operator other.0[lane];
-                }
-                self
-            }
-        }
-    )*};
-}
-
-lanewise! { Add add +=; Sub sub -=; Mul mul *=; }
-
-impl<const N: usize> Neg for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-}
-
-impl<const N: usize> Number for Lanes<N> {
-    type One = f64;
-    const ZERO: Self = Self([0.0; N]);
-    const ONE: Self = Self([1.0; N]);
-    const LANES: usize = N;
-    const EPSILON: f64 = f64::EPSILON;
-    const WIDTH: usize = 1;
-    type Partial = Self;
-
-    fn rational(value: &Rational) -> Self {
-        Self([value.to_f64().0; N])
-    }
-    #[inline(always)]
-    fn from_lanes(value: impl Fn(usize) -> f64) -> Self {
-        Self(std::array::from_fn(value))
-    }
-    #[inline(always)]
-    fn lane(self, lane: usize) -> f64 {
-        self.0[lane]
-    }
-    #[inline(always)]
-    fn float(value: f64) -> Self {
-        Self([value; N])
-    }
-    #[inline(always)]
-    fn leading(self) -> f64 {
-        self.0[0]
-    }
-    fn pair(self) -> Pair {
-        Pair::from_f64(self.0[0])
-    }
-    fn split(value: Pair) -> (Self, Self) {
-        (Self([value.hi; N]), Self([value.lo; N]))
-    }
-    #[inline(always)]
-    fn fused(mut self, x: Self, y: Self) -> Self {
-        for lane in 0..N {
-            self.0[lane] = x.0[lane].mul_add(y.0[lane], self.0[lane]);
-        }
-        self
-    }
-    #[inline(always)]
-    fn recip(self) -> Self {
-        Self(self.0.map(|x| 1.0 / x))
-    }
-    #[inline(always)]
-    fn apply(self, function: Function) -> Self {
-        Self(self.0.map(|x| applied(function, x)))
-    }
-    fn power(self, exponent: &Rational) -> Self {
-        Self(self.0.map(|x| powered(x, exponent)))
-    }
-    #[inline(always)]
-    fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
-        for lane in 0..N {
-            (hi.0[lane], lo.0[lane]) = two_sum(hi.0[lane], lo.0[lane] + increment.0[lane]);
-        }
-    }
-    #[inline(always)]
-    fn nothing() -> Self {
-        Self([0.0; N])
-    }
-    #[inline(always)]
-    fn dot(mut sum: Self, x: &[Self], y: &[Self]) -> Self {
-        for (x, y) in x.iter().zip(y.iter().rev()) {
-            sum = sum.fused(*x, *y);
-        }
-        sum
-    }
-    #[inline(always)]
-    fn totals(sums: &[Self; BLOCK], totals: &mut [Self; BLOCK]) {
-        *totals = *sums;
-    }
 }

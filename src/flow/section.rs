@@ -5,8 +5,9 @@
 use super::andoyer::{Chart, applies, coordinates, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
+use super::lanes::Lanes;
 use super::motion::{point, program};
-use super::number::{Lanes, Number};
+use super::number::Number;
 use super::orbit::energy_drift;
 use super::program::Program;
 use super::start::{Start, fixed_parameters};

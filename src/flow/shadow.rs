@@ -8,9 +8,9 @@
 //! program serves all.
 
 use super::error::FlowError;
+use super::lanes::Lanes;
 use super::lyapunov::{Exponents, Record};
 use super::motion::{Loose, extended_program, filled};
-use super::number::Lanes;
 use super::program::Program;
 use super::start::Level;
 use super::stepper::{Accuracy, Stepper};

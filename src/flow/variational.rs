@@ -6,9 +6,10 @@
 use std::ops::Range;
 
 use super::error::FlowError;
+use super::lanes::Lanes;
 use super::lyapunov::{Exponents, Record};
 use super::motion::extended_program;
-use super::number::{Lanes, Number};
+use super::number::Number;
 use super::program::Program;
 use super::start::{Level, Start};
 use super::stepper::{Accuracy, Stepper};

@@ -11,9 +11,11 @@ mod search;
 mod section;
 mod stress;
 
+use std::path::Path;
+
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, width, write};
+use super::{Answer, Sampling, colour, eval, files, width};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -51,4 +53,14 @@ impl Command {
             Self::Bench(options) => bench::run(options),
         }
     }
+}
+
+/// Writes a file that the user asked for by an option.
+fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    std::fs::write(path, bytes).map_err(|error| {
+        format!(
+            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
+            path.display()
+        )
+    })
 }
