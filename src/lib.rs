@@ -64,8 +64,8 @@
 //! ```
 
 #![cfg_attr(
-    not(feature = "explore"),
-    allow(dead_code, unused_imports, reason = "some of the core is there for what explores")
+    not(all(feature = "cli", feature = "explore")),
+    allow(dead_code, unused_imports, reason = "some of the core is there for what builds on it")
 )]
 
 #[cfg(feature = "explore")]
@@ -82,6 +82,7 @@ pub mod number;
 #[cfg(feature = "explore")]
 pub mod observe;
 pub mod proof;
+#[cfg(feature = "cli")]
 pub mod report;
 pub mod scalar;
 #[cfg(feature = "explore")]

@@ -1,7 +1,7 @@
 //! Addressable randomness: state number i depends on the seed and on i alone.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::Draw;
 use crate::number::rational::Rational;

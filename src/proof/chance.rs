@@ -1,14 +1,23 @@
 //! Random primes and random elements, the same for the same seed.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::digest::Digest;
 use crate::number::prime::{Modulus, is_prime};
 
 /// Random numbers for field tests; no stream of states has these numbers.
-#[derive(Clone)]
 pub struct Chance(ChaCha8Rng);
+
+impl Clone for Chance {
+    // The crate leaves this out, lest keys be copied by accident; here the same draws are meant.
+    fn clone(&self) -> Self {
+        let mut stream = ChaCha8Rng::from_seed(self.0.get_seed());
+        stream.set_stream(self.0.get_stream());
+        stream.set_word_pos(self.0.get_word_pos());
+        Self(stream)
+    }
+}
 
 /// The smallest prime that is drawn.
 const LEAST: u64 = 1 << 60;
@@ -77,5 +86,17 @@ mod tests {
         let again = Chance::new(1, 0).prime(&[3, 5], &[2, 3]).prime();
         assert_eq!(again, primes[0], "the same seed gives the same primes");
         assert_ne!(Chance::new(2, 0).prime(&[3, 5], &[2, 3]).prime(), again, "another seed others");
+    }
+
+    #[test]
+    fn a_copy_goes_on_with_the_same_numbers() {
+        let modulus = Modulus::new((1 << 61) - 1);
+        for drawn in [0, 1, 7, 100] {
+            let mut chance = Chance::new(3, 1);
+            (0..drawn).for_each(|_| drop(chance.element(&modulus)));
+            let mut copy = chance.clone();
+            let next = |chance: &mut Chance| [(); 40].map(|()| chance.element(&modulus));
+            assert_eq!(next(&mut copy), next(&mut chance), "after {drawn} draws");
+        }
     }
 }

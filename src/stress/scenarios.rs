@@ -1,7 +1,7 @@
 //! The sweeps, each over a case of the catalogue.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::{StressError, read};
 use crate::case::{Case, Setting};

@@ -13,8 +13,8 @@ use crate::number::float::Float;
 
 /// The largest rank of the chart's derivative by its inputs, over one block of states.
 ///
-/// Numerical: a singular value counts when it is above the root of the rounding error against the
-/// largest. The rank can only be underrated, by a chart that is nearly degenerate everywhere.
+/// Numerical: a pivot counts when it is above the root of the rounding error against the largest.
+/// The rank can only be underrated, by a chart that is nearly degenerate everywhere.
 pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Result<usize, Fault> {
     let model = &case.model;
     let inputs = draws.len() - parameter_draws;
@@ -43,9 +43,10 @@ pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Re
         if matrix.iter().any(|x| !x.is_finite()) {
             return 0;
         }
-        let values = matrix.singular_values();
-        let floor = values.max() * f64::EPSILON.sqrt();
-        values.iter().filter(|value| **value > floor).count()
+        let pivots: Vec<f64> =
+            matrix.full_piv_lu().u().diagonal().iter().map(|pivot| pivot.abs()).collect();
+        let largest = pivots.iter().copied().fold(0.0, f64::max);
+        pivots.iter().filter(|pivot| **pivot > largest * f64::EPSILON.sqrt()).count()
     };
     Ok((0..LANES as u64).map(rank_at).max().unwrap_or(0))
 }

@@ -89,21 +89,65 @@ const KINDS: [&str; 6] = [
 fn impossibilities(values: &[&Balls<LANES>], lane: usize) -> [bool; KINDS.len()] {
     let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
     let below_zero = |index: usize| state[index] < 0.0 && values[index].excludes_zero(lane);
-    let inertia = Matrix3::from_row_slice(&state[1..10]);
-    let moments = ((inertia + inertia.transpose()) * 0.5).symmetric_eigenvalues();
+    let inertia = Inertia::of(&Matrix3::from_row_slice(&state[1..10]));
     let outside = match state.get(13..17) {
         Some([radius, x, y, z]) => Vector3::new(*x, *y, *z).norm() > radius.abs(),
         _ => false,
     };
-    // A moment may exceed the sum of the others by the rounding of an eigenvalue computation.
-    let slack = 1.0 + 64.0 * f64::EPSILON;
-    let largest = moments.max();
     [
         state[0] <= 0.0,
-        moments.min() <= 0.0,
-        moments.min() > 0.0 && largest > (moments.sum() - largest) * slack,
+        inertia == Inertia::Indefinite,
+        inertia == Inertia::NoBody,
         below_zero(SUM_OF_RADII) || below_zero(PRODUCT_OF_RADII),
         below_zero(DETERMINANT),
         outside,
     ]
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Inertia {
+    Possible,
+    Indefinite,
+    NoBody,
+}
+
+impl Inertia {
+    /// Which masses have the symmetric part of `tensor` for their inertia?
+    fn of(tensor: &Matrix3<f64>) -> Self {
+        let inertia = (tensor + tensor.transpose()) * 0.5;
+        if inertia.cholesky().is_none() {
+            return Self::Indefinite;
+        }
+        // I_k ≤ tr I - I_k for each k: tr I - 2I = 2∫ρρᵀdm has no negative eigenvalue. A plate or a
+        // rod has one that is 0, and rounding may make it negative.
+        let sum = inertia.trace() * (1.0 + 64.0 * f64::EPSILON);
+        match (Matrix3::from_diagonal_element(sum) - inertia * 2.0).cholesky() {
+            Some(_) => Self::Possible,
+            None => Self::NoBody,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn the_triangle_inequality_tells_bodies_from_other_tensors() {
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
+        let of = |a: f64, b: f64, c: f64| {
+            let tensor = Matrix3::from_diagonal(&Vector3::new(a, b, c));
+            let turned = turn.matrix() * tensor * turn.matrix().transpose();
+            [Inertia::of(&tensor), Inertia::of(&turned)]
+        };
+        assert_eq!(of(2.0, 2.5, 3.0), [Inertia::Possible; 2], "any three sides of a triangle");
+        assert_eq!(of(1.0, 1.0, 2.0), [Inertia::Possible; 2], "a disc");
+        assert_eq!(of(0.1, 0.2, 0.3), [Inertia::Possible; 2], "a plate, rounded");
+        assert_eq!(of(1.0, 1.0, 1e-9), [Inertia::Possible; 2], "a rod");
+        assert_eq!(of(1.0, 1.0, 2.0 + 1e-9), [Inertia::NoBody; 2], "a little too much");
+        assert_eq!(of(1.0, 2.0, -1e-9), [Inertia::Indefinite; 2], "a negative moment");
+        assert_eq!(of(0.0, 0.0, 0.0), [Inertia::Indefinite; 2], "no inertia at all");
+    }
 }
