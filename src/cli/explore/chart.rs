@@ -1,7 +1,5 @@
 //! `liouville chart`
 
-use std::path::PathBuf;
-
 use clap::Args;
 use liouville::case::Case;
 use liouville::flow::{self, Axis, Coordinate, Launch, PlaneRequest};
@@ -11,9 +9,8 @@ use liouville::number::rational::Rational;
 use liouville::report::chart::ChartReport;
 use liouville::verdict;
 
-use super::motion::{
-    Drawing, Ink, Plane, Subject, Threads, drawing, number_with_pi, parse_start, progress,
-};
+use super::motion::{Drawing, Ink, Plane, Subject, Threads, number_with_pi, parse_start};
+use super::progress::progress;
 use super::{Answer, write};
 
 #[derive(Debug, Args)]
@@ -41,9 +38,6 @@ pub struct Chart {
     /// A start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
     pub state: Option<String>,
-    /// Draw to this file, .svg or .png
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
@@ -66,10 +60,7 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
     if options.time == 0.0 || !options.time.is_finite() {
         return Err("error: --time: write a number that is not 0".to_string());
     }
-    let out = match &options.out {
-        Some(path) => Some((path, drawing(path)?)),
-        None => None,
-    };
+    let out = options.ink.out()?;
     let (x_name, x) = axis(&case, "--x", &options.x, options.size[0])?;
     let (y_name, y) = axis(&case, "--y", &options.y, options.size[1])?;
     if x.coordinate == y.coordinate {

@@ -7,7 +7,8 @@ use liouville::report::exponents;
 use liouville::verdict;
 
 use super::Answer;
-use super::motion::{Plane, Subject, Threads, parse_start, progress};
+use super::motion::{Plane, Subject, Threads, parse_start};
+use super::progress::progress;
 
 #[derive(Debug, Args)]
 pub struct Exponents {

@@ -6,6 +6,7 @@ mod exponents;
 mod motion;
 mod orbit;
 mod periodic;
+mod progress;
 mod report;
 mod search;
 mod section;

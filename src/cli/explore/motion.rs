@@ -1,11 +1,8 @@
 //! What the commands about motions share: the case, the section, threads, pictures, complaints.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use liouville::case::{Angle, Case};
 use liouville::flow::FlowError;
 use liouville::number::rational::Rational;
@@ -112,36 +109,29 @@ pub fn number_with_pi(text: &str) -> Option<Rational> {
     Some(&(&pi * &factor) * &divisor.recip()?)
 }
 
-/// How a picture looks.
-#[derive(Clone, Copy, Debug, Args)]
+/// Where a picture goes, and how it looks.
+#[derive(Debug, Args)]
 pub struct Ink {
+    /// Draw to this file, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     /// The width of the picture in pixels
     #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
     pub width: u32,
     /// Draw a PNG on dark paper; an SVG is light or dark as its reader's setting is
     #[arg(long)]
-    pub dark: bool,
+    dark: bool,
 }
 
 impl Ink {
-    pub fn paper(self) -> Paper {
+    /// The file, and what its ending asks for; known before anything long is computed.
+    pub fn out(&self) -> Result<Option<(&Path, Drawing)>, String> {
+        self.out.as_deref().map(|path| Ok((path, drawing(path)?))).transpose()
+    }
+
+    pub fn paper(&self) -> Paper {
         if self.dark { Paper::Dark } else { Paper::Light }
     }
-}
-
-/// A bar on a terminal, and nothing elsewhere.
-pub fn progress(count: u64, what: &str) -> ProgressBar {
-    let target = match std::io::stderr().is_terminal() {
-        true => ProgressDrawTarget::stderr(),
-        false => ProgressDrawTarget::hidden(),
-    };
-    let bar = ProgressBar::with_draw_target(Some(count), target);
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left");
-    if let Ok(style) = ProgressStyle::with_template(&template) {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }
 
 /// How a picture is written: the ending of its file says it.
@@ -151,8 +141,7 @@ pub enum Drawing {
     Png,
 }
 
-/// What the ending of a picture's file asks for; known before anything long is computed.
-pub fn drawing(path: &Path) -> Result<Drawing, String> {
+fn drawing(path: &Path) -> Result<Drawing, String> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("svg") => Ok(Drawing::Svg),
         Some("png") => Ok(Drawing::Png),

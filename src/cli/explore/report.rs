@@ -4,7 +4,6 @@ use std::io::IsTerminal;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use indicatif::ProgressBar;
 use liouville::case::Case;
 use liouville::flow;
 use liouville::report::{diagnostic, survey as written};
@@ -12,6 +11,7 @@ use liouville::survey::{self, Survey};
 
 use super::eval::open;
 use super::motion::Threads;
+use super::progress::telling;
 use super::{Answer, Sampling, colour, width};
 
 #[derive(Debug, Args)]
@@ -52,16 +52,7 @@ pub enum ReportFormat {
 
 pub fn run(options: &Report) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;
-    let spinner = match std::io::stderr().is_terminal() {
-        true => ProgressBar::new_spinner(),
-        false => ProgressBar::hidden(),
-    };
-    let mut progress = |what: &str| {
-        spinner.set_message(what.to_string());
-        spinner.tick();
-    };
-    let found = survey::survey(&case, &options.sampling.options(), &mut progress);
-    spinner.finish_and_clear();
+    let found = telling(|progress| survey::survey(&case, &options.sampling.options(), progress));
     let found = found.map_err(|error| {
         let shown = options.case.display().to_string();
         let coloured = colour(std::io::stderr().is_terminal());

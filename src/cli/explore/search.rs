@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
-use indicatif::ProgressBar;
 use liouville::report::{diagnostic, search as written};
 use liouville::search::{self, Effort, Halt, Wanted};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use super::eval::open;
+use super::progress::telling;
 use super::{Answer, colour};
 
 /// The exit code of a search that was stopped.
@@ -110,21 +110,12 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         let search::Plan { unknowns, seconds, megabytes } = plan;
         eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
     }
-    let spinner = match std::io::stderr().is_terminal() {
-        true => ProgressBar::new_spinner(),
-        false => ProgressBar::hidden(),
-    };
-    let mut progress = |what: &str| {
-        spinner.set_message(what.to_string());
-        spinner.tick();
-    };
     // A second Ctrl-C ends the program.
     let switch = effort.halt.switch();
     flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
         .and_then(|_| flag::register(SIGINT, switch))
         .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;
-    let report = search::search(&case, &effort, &mut progress);
-    spinner.finish_and_clear();
+    let report = telling(|progress| search::search(&case, &effort, progress));
     let report = report.map_err(|error| {
         let shown = options.case.display().to_string();
         let coloured = colour(std::io::stderr().is_terminal());

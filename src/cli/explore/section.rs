@@ -1,14 +1,13 @@
 //! `liouville section`
 
-use std::path::PathBuf;
-
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
 use liouville::flow::{self, FlowError, SectionOrbit, SectionRequest};
 use liouville::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
 use liouville::report::{exponents, picture};
 
-use super::motion::{Drawing, Ink, Plane, Subject, Threads, drawing, parse_start, progress};
+use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_start};
+use super::progress::progress;
 use super::{Answer, write};
 
 /// Orbits and crossings where neither the case nor the command line says how many.
@@ -58,9 +57,6 @@ pub struct Section {
     /// Tell the class of each orbit, from its exponents over this time and back: --classes, --classes=5000
     #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000")]
     pub classes: Option<f64>,
-    /// Draw to this file, .svg or .png
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
@@ -84,10 +80,7 @@ pub fn run(options: &Section) -> Result<Answer, String> {
     let case = subject.open()?;
     let told = |error: FlowError| subject.told(&error);
     let request = request(&case, options)?;
-    let out = match &options.out {
-        Some(path) => Some((path, drawing(path)?)),
-        None => None,
-    };
+    let out = options.ink.out()?;
     let bar = progress(request.starts.len() as u64, "orbits");
     let threads = options.threads.count();
     let orbits = flow::section(&case, &request, threads, &|| bar.inc(1)).map_err(told)?;
