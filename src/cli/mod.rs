@@ -16,6 +16,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
 #[command(name = "liouville", version, about, max_term_width = 100)]
+#[cfg_attr(
+    not(feature = "explore"),
+    command(
+        after_help = "search, report, motions, stress and bench: build with the feature `explore`"
+    )
+)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,

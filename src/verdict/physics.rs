@@ -112,7 +112,7 @@ enum Inertia {
 }
 
 impl Inertia {
-    /// Which masses have the symmetric part of `tensor` for their inertia?
+    /// Is there a body with the symmetric part of `tensor` for its inertia?
     fn of(tensor: &Matrix3<f64>) -> Self {
         let inertia = (tensor + tensor.transpose()) * 0.5;
         if inertia.cholesky().is_none() {
