@@ -126,6 +126,16 @@ impl Formula {
         values[values.len() - 1]
     }
 
+    /// The value, with one exactly where every operation that is written has one: a recorded
+    /// scalar folds √x·√x to x otherwise.
+    pub fn evaluate_literally<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+    ) -> Value<T> {
+        let values = evaluate::literal_values(&self.arena, lookup);
+        values[values.len() - 1]
+    }
+
     /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
     ///
     /// Taken factor by factor, so that roots, powers and exponentials of factors drop out. Zero if

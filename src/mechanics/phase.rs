@@ -137,6 +137,8 @@ pub struct Phase<'m, T> {
     /// The part without velocities.
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    /// Values that keep the domain of what is written.
+    literal: RefCell<FxHashMap<Symbol, Value<T>>>,
     motion: OnceCell<Box<Motion<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// The rates of the system's own variables.
@@ -164,6 +166,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self {
             configuration: Configuration::new(model, parameters, state),
             known: RefCell::default(),
+            literal: RefCell::default(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -184,6 +187,29 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The value of a formula.
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
+    }
+
+    /// The value of a formula, with one exactly where every operation has one that is written in it,
+    /// in the abbreviations or in the parameters it uses.
+    pub fn evaluate_literally(&self, formula: &Formula) -> Value<T> {
+        formula.evaluate_literally(&mut |symbol| {
+            if let Some(value) = self.literal.borrow().get(&symbol) {
+                return *value;
+            }
+            let model = self.model();
+            let value = match model.vocabulary.entry(symbol).meaning {
+                Meaning::Abbreviation(index) => {
+                    self.evaluate_literally(&model.abbreviations[index])
+                }
+                Meaning::Parameter(index) => match &model.parameters[index].origin {
+                    Origin::Formula(formula) => self.evaluate_literally(formula),
+                    _ => self.value(symbol),
+                },
+                _ => self.value(symbol),
+            };
+            self.literal.borrow_mut().insert(symbol, value);
+            value
+        })
     }
 
     /// The value of a scalar formula.

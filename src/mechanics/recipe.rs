@@ -39,6 +39,19 @@ pub enum Draw {
     Of(Line, Range),
 }
 
+impl Draw {
+    /// The only number there is, if there is no other.
+    pub fn only(&self) -> Option<Rational> {
+        match self {
+            Draw::OneOf(values) => match values.as_slice() {
+                [value] => Some(value.clone()),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
 /// What a range stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {

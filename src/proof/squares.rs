@@ -1,224 +1,249 @@
-//! Squares among the values of a graph: A Π A_i = c² b² for a radicand A and earlier ones A_i.
+//! Squares among the values of a graph: A Π A_i = c b² for a radicand A and others A_i.
 
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Evaluator, Expr, Tape};
-use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::number::prime::{Modulus, UNDEFINED};
+use crate::number::quadratic::{Element, Quadratic};
 use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
-use super::algebraic::{Algebraic, Root};
-use super::chance::Chance;
+use super::chance::{Chance, Stream};
 use super::digest::Digest;
-use super::identity::{LANES, MOST_ROOTS, Trial, points};
-use super::standing::Standing;
+use super::lower::Algebraic;
+use super::reconstruct::reconstruct;
+use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, points, prime_of, suitable_moduli};
 
-/// Blocks of points that are tried before no common point of all roots is expected any more.
-const MOST_BLOCKS: usize = (64 << MOST_ROOTS) / LANES;
-/// Products of at most this many earlier radicands are tried.
-const MOST_FACTORS: usize = 4;
-/// Points that a square must fit before a proof is tried.
-const SAMPLES: usize = LANES;
-/// c² for the constants c with which √A = ±c b is looked for.
-const SQUARES: [(i64, i64); 7] = [(1, 1), (4, 1), (1, 4), (9, 1), (1, 9), (16, 1), (1, 16)];
+/// Lanes of one prime: the first is what the others are compared with.
+const SHARED: usize = LANES / PRIMES;
+/// Blocks of points that are tried until all values that are needed exist.
+const MOST_BLOCKS: usize = 8;
 
-/// b, the product or quotient of two values or one alone, by places of the original graph.
-#[derive(Clone, Copy)]
-pub struct Base {
-    pub value: usize,
-    /// Another place, and whether it divides.
-    pub beside: Option<(usize, bool)>,
+/// b, the product or quotient of values of the original graph, by their places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Square {
+    /// 1
+    One,
+    /// A value.
+    Value(usize),
+    /// A product of two values.
+    Product(usize, usize),
+    /// A quotient of two values.
+    Quotient(usize, usize),
 }
 
-impl Base {
+impl Square {
     /// The places.
-    pub fn places(self) -> impl Iterator<Item = usize> {
-        [Some(self.value), self.beside.map(|(place, _)| place)].into_iter().flatten()
+    pub fn places(self) -> Vec<usize> {
+        match self {
+            Square::One => Vec::new(),
+            Square::Value(a) => vec![a],
+            Square::Product(a, b) | Square::Quotient(a, b) => vec![a, b],
+        }
     }
 
-    /// Its value, from the values at the places.
-    pub fn from(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
-        let value = at(self.value)?;
-        Some(match self.beside {
-            None => value,
-            Some((place, false)) => value * at(place)?,
-            Some((place, true)) => value / at(place)?,
+    /// The value of b, from the values at places.
+    pub fn value(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        Some(match self {
+            Square::One => Expr::rational(&Rational::from(1)),
+            Square::Value(a) => at(a)?,
+            Square::Product(a, b) => at(a)? * at(b)?,
+            Square::Quotient(a, b) => at(a)? / at(b)?,
         })
     }
 }
 
-/// All values of the original graph at points where the independent roots exist.
+/// The values of a block at each lane over that at the first lane of the same prime.
+type Ratios = [Element; LANES];
+
+/// All values of a graph at random points where its independent roots exist.
 pub struct Samples {
-    moduli: Vec<Modulus>,
-    /// By place; `None` where the graph has no value that a field can compute.
-    values: Vec<Option<Vec<u64>>>,
-    /// For each root: its radicand at these points.
-    radicands: Vec<(usize, Vec<u64>)>,
+    field: Quadratic<LANES>,
+    moduli: [Modulus; LANES],
+    /// The squares of the values at places, and whether the sign of the value is known.
+    squares: Vec<(usize, [Element; LANES], Ratios, bool)>,
+    /// The first of them with given ratios, and the first with a known sign.
+    with_ratios: FxHashMap<Element, [Option<usize>; 2]>,
+    /// The radicands, by base.
+    radicands: Vec<[Element; LANES]>,
 }
 
 impl Samples {
-    /// Values at points where all roots exist; `None` where there are hardly any.
+    /// Values at points where the radicands of the bases `needed` exist; `None` where no such point
+    /// is found. `known` tells where signs are known.
     pub fn of(
-        algebraic: &Algebraic,
-        trial: &Trial<'_>,
-        roots: &[(Root, Standing)],
+        algebraic: &Algebraic<'_>,
+        needed: &[usize],
+        known: &[bool],
         digest: Digest,
     ) -> Option<Self> {
-        let kept: Vec<usize> =
+        let places: Vec<usize> =
             (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
         let mut outputs: Vec<Expr> =
-            kept.iter().filter_map(|place| algebraic.values[*place]).collect();
-        let count = outputs.len();
-        outputs.extend(roots.iter().map(|(root, _)| root.radicand));
+            places.iter().filter_map(|place| algebraic.values[*place]).collect();
+        outputs.extend(algebraic.bases.iter().map(|base| base.radicand));
         let tape = Tape::new(&algebraic.graph, &outputs);
-        let moduli = trial.moduli_for_search();
-        let mut evaluator = Evaluator::new(&tape, Prime::new(moduli));
-        let mut chance = Chance::of(digest, 4);
+        // An identity has to be tested modulo primes that had no part in finding it.
+        let moduli = suitable_moduli(digest, Stream::Squares, algebraic);
+        let field = Quadratic::new(moduli);
+        let mut evaluator = Evaluator::new(&tape, field.clone());
+        let mut chance = Chance::of(digest, Stream::Squares);
+        let is_defined = |block: &[Element; LANES]| block.iter().all(|x| x[0] != UNDEFINED);
+        let found = (0..MOST_BLOCKS << MOST_NESTED).any(|_| {
+            let block = points(&moduli, &algebraic.sources, &[], &mut chance);
+            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
+            needed.iter().all(|base| is_defined(evaluator.output(places.len() + base)))
+        });
+        if !found {
+            return None;
+        }
+        let radicands =
+            (places.len()..outputs.len()).map(|index| *evaluator.output(index)).collect();
         let mut samples = Self {
-            moduli: Vec::new(),
-            values: algebraic.values.iter().map(|value| value.map(|_| Vec::new())).collect(),
-            radicands: roots.iter().map(|(root, _)| (root.sign, Vec::new())).collect(),
+            field,
+            moduli,
+            squares: Vec::new(),
+            with_ratios: FxHashMap::default(),
+            radicands,
         };
-        for _ in 0..MOST_BLOCKS {
-            evaluator.run(&points(&moduli, &algebraic.sources, &[], &mut chance));
-            for (lane, modulus) in moduli.iter().enumerate() {
-                let exists = |index: usize| {
-                    let radicand = evaluator.output(count + index)[lane];
-                    roots[index].0.is_modulus
-                        || (radicand != UNDEFINED && modulus.is_square(radicand))
-                };
-                if !(0..roots.len()).all(exists) {
-                    continue;
-                }
-                samples.moduli.push(*modulus);
-                for (index, place) in kept.iter().enumerate() {
-                    if let Some(values) = &mut samples.values[*place] {
-                        values.push(evaluator.output(index)[lane]);
-                    }
-                }
-                for (index, (_, values)) in samples.radicands.iter_mut().enumerate() {
-                    values.push(evaluator.output(count + index)[lane]);
-                }
-            }
-            if samples.moduli.len() >= SAMPLES {
-                return Some(samples);
+        for (index, place) in places.iter().enumerate() {
+            let block = *evaluator.output(index);
+            if is_defined(&block) && block.iter().all(|x| *x != [0, 0]) {
+                samples.note(*place, &block, known.get(*place) == Some(&true));
             }
         }
-        None
+        Some(samples)
     }
 
-    fn radicand(&self, root: &Root) -> Option<&Vec<u64>> {
-        self.radicands.iter().find(|(sign, _)| *sign == root.sign).map(|(_, values)| values)
+    fn note(&mut self, place: usize, block: &[Element; LANES], is_known: bool) {
+        let square = std::array::from_fn(|lane| self.field.product(lane, block[lane], block[lane]));
+        let Some(ratios) = self.ratios(&square) else { return };
+        let next = self.squares.len();
+        self.squares.push((place, square, ratios, is_known));
+        let [first, known] = self.with_ratios.entry(key(&ratios)).or_default();
+        first.get_or_insert(next);
+        if is_known {
+            known.get_or_insert(next);
+        }
     }
 
-    /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
-    /// points; one whose signs are `known` where there is one.
+    /// Each value over that at the first lane of its prime: a number as factor drops out.
+    fn ratios(&self, values: &[Element; LANES]) -> Option<Ratios> {
+        let mut ratios = [[0; 2]; LANES];
+        for lane in 0..LANES {
+            let inverse = self.field.inverse(lane, values[prime_of(lane) * SHARED])?;
+            ratios[lane] = self.field.product(lane, values[lane], inverse);
+        }
+        Some(ratios)
+    }
+
+    /// b and c with A Π A_i = c b² at all points, for a base and others by their numbers: b from the
+    /// places before `before`, with a known sign where there is such a b.
     pub fn square(
         &self,
-        place: usize,
-        root: &Root,
-        earlier: &[&Root],
-        known: &[bool],
-    ) -> Option<(Base, Rational, Vec<usize>)> {
-        let radicand = self.radicand(root)?;
-        let squares = Squares::of(self, place, known);
-        [true, false]
-            .into_iter()
-            .find_map(|only_known| self.square_among(&squares, only_known, radicand, earlier))
-    }
-
-    fn square_among(
-        &self,
-        squares: &Squares,
-        only_known: bool,
-        radicand: &[u64],
-        earlier: &[&Root],
-    ) -> Option<(Base, Rational, Vec<usize>)> {
-        for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
-            let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
-            let mut target = radicand.to_vec();
-            for (_, root) in chosen() {
-                for ((entry, factor), m) in
-                    target.iter_mut().zip(self.radicand(root)?).zip(&self.moduli)
-                {
-                    *entry = m.mul(*entry, *factor);
-                }
-            }
-            for (n, d) in SQUARES {
-                let square = Rational::new(n, d);
-                let scaled: Option<Vec<u64>> = target
-                    .iter()
-                    .zip(&self.moduli)
-                    .map(|(x, m)| Some(m.mul(*x, m.rational(&square.recip()?)?)))
-                    .collect();
-                if let Some(base) = squares.find(&self.moduli, &scaled?, only_known) {
-                    let over = chosen().filter_map(|(_, root)| root.place).collect();
-                    return Some((base, square, over));
-                }
+        base: usize,
+        others: &[usize],
+        before: usize,
+    ) -> Option<(Rational, Square)> {
+        let mut target = *self.radicands.get(base)?;
+        if target.iter().any(|x| x[0] == UNDEFINED) {
+            return None;
+        }
+        for other in others {
+            for lane in 0..LANES {
+                let factor = self.radicands[*other][lane];
+                target[lane] = self.field.product(lane, target[lane], factor);
             }
         }
-        None
-    }
-}
-
-/// The squares of all values before a place, by what they are at the first point.
-struct Squares {
-    squares: Vec<Square>,
-    at_first: FxHashMap<u64, usize>,
-}
-
-/// The square of the value at a place, at all points.
-struct Square {
-    place: usize,
-    values: Vec<u64>,
-    /// Is the sign of the value known?
-    is_known: bool,
-}
-
-impl Squares {
-    fn of(samples: &Samples, before: usize, known: &[bool]) -> Self {
-        let mut all = Self { squares: Vec::new(), at_first: FxHashMap::default() };
-        for (place, values) in samples.values.iter().enumerate().take(before) {
-            let Some(values) = values else { continue };
-            // 0 has no inverse, and is the square of nothing that is asked for.
-            if values.iter().any(|value| *value == UNDEFINED || *value == 0) {
-                continue;
-            }
-            let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
-            let values: Vec<u64> = square.collect();
-            let Some(first) = values.first() else { continue };
-            let (next, is_known) = (all.squares.len(), known.get(place) == Some(&true));
-            let index = all.at_first.entry(*first).or_insert(next);
-            if is_known && all.squares.get(*index).is_some_and(|square| !square.is_known) {
-                *index = next;
-            }
-            all.squares.push(Square { place, values, is_known });
+        let ratios = self.ratios(&target)?;
+        if ratios.iter().enumerate().all(|(lane, x)| *x == [self.moduli[lane].one(), 0]) {
+            let scale = self.number(&target, &self.moduli.map(|m| [m.one(), 0]))?;
+            return Some((scale, Square::One));
         }
-        all
-    }
-
-    /// The place whose square this is.
-    fn place(&self, target: &[u64], only_known: bool) -> Option<usize> {
-        let square = &self.squares[*self.at_first.get(target.first()?)?];
-        (square.values == target && (square.is_known || !only_known)).then_some(square.place)
-    }
-
-    fn find(&self, moduli: &[Modulus], target: &[u64], only_known: bool) -> Option<Base> {
-        if let Some(value) = self.place(target, only_known) {
-            return Some(Base { value, beside: None });
-        }
-        let combined = |square: &[u64], over: bool| -> Vec<u64> {
-            let pairs = target.iter().zip(square).zip(moduli);
-            pairs.map(|((t, s), m)| m.mul(*t, if over { *s } else { m.inverse(*s) })).collect()
-        };
-        let squares = self.squares.iter().filter(|square| square.is_known || !only_known);
-        squares.into_iter().find_map(|square| {
-            [false, true].into_iter().find_map(|over| {
-                // The first point decides almost always.
-                let first = combined(&square.values[..1], over);
-                self.at_first.get(first.first()?)?;
-                let value = self.place(&combined(&square.values, over), only_known)?;
-                Some(Base { value, beside: Some((square.place, over)) })
-            })
+        [true, false].into_iter().find_map(|only_known| {
+            let (square, values) = self.find(&ratios, only_known, before)?;
+            Some((self.number(&target, &values)?, square))
         })
     }
+
+    /// b with these ratios of b², and the values of b².
+    fn find(
+        &self,
+        target: &Ratios,
+        only_known: bool,
+        before: usize,
+    ) -> Option<(Square, [Element; LANES])> {
+        let value = |ratios: &Ratios| self.place(ratios, only_known, before);
+        if let Some((place, values)) = value(target) {
+            return Some((Square::Value(place), values));
+        }
+        let product = |a: &[Element; LANES], b: &[Element; LANES]| -> [Element; LANES] {
+            std::array::from_fn(|lane| self.field.product(lane, a[lane], b[lane]))
+        };
+        let inverse = |a: &[Element; LANES]| -> Option<[Element; LANES]> {
+            let mut inverse = [[0; 2]; LANES];
+            for lane in 0..LANES {
+                inverse[lane] = self.field.inverse(lane, a[lane])?;
+            }
+            Some(inverse)
+        };
+        let usable = self.squares.iter().take_while(|square| square.0 < before);
+        usable.filter(|square| square.3 || !only_known).find_map(
+            |(place, square, ratios, _)| {
+                // The last lane decides almost always.
+                let lane = LANES - 1;
+                let over = self.field.inverse(lane, ratios[lane])?;
+                let rest = self.field.product(lane, target[lane], over);
+                if self.with_ratios.contains_key(&rest) {
+                    let wanted = product(target, &inverse(ratios)?);
+                    if let Some((other, values)) = value(&wanted) {
+                        return Some((Square::Product(other, *place), product(&values, square)));
+                    }
+                }
+                let times = self.field.product(lane, target[lane], ratios[lane]);
+                if self.with_ratios.contains_key(&times) {
+                    let wanted = product(target, ratios);
+                    if let Some((other, values)) = value(&wanted) {
+                        let values = product(&values, &inverse(square)?);
+                        return Some((Square::Quotient(other, *place), values));
+                    }
+                }
+                None
+            },
+        )
+    }
+
+    /// The place of a value whose square has these ratios, and the square.
+    fn place(
+        &self,
+        target: &Ratios,
+        only_known: bool,
+        before: usize,
+    ) -> Option<(usize, [Element; LANES])> {
+        let [first, known] = self.with_ratios.get(&key(target))?;
+        let index = if only_known { known } else { first };
+        let (place, square, ratios, _) = &self.squares[(*index)?];
+        (ratios == target && *place < before).then_some((*place, *square))
+    }
+
+    /// The rational number that a is times b at all points.
+    fn number(&self, a: &[Element; LANES], b: &[Element; LANES]) -> Option<Rational> {
+        let mut number = None;
+        for lane in (0..LANES).step_by(SHARED) {
+            let image = self.field.product(lane, a[lane], self.field.inverse(lane, b[lane])?);
+            let found = match image {
+                [real, 0] => reconstruct(real, &self.moduli[lane])?,
+                _ => return None,
+            };
+            if number.get_or_insert_with(|| found.clone()) != &found {
+                return None;
+            }
+        }
+        number
+    }
+}
+
+/// What values are looked up by: the ratio at the last lane.
+fn key(ratios: &Ratios) -> Element {
+    ratios[LANES - 1]
 }

@@ -136,7 +136,10 @@ fn remark(claim: &ClaimReport) -> String {
             if let Some(witness) = &evidence.witness {
                 let shown = witness.digits.clone();
                 let shown = shown.unwrap_or_else(|| format!("{:.2e}", witness.residual));
-                words.push(format!("{shown} at state {}", witness.index));
+                words.push(match witness.index {
+                    Some(index) => format!("{shown} at state {index}"),
+                    None => format!("{shown} at a state that was looked for"),
+                });
                 if evidence.method != "ball" {
                     words.push(evidence.method.to_string());
                 }

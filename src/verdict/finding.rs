@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::field::Where;
 use super::evidence::{Evidence, Independence, Rung, Verdict};
 use super::recorded::{Recorded, Span};
 use super::run::Values;
@@ -23,14 +24,16 @@ pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of it
 pub struct Finding {
     pub settled: Option<Verdict>,
     pub evidence: Evidence,
-    /// Did a prime field show that the residual is no identity?
-    pub is_nonzero: bool,
+    /// Where prime fields show that the residual is no identity.
+    pub nonzero: Vec<Where>,
     /// Is the residual zero in prime fields?
     pub is_zero: bool,
     /// Has something no value, as far as the digits used so far can tell?
     pub undefined: Option<String>,
     /// Did rounding blur the residual, and how?
     pub blurred: Option<String>,
+    /// Lanes of the first block at which f64 finds no state, or no value of what is required.
+    pub missing: Vec<usize>,
 }
 
 impl Finding {
@@ -40,6 +43,11 @@ impl Finding {
             Some(last) if last.rung == rung => last.found = found,
             _ => self.evidence.climb.push(Rung { rung, found }),
         }
+    }
+
+    /// Whether a prime field shows that the residual is no identity.
+    pub fn is_nonzero(&self) -> bool {
+        !self.nonzero.is_empty()
     }
 
     /// Does the claim hold, as far as is known?
@@ -79,14 +87,16 @@ pub fn weigh<D: Enclosing>(
     item: &Recorded<'_>,
     span: &Span,
     values: &Values<D>,
+    existing: &[bool],
     finding: &mut Finding,
 ) {
     let look = |range: &Range<usize>, scale: &Range<usize>| {
-        Look::at::<D>(&values.range(range.clone()), values.range(scale.clone()).first().copied())
+        let scale = values.range(scale.clone()).first().copied();
+        Look::at::<D>(&values.range(range.clone()), scale, existing)
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
     finding.undefined = None;
-    if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
+    if look(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         finding.undefined =
             Some(format!("the formula of this {kind} has no value at {LANES} states{hint}"));
@@ -141,10 +151,14 @@ pub struct Look {
 }
 
 impl Look {
-    /// Looks at a residual, and the square of its scale.
-    pub fn at<D: Enclosing>(residuals: &[&D::Block], scale: Option<&D::Block>) -> Self {
+    /// Looks at a residual, and the square of its scale, at the lanes that hold a state.
+    pub fn at<D: Enclosing>(
+        residuals: &[&D::Block],
+        scale: Option<&D::Block>,
+        existing: &[bool],
+    ) -> Self {
         let mut look = Self { states: D::LANES, defined: 0, resolved: 0, excludes_zero: false };
-        for lane in 0..D::LANES {
+        for lane in (0..D::LANES).filter(|lane| existing[*lane]) {
             let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
             let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
                 continue;

@@ -10,6 +10,7 @@ mod conclude;
 mod coverage;
 mod evidence;
 mod examine;
+mod existence;
 mod field;
 mod finding;
 mod ground;

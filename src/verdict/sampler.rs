@@ -11,7 +11,7 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::Extent;
+use crate::proof::{Extent, Fact, Group, Source, conditions};
 use crate::scalar::Scalar;
 
 use super::newton::Newton;
@@ -87,9 +87,21 @@ impl Sampler {
     /// The same for `lanes` states in another domain; states found numerically are known in f64
     /// only.
     pub fn states<D: Domain + Clone>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
-        let numbers: Vec<Vec<Rational>> =
-            (0..lanes).map(|lane| self.draws.state(self.seed, start + lane as u64)).collect();
-        self.made_in(domain, &numbers)
+        self.made_in(domain, &self.numbers(lanes, start))
+    }
+
+    /// The draws of `lanes` states in a domain.
+    pub fn drawn<D: Domain>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
+        self.columns(domain, &self.numbers(lanes, start))
+    }
+
+    /// Parameters and one state made from given numbers in place of draws.
+    pub fn made_from<D: Domain + Clone>(&self, domain: &D, numbers: &[Rational]) -> Vec<D::Block> {
+        self.made_in(domain, &[numbers.to_vec()])
+    }
+
+    fn numbers(&self, lanes: usize, start: u64) -> Vec<Vec<Rational>> {
+        (0..lanes).map(|lane| self.draws.state(self.seed, start + lane as u64)).collect()
     }
 
     /// Where each of the numbers that are drawn can be.
@@ -157,16 +169,7 @@ impl Sampler {
         fixed: &[Option<Rational>],
     ) -> Result<(Graph, Vec<Vec<Expr>>), Fault> {
         let (composed, values) = record(self.draws.len(), |draws| {
-            let draws: Vec<Expr> = draws
-                .iter()
-                .zip(fixed)
-                .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
-                .collect();
-            let reached = self.graph.reached(self.made.iter().copied());
-            let values = self.graph.replay(&reached, &draws, |_, _, _| None);
-            let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
-            let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
-            inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
             let reached = graph.reached(groups.iter().flatten().copied());
             let values = graph.replay(&reached, &inputs, |_, _, _| None);
             let group = |group: &Vec<Expr>| {
@@ -175,6 +178,64 @@ impl Sampler {
             groups.iter().map(group).collect::<Option<Vec<Vec<Expr>>>>()
         })?;
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
+    }
+
+    /// The same for groups of values with facts; what is known of the states beside comes with them.
+    pub fn compose_groups(
+        &self,
+        graph: &Graph,
+        groups: &[Group],
+        fixed: &[Option<Rational>],
+    ) -> Result<(Graph, Vec<Group>), Fault> {
+        let own: Vec<(usize, Fact)> = {
+            let reached = self.graph.reached(self.made.iter().copied());
+            conditions(&self.graph, &reached)
+        };
+        let (composed, groups) = record(self.draws.len(), |draws| {
+            let (inputs, made) = self.inputs_from(graph, draws, fixed)?;
+            let own: Option<Vec<(Expr, Fact)>> =
+                own.iter().map(|(place, fact)| Some((made[*place]?, *fact))).collect();
+            let own = own?;
+            let needed = groups.iter().flat_map(|group| {
+                group.outputs.iter().copied().chain(group.facts.iter().map(|(value, _)| *value))
+            });
+            let reached = graph.reached(needed);
+            let values = graph.replay(&reached, &inputs, |_, _, _| None);
+            let at = |value: &Expr| values[graph.place(*value)];
+            let group = |group: &Group| {
+                let facts = group.facts.iter().map(|(value, fact)| Some((at(value)?, *fact)));
+                let mut facts = facts.collect::<Option<Vec<(Expr, Fact)>>>()?;
+                facts.extend(own.iter().copied());
+                Some(Group { outputs: group.outputs.iter().map(at).collect::<Option<_>>()?, facts })
+            };
+            groups.iter().map(group).collect::<Option<Vec<Group>>>()
+        })?;
+        groups.map(|groups| (composed, groups)).ok_or(Fault::ForeignValue)
+    }
+
+    /// Parameters, states and further inputs of `graph` from draws, and all values on the way.
+    fn inputs_from(
+        &self,
+        graph: &Graph,
+        draws: &[Expr],
+        fixed: &[Option<Rational>],
+    ) -> Option<(Vec<Expr>, Vec<Option<Expr>>)> {
+        let draws: Vec<Expr> = draws
+            .iter()
+            .zip(fixed)
+            .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
+            .collect();
+        let reached = self.graph.reached(self.made.iter().copied());
+        let values = self.graph.replay(&reached, &draws, |_, _, _| None);
+        let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+        let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
+        inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+        Some((inputs, values))
+    }
+
+    /// What each of the draws is in a field.
+    pub fn sources(&self) -> Vec<Source> {
+        vec![Source::Uniform; self.recipes.len()]
     }
 
     /// Checks that a parametrisation typed by the user fills the level set.
@@ -234,7 +295,10 @@ impl Sampler {
 
     /// Parameters and state of one state, exact where they are rational.
     pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
-        let values = self.draws.state(self.seed, index);
+        self.exact_from(self.draws.state(self.seed, index))
+    }
+
+    fn exact_from(&self, values: Vec<Rational>) -> Vec<Option<Rational>> {
         let mut evaluator = Evaluator::new(&self.tape, Exact);
         evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
         let state_begins = self.tape.outputs() - self.dimension;
@@ -249,15 +313,7 @@ impl Sampler {
     /// told apart: with them a residual that was computed from as many bits is found again.
     pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
         if bits > f64::MANTISSA_DIGITS {
-            let domain = Precise::new(bits + SPARE_BITS);
-            let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
-            let precise = std::cell::LazyCell::new(|| self.states(&domain, 1, index));
-            let written = |k: usize| precise[k].as_ref()?.decimal(digits);
-            let text = |(k, value): (usize, Option<Rational>)| match value {
-                Some(exact) => exact.to_string(),
-                None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
-            };
-            return self.exact(index).into_iter().enumerate().map(text).collect();
+            return self.printed_from(&self.draws.state(self.seed, index), bits);
         }
         let start = index - index % LANES as u64;
         let lane = (index % LANES as u64) as usize;
@@ -267,6 +323,19 @@ impl Sampler {
             None => format!("{:?}", balls[k].mid[lane]),
         };
         self.exact(index).into_iter().enumerate().map(text).collect()
+    }
+
+    /// A state made from given numbers as text, with digits for `bits` bits.
+    pub fn printed_from(&self, numbers: &[Rational], bits: u32) -> Vec<String> {
+        let domain = Precise::new(bits + SPARE_BITS);
+        let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
+        let precise = std::cell::LazyCell::new(|| self.made_from(&domain, numbers));
+        let written = |k: usize| precise[k].as_ref()?.decimal(digits);
+        let text = |(k, value): (usize, Option<Rational>)| match value {
+            Some(exact) => exact.to_string(),
+            None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
+        };
+        self.exact_from(numbers.to_vec()).into_iter().enumerate().map(text).collect()
     }
 }
 

@@ -2,18 +2,17 @@
 
 use super::evidence::Witness;
 use super::point::named;
-use super::sampler::Sampler;
 use crate::case::Case;
 
-/// State `index` with the residual that was found there in `bits` bits, and a bound on its error.
+/// A state as it is printed, with its number under the seed if it has one, the residual that was
+/// found there, and a bound on its error.
 pub fn witness(
     case: &Case,
-    sampler: &Sampler,
-    index: u64,
-    bits: u32,
+    index: Option<u64>,
+    printed: &[String],
     (residual, error_bound): (f64, f64),
 ) -> Witness {
-    let (parameters, state) = named(&case.model, &sampler.printed(index, bits));
+    let (parameters, state) = named(&case.model, printed);
     let parameters = parameters.into_iter().map(|(name, value)| (name, listed(&value)));
     let state: Vec<String> =
         state.iter().map(|(name, value)| format!("{name}={}", listed(value))).collect();
