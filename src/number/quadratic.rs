@@ -57,6 +57,19 @@ impl<const N: usize> Quadratic<N> {
         integer_power(&self.moduli[lane], x, -1)
     }
 
+    /// All 1/x in a lane by one inversion, for x ≠ 0.
+    pub fn inverses(&self, lane: usize, x: &[Element]) -> Vec<Element> {
+        let m = &self.moduli[lane];
+        let norms: Vec<u64> = x.iter().map(|x| norm(m, *x)).collect();
+        let mut inverses = vec![UNDEFINED; x.len()];
+        m.inverses(&norms, &mut inverses);
+        let conjugate = |([a, b], inverse): (&Element, u64)| match inverse {
+            UNDEFINED => NONE,
+            _ => [m.mul(*a, inverse), m.mul(m.sub(0, *b), inverse)],
+        };
+        x.iter().zip(inverses).map(conjugate).collect()
+    }
+
     #[inline(always)]
     fn map(
         &self,

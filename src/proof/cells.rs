@@ -18,11 +18,11 @@ use super::trial::{Certificate, Finding, both};
 
 /// A part of the real inputs on which signs are chosen.
 pub struct Cell {
-    /// The computation, with what the signs decide put in.
+    /// The computation of the values, with what the signs decide put in.
     pub graph: Graph,
-    /// The outputs of each group.
-    pub groups: Vec<Vec<Expr>>,
-    /// What is known of values, by place, wherever the groups have any.
+    /// The values that no field computes as they stand: roots, moduli, signs, functions.
+    pub values: Vec<Expr>,
+    /// What is known of values, by place, wherever there is anything to prove.
     pub facts: Vec<(usize, Fact)>,
     /// Which of the facts were chosen: positive here, and not on other cells.
     chosen: Vec<usize>,
@@ -54,24 +54,25 @@ pub struct Change<'c> {
 }
 
 impl Cell {
-    /// All real inputs at which the values of some groups exist, facts being known of some values.
+    /// All real inputs at which the values at some places of a graph exist, facts being known of some
+    /// of its values.
     pub fn whole(
         graph: &Graph,
-        groups: &[&[Expr]],
+        places: &[usize],
         facts: &[(Expr, Fact)],
     ) -> Result<Self, Fault> {
         let facts: Vec<(usize, Fact)> =
             facts.iter().map(|(value, fact)| (graph.place(*value), *fact)).collect();
-        let outputs = groups.concat();
-        let reached = reached(graph, &outputs, &facts, &[]);
+        let all: Vec<usize> = places.iter().copied().chain(facts.iter().map(|f| f.0)).collect();
+        let reached = graph.reached_from(&all);
         let (own, found) = record(graph.inputs(), |inputs| {
             let values = graph.replay(&reached, inputs, |_, _, _| None);
-            replayed(graph, &values, groups.iter().copied(), &facts)
+            replayed(&values, places, &facts)
         })?;
-        let (groups, facts) = found.ok_or(Fault::ForeignValue)?;
+        let (values, facts) = found.ok_or(Fault::ForeignValue)?;
         let facts = facts.into_iter().map(|(value, fact)| (own.place(value), fact)).collect();
         let (chosen, fixed, certificate) = (Vec::new(), Vec::new(), None);
-        Ok(Self { graph: own, groups, facts, chosen, fixed, certificate })
+        Ok(Self { graph: own, values, facts, chosen, fixed, certificate })
     }
 
     /// Whether it is a part of the inputs only.
@@ -84,15 +85,10 @@ impl Cell {
         self.chosen.iter().map(|index| self.facts[*index].0)
     }
 
-    /// All outputs.
-    pub fn outputs(&self) -> Vec<Expr> {
-        self.groups.concat()
-    }
-
-    /// The facts, with those of the radicands of all roots in the outputs.
+    /// The facts, with those of the radicands of all roots in the values.
     pub fn known(&self) -> Vec<(usize, Fact)> {
         let mut known = self.facts.clone();
-        let reached = self.graph.reached(self.outputs());
+        let reached = self.graph.reached(self.values.iter().copied());
         for condition in conditions(&self.graph, &reached) {
             if !known.contains(&condition) {
                 known.push(condition);
@@ -105,63 +101,58 @@ impl Cell {
     /// stays known when they are gone.
     pub fn changed(&self, change: &Change<'_>) -> Result<Self, Fault> {
         let facts = self.known();
-        let mut needed: Vec<usize> =
-            change.rewrites.iter().flat_map(|rewrite| rewrite.needs()).collect();
+        let places: Vec<usize> = self.values.iter().map(|value| self.graph.place(*value)).collect();
+        let mut needed = places.clone();
+        needed.extend(facts.iter().map(|(place, _)| *place));
+        needed.extend(change.rewrites.iter().flat_map(|rewrite| rewrite.needs()));
         needed.extend(change.chosen.map(|(place, _)| place));
-        let reached = reached(&self.graph, &self.outputs(), &facts, &needed);
+        let reached = self.graph.reached_from(&needed);
         let (graph, found) = record(self.graph.inputs(), |inputs| {
-            let mut inputs = inputs.to_vec();
-            if let Some((input, positive)) = change.fixed {
-                let sign = if positive { 1 } else { -1 };
-                inputs[input] = Expr::rational(&Rational::from(sign));
-            }
+            let inputs = with_signs(inputs, change.fixed);
             let values = self.graph.replay(&reached, &inputs, |place, step, values| {
                 let mut rewrites = change.rewrites.iter();
                 rewrites.find_map(|rewrite| rewrite.value(&self.graph, place, step, values))
             });
-            let groups = self.groups.iter().map(Vec::as_slice);
-            let (groups, mut facts) = replayed(&self.graph, &values, groups, &facts)?;
+            let (own, mut facts) = replayed(&values, &places, &facts)?;
             if let Some((place, positive)) = change.chosen {
                 let value = values[place]?;
                 facts.push((if positive { value } else { -value }, Fact::Positive));
             }
-            Some((groups, facts))
+            Some((own, facts))
         })?;
-        let (groups, facts) = found.ok_or(Fault::ForeignValue)?;
+        let (values, facts) = found.ok_or(Fault::ForeignValue)?;
         let mut chosen = self.chosen.clone();
         chosen.extend(change.chosen.map(|_| facts.len() - 1));
         let facts = facts.into_iter().map(|(value, fact)| (graph.place(value), fact)).collect();
         let certificate = both(self.certificate, change.certificate);
         let fixed = self.fixed.iter().copied().chain(change.fixed).collect();
-        Ok(Self { graph, groups, facts, chosen, fixed, certificate })
+        Ok(Self { graph, values, facts, chosen, fixed, certificate })
     }
 }
 
-/// The steps that some outputs, facts and other places need.
-fn reached(
-    graph: &Graph,
-    outputs: &[Expr],
-    facts: &[(usize, Fact)],
-    others: &[usize],
-) -> Vec<bool> {
-    let outputs = outputs.iter().map(|output| graph.place(*output));
-    let facts = facts.iter().map(|(place, _)| *place);
-    let places: Vec<usize> = outputs.chain(facts).chain(others.iter().copied()).collect();
-    graph.reached_from(&places)
+/// Inputs, those that are signs having been chosen.
+pub fn with_signs(
+    inputs: &[Expr],
+    signs: impl IntoIterator<Item = (usize, bool)>,
+) -> Vec<Expr> {
+    let mut inputs = inputs.to_vec();
+    for (input, positive) in signs {
+        let sign = if positive { 1 } else { -1 };
+        inputs[input] = Expr::rational(&Rational::from(sign));
+    }
+    inputs
 }
 
-/// The outputs of groups, and facts, in the recording under way.
-type Replayed = (Vec<Vec<Expr>>, Vec<(Expr, Fact)>);
+/// Values and facts in the recording under way.
+type Replayed = (Vec<Expr>, Vec<(Expr, Fact)>);
 
-fn replayed<'c>(
-    graph: &Graph,
+fn replayed(
     values: &[Option<Expr>],
-    groups: impl Iterator<Item = &'c [Expr]>,
+    places: &[usize],
     facts: &[(usize, Fact)],
 ) -> Option<Replayed> {
-    let at = |output: &Expr| values[graph.place(*output)];
-    let groups: Option<Vec<Vec<Expr>>> = groups.map(|group| group.iter().map(at).collect()).collect();
+    let own: Option<Vec<Expr>> = places.iter().map(|place| values[*place]).collect();
     let facts: Option<Vec<(Expr, Fact)>> =
         facts.iter().map(|(place, fact)| Some((values[*place]?, *fact))).collect();
-    groups.zip(facts)
+    own.zip(facts)
 }

@@ -1,11 +1,13 @@
 //! The search of all cells: what a cell is rewritten to, how it is divided, and when it is tested.
 
-use crate::graph::{Expr, Fault, Step};
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Expr, Fault, Graph, Step};
 use crate::number::Operation;
 
 use super::Prover;
 use super::bounds::Source;
-use super::cells::{Cell, Change, Leaf};
+use super::cells::{Cell, Change, Leaf, with_signs};
 use super::classes::Classes;
 use super::digest::Digest;
 use super::domain::{Fact, Region};
@@ -50,9 +52,21 @@ pub struct Explored {
     pub certificate: Option<Certificate>,
 }
 
+/// Groups of values of a graph, with the places of what no field computes in them.
+pub struct Question<'q> {
+    /// The computation.
+    pub graph: &'q Graph,
+    /// Values that are asked about together.
+    pub groups: Vec<&'q [Expr]>,
+    /// The places of roots, moduli, signs and functions that the groups need.
+    pub special: &'q [usize],
+}
+
 /// A search of all cells.
 pub struct Explorer<'p> {
-    /// The question's inputs and extents.
+    /// What is asked.
+    pub question: &'p Question<'p>,
+    /// The extents of the inputs, and the seed.
     pub prover: &'p Prover<'p>,
     /// What the inputs are.
     pub sources: &'p [Source],
@@ -63,7 +77,7 @@ pub struct Explorer<'p> {
 impl Explorer<'_> {
     /// The findings on all cells that `cell` is divided into.
     pub fn explore(&self, cell: Cell) -> Result<Explored, Fault> {
-        let count = cell.groups.len();
+        let count = self.question.groups.len();
         let mut explored = Explored::default();
         let mut open = vec![(cell, 0)];
         let mut seen = 1;
@@ -114,10 +128,10 @@ impl Explorer<'_> {
         if region.is_empty() {
             return Ok(Next::Empty(None));
         }
-        let outputs = cell.outputs();
-        let algebraic = self.prover.lower(graph, &outputs, self.sources, self.digest)?;
+        let algebraic = self.prover.lower(graph, &cell.values, self.sources, self.digest)?;
         if !algebraic.has_few_signs() {
-            return Ok(Next::Tested(silent(cell.groups.len(), "it contains too many roots")));
+            let reason = "it contains too many roots";
+            return Ok(Next::Tested(silent(self.question.groups.len(), reason)));
         }
         let trial = Trial::new(&algebraic, self.digest);
         let tower = Tower::of(graph, &algebraic, &trial, self.digest);
@@ -210,18 +224,31 @@ impl Explorer<'_> {
             }
             return Some(Next::Divide { modulus, argument });
         }
-        let outputs = cell.outputs();
-        let reached = cell.graph.reached(outputs);
-        let steps = cell.graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-        let mut signs = steps.filter_map(|(place, step)| match step {
-            Step::Input(input) if self.sources.get(input) == Some(&Source::Sign) => {
-                Some((place, input))
+        let Question { graph, groups, special } = self.question;
+        let outputs = groups.iter().flat_map(|group| group.iter().copied());
+        let reached = graph.reached(outputs);
+        let mut signs = special.iter().filter_map(|place| match graph.step(*place) {
+            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
+                Some((*place, input))
             }
             _ => None,
         });
-        signs
-            .find(|(place, _)| !is_absorbed(cell, algebraic, tower, &reached, *place))
-            .map(|(_, input)| Next::DivideInput(input))
+        let is_root = |place: usize| {
+            let own = special.iter().position(|own| *own == place);
+            own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
+                .is_some_and(|value| tower.is_independent_root(algebraic, value))
+        };
+        // The sign of an independent root is random anyhow.
+        let is_absorbed = |sign: usize| {
+            let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+            let mut users =
+                steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
+            users.all(|(_, step)| match step {
+                Step::Binary(Operation::Mul, a, b) => is_root(if a == sign { b } else { a }),
+                _ => false,
+            })
+        };
+        signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
     }
 
     /// The test of all groups, with all choices of signs that are not known.
@@ -234,41 +261,66 @@ impl Explorer<'_> {
         loose: &[usize],
         known: &[(usize, Fact)],
     ) -> Result<Next, Fault> {
+        let Question { graph, groups, special } = self.question;
+        let all_silent = |reason: &str| Ok(Next::Tested(silent(groups.len(), reason)));
         if tower.standings.contains(&Standing::Unreached) {
-            let reason = "a root never exists at random points, or is reached too rarely";
-            return Ok(Next::Tested(silent(cell.groups.len(), reason)));
+            return all_silent("a root never exists at random points, or is reached too rarely");
         }
         if loose.len() > MOST_CHOICES {
-            let reason = format!("{} roots or moduli depend on others", loose.len());
-            return Ok(Next::Tested(silent(cell.groups.len(), &reason)));
+            return all_silent(&format!("{} roots or moduli depend on others", loose.len()));
         }
-        let values: Vec<Option<Vec<Expr>>> = cell
-            .groups
+        let is_lost = |value: &Expr| {
+            let lowered = algebraic.values[cell.graph.place(*value)];
+            !cell.graph.is_nowhere_defined(*value)
+                && lowered.is_none_or(|lowered| algebraic.graph.is_nowhere_defined(lowered))
+        };
+        if cell.values.iter().any(is_lost) {
+            return all_silent("a function has no value in a prime field");
+        }
+        // The outputs themselves, made from what their roots and functions are here.
+        let outputs = groups.concat();
+        let reached = graph.reached(outputs.iter().copied());
+        let extended = algebraic.with(|inputs, at| {
+            let inputs = with_signs(inputs, cell.fixed.iter().copied());
+            let mut made = FxHashMap::default();
+            for (place, value) in special.iter().zip(&cell.values) {
+                made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
+            }
+            let values =
+                graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
+            outputs.iter().map(|output| values[graph.place(*output)]).collect()
+        })?;
+        let Some((extended, outputs)) = extended else {
+            return all_silent("a function has no value in a prime field");
+        };
+        let mut rest = outputs.as_slice();
+        let all: Vec<&[Expr]> = groups
             .iter()
             .map(|group| {
-                let has_value = |output: &&Expr| !cell.graph.is_nowhere_defined(**output);
-                let outputs: Vec<&Expr> = group.iter().filter(has_value).collect();
-                let at = |output: &Expr| algebraic.values[cell.graph.place(*output)];
-                (outputs.len() == group.len()).then(|| group.iter().map(at).collect())?
+                let (own, others) = rest.split_at(group.len());
+                rest = others;
+                own
             })
             .collect();
-        let groups: Vec<&[Expr]> = values.iter().flatten().map(Vec::as_slice).collect();
+        let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
+        let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
+        let extended_trial = Trial::new(&extended, self.digest);
         let mut found: Vec<Finding> = Vec::new();
         for choice in 0u32..1 << loose.len() {
             let fixed: Vec<(usize, bool)> =
                 loose.iter().enumerate().map(|(k, sign)| (*sign, choice >> k & 1 == 0)).collect();
             let roots = Roots { nested: tower.nested + loose.len() as u32, fixed: &fixed };
-            let one = trial.test(&groups, roots);
+            let one = extended_trial.test(&asked, roots);
             found = match choice {
                 0 => one,
                 _ => found.into_iter().zip(one).map(|(a, b)| for_both(a, b)).collect(),
             };
         }
-        let mut found = found.into_iter().zip(&groups).map(|(finding, group)| match finding {
+        let mut found = found.into_iter().zip(&asked).map(|(finding, group)| match finding {
             Finding::NonZero if !loose.is_empty() => Finding::Silent(
                 "it does not vanish for all choices of signs of dependent roots".to_string(),
             ),
-            Finding::NonZero if algebraic.has_symbols(group) => Finding::Silent(
+            Finding::NonZero if extended.has_symbols(group) => Finding::Silent(
                 "it does not vanish for independent symbols in the place of transcendental functions"
                     .to_string(),
             ),
@@ -278,7 +330,7 @@ impl Explorer<'_> {
             finding => finding,
         });
         let findings: Vec<Option<Finding>> =
-            values.iter().map(|group| group.as_ref().and_then(|_| found.next())).collect();
+            all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
         let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
         if cell.is_part() && !findings.iter().all(is_zero) {
             // Whether there is such a cell at all is worth knowing now.
@@ -305,28 +357,4 @@ fn for_both(a: Finding, b: Finding) -> Finding {
         (Finding::Silent(reason), _) | (_, Finding::Silent(reason)) => Finding::Silent(reason),
         _ => Finding::NonZero,
     }
-}
-
-/// Whether a sign is met only as the factor of independent roots, whose signs are random anyhow.
-fn is_absorbed(
-    cell: &Cell,
-    algebraic: &Algebraic<'_>,
-    tower: &Tower,
-    reached: &[bool],
-    sign: usize,
-) -> bool {
-    let is_root = |place: usize| {
-        algebraic.values[place].is_some_and(|value| {
-            algebraic.bases.iter().zip(&tower.standings).any(|(base, standing)| {
-                *standing == Standing::Independent
-                    && base.links.first().is_some_and(|(link, _)| *link == value)
-            })
-        })
-    };
-    let steps = cell.graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-    let mut users = steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
-    users.all(|(_, step)| match step {
-        Step::Binary(Operation::Mul, a, b) => is_root(if a == sign { b } else { a }),
-        _ => false,
-    })
 }

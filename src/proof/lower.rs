@@ -115,20 +115,21 @@ impl<'g> Algebraic<'g> {
         }
     }
 
-    /// The same graph with further values, which `build` makes from those that are there.
+    /// The same graph with further values, which `build` makes from the inputs of the original and
+    /// from values that are there.
     pub fn with(
         &self,
-        build: impl FnOnce(&dyn Fn(Expr) -> Option<Expr>) -> Option<Expr>,
-    ) -> Result<Option<(Algebraic<'static>, Expr)>, Fault> {
-        let (graph, (value, odd)) = record(self.sources.len(), |inputs| {
+        build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
+    ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
+        let (graph, (values, odd)) = record(self.sources.len(), |inputs| {
             let reached = vec![true; self.graph.len()];
             let values = self.graph.replay(&reached, inputs, |_, _, _| None);
             let at = |expr: Expr| values[self.graph.place(expr)];
             let odd: Option<Vec<(Expr, u64)>> =
                 self.odd.iter().map(|(base, index)| Some((at(*base)?, *index))).collect();
-            (build(&at), odd)
+            (build(&inputs[..self.original_inputs], &at), odd)
         })?;
-        let (Some(value), Some(odd)) = (value, odd) else { return Ok(None) };
+        let (Some(values), Some(odd)) = (values, odd) else { return Ok(None) };
         let mut all = Algebraic {
             graph: Held::Own(graph),
             values: Vec::new(),
@@ -142,7 +143,7 @@ impl<'g> Algebraic<'g> {
             bits: self.bits.clone(),
         };
         all.masks = all.masks_of_signs();
-        Ok(Some((all, value)))
+        Ok(Some((all, values)))
     }
 
     /// Lowers the reached steps of `graph`, whose inputs are `sources`.

@@ -60,7 +60,7 @@ use crate::number::{Function, Operation};
 
 use cells::{Cell, Leaf};
 use digest::Digest;
-use explore::{Explored, Explorer};
+use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
 use relations::Relations;
 use symbols::Symbols;
@@ -174,9 +174,10 @@ impl Prover<'_> {
                 true => self.prove_plain(graph, &asked, &sources, digest),
                 false => {
                     let facts = &groups[members[0]].facts;
-                    let cell = Cell::whole(graph, &asked, facts)?;
-                    let explorer = Explorer { prover: self, sources: &sources, digest };
-                    combined(explorer.explore(cell)?, asked.len())
+                    let cell = Cell::whole(graph, &special, facts)?;
+                    let question = &Question { graph, groups: asked, special: &special };
+                    let explorer = Explorer { question, prover: self, sources: &sources, digest };
+                    combined(explorer.explore(cell)?, members.len())
                 }
             };
             for (index, outcome) in members.into_iter().zip(found) {

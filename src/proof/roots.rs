@@ -1,6 +1,6 @@
 //! Roots that depend on others, and what they are.
 
-use crate::graph::{Fault, Graph};
+use crate::graph::{Expr, Fault, Graph};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -156,21 +156,21 @@ impl RootFinder<'_> {
         square: Square,
     ) -> Result<Option<Certificate>, Fault> {
         let bases = &self.algebraic.bases;
-        let extended = self.algebraic.with(|at| {
+        let extended = self.algebraic.with(|_, at| {
             let mut product = at(bases[base].radicand)?;
             for other in others {
                 product *= at(bases[*other].radicand)?;
             }
             let b = square.value(|place| at(self.algebraic.values[place]?))?;
-            Some(product - b * b * crate::graph::Expr::rational(scale))
+            Some(vec![product - b * b * Expr::rational(scale)])
         })?;
         let Some((extended, difference)) = extended else { return Ok(None) };
-        if !self.tower.is_clean(&extended, difference) {
+        if !difference.iter().all(|value| self.tower.is_clean(&extended, *value)) {
             return Ok(None);
         }
         let trial = Trial::new(&extended, self.digest);
         let roots = Roots { nested: self.tower.nested, fixed: &[] };
-        Ok(match trial.test(&[&[difference]], roots).pop() {
+        Ok(match trial.test(&[&difference], roots).pop() {
             Some(Finding::Zero(certificate)) => Some(certificate),
             _ => None,
         })

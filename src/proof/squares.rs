@@ -53,20 +53,35 @@ impl Square {
     }
 }
 
-/// The values of a block at each lane over that at the first lane of the same prime.
-type Ratios = [Element; LANES];
+/// Values at random points.
+type Values = [Element; LANES];
+
+/// The square of the value at a place.
+struct Entry {
+    place: usize,
+    square: Values,
+    /// At the last point over that at the first point of the same prime, and the inverse of that: a
+    /// number as factor drops out.
+    ratios: [Element; 2],
+    /// Whether the sign of the value is known.
+    is_known: bool,
+}
 
 /// All values of a graph at random points where its independent roots exist.
 pub struct Samples {
     field: Quadratic<LANES>,
     moduli: [Modulus; LANES],
-    /// The squares of the values at places, and whether the sign of the value is known.
-    squares: Vec<(usize, [Element; LANES], Ratios, bool)>,
-    /// The first of them with given ratios, and the first with a known sign.
-    with_ratios: FxHashMap<Element, [Option<usize>; 2]>,
+    /// Where there is a value other than 0 at all points, by place.
+    entries: Vec<Entry>,
+    /// The first entry with a ratio, and the first with a known sign.
+    with_ratio: FxHashMap<Element, [Option<usize>; 2]>,
     /// The radicands, by base.
-    radicands: Vec<[Element; LANES]>,
+    radicands: Vec<Values>,
 }
+
+/// The point that entries are looked up by, and that which it is compared with.
+const LAST: usize = LANES - 1;
+const COMPARED: usize = LANES - SHARED;
 
 impl Samples {
     /// Values at points where the radicands of the bases `needed` exist; `None` where no such point
@@ -88,7 +103,7 @@ impl Samples {
         let field = Quadratic::new(moduli);
         let mut evaluator = Evaluator::new(&tape, field.clone());
         let mut chance = Chance::of(digest, Stream::Squares);
-        let is_defined = |block: &[Element; LANES]| block.iter().all(|x| x[0] != UNDEFINED);
+        let is_defined = |block: &Values| block.iter().all(|x| x[0] != UNDEFINED);
         let found = (0..MOST_BLOCKS << MOST_NESTED).any(|_| {
             let block = points(&moduli, &algebraic.sources, &[], &mut chance);
             evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
@@ -97,44 +112,33 @@ impl Samples {
         if !found {
             return None;
         }
-        let radicands =
-            (places.len()..outputs.len()).map(|index| *evaluator.output(index)).collect();
-        let mut samples = Self {
-            field,
-            moduli,
-            squares: Vec::new(),
-            with_ratios: FxHashMap::default(),
-            radicands,
-        };
+        let mut entries: Vec<Entry> = Vec::new();
         for (index, place) in places.iter().enumerate() {
             let block = *evaluator.output(index);
             if is_defined(&block) && block.iter().all(|x| *x != [0, 0]) {
-                samples.note(*place, &block, known.get(*place) == Some(&true));
+                let square = std::array::from_fn(|lane| field.product(lane, block[lane], block[lane]));
+                let is_known = known.get(*place) == Some(&true);
+                entries.push(Entry { place: *place, square, ratios: [[0; 2]; 2], is_known });
             }
         }
-        Some(samples)
-    }
-
-    fn note(&mut self, place: usize, block: &[Element; LANES], is_known: bool) {
-        let square = std::array::from_fn(|lane| self.field.product(lane, block[lane], block[lane]));
-        let Some(ratios) = self.ratios(&square) else { return };
-        let next = self.squares.len();
-        self.squares.push((place, square, ratios, is_known));
-        let [first, known] = self.with_ratios.entry(key(&ratios)).or_default();
-        first.get_or_insert(next);
-        if is_known {
-            known.get_or_insert(next);
+        let ends = entries.iter().flat_map(|entry| [entry.square[COMPARED], entry.square[LAST]]);
+        let inverses = field.inverses(LAST, &ends.collect::<Vec<Element>>());
+        let mut with_ratio: FxHashMap<Element, [Option<usize>; 2]> = FxHashMap::default();
+        for (index, (entry, inverse)) in entries.iter_mut().zip(inverses.chunks(2)).enumerate() {
+            let [compared, last] = [entry.square[COMPARED], entry.square[LAST]];
+            entry.ratios = [
+                field.product(LAST, last, inverse[0]),
+                field.product(LAST, compared, inverse[1]),
+            ];
+            let [first, known] = with_ratio.entry(entry.ratios[0]).or_default();
+            first.get_or_insert(index);
+            if entry.is_known {
+                known.get_or_insert(index);
+            }
         }
-    }
-
-    /// Each value over that at the first lane of its prime: a number as factor drops out.
-    fn ratios(&self, values: &[Element; LANES]) -> Option<Ratios> {
-        let mut ratios = [[0; 2]; LANES];
-        for lane in 0..LANES {
-            let inverse = self.field.inverse(lane, values[prime_of(lane) * SHARED])?;
-            ratios[lane] = self.field.product(lane, values[lane], inverse);
-        }
-        Some(ratios)
+        let radicands =
+            (places.len()..outputs.len()).map(|index| *evaluator.output(index)).collect();
+        Some(Self { field, moduli, entries, with_ratio, radicands })
     }
 
     /// b and c with A Π A_i = c b² at all points, for a base and others by their numbers: b from the
@@ -146,88 +150,78 @@ impl Samples {
         before: usize,
     ) -> Option<(Rational, Square)> {
         let mut target = *self.radicands.get(base)?;
-        if target.iter().any(|x| x[0] == UNDEFINED) {
+        for other in others {
+            target = self.product(&target, self.radicands.get(*other)?);
+        }
+        if target.iter().any(|x| x[0] == UNDEFINED || *x == [0, 0]) {
             return None;
         }
-        for other in others {
-            for lane in 0..LANES {
-                let factor = self.radicands[*other][lane];
-                target[lane] = self.field.product(lane, target[lane], factor);
-            }
-        }
-        let ratios = self.ratios(&target)?;
-        if ratios.iter().enumerate().all(|(lane, x)| *x == [self.moduli[lane].one(), 0]) {
-            let scale = self.number(&target, &self.moduli.map(|m| [m.one(), 0]))?;
-            return Some((scale, Square::One));
+        let ones: Values = self.moduli.map(|m| [m.one(), 0]);
+        if self.is_multiple(&target, &ones) {
+            return Some((self.number(&target, &ones)?, Square::One));
         }
         [true, false].into_iter().find_map(|only_known| {
-            let (square, values) = self.find(&ratios, only_known, before)?;
+            let (square, values) = self.find(&target, only_known, before)?;
             Some((self.number(&target, &values)?, square))
         })
     }
 
-    /// b with these ratios of b², and the values of b².
-    fn find(
-        &self,
-        target: &Ratios,
-        only_known: bool,
-        before: usize,
-    ) -> Option<(Square, [Element; LANES])> {
-        let value = |ratios: &Ratios| self.place(ratios, only_known, before);
-        if let Some((place, values)) = value(target) {
-            return Some((Square::Value(place), values));
+    /// b of which b² is a multiple of the target by a number, and the values of b².
+    fn find(&self, target: &Values, only_known: bool, before: usize) -> Option<(Square, Values)> {
+        let of = |ratio: Element| -> Option<&Entry> {
+            let [first, known] = self.with_ratio.get(&ratio)?;
+            let entry = &self.entries[(if only_known { *known } else { *first })?];
+            (entry.place < before).then_some(entry)
+        };
+        let compared = self.field.inverse(LAST, target[COMPARED])?;
+        let ratio = self.field.product(LAST, target[LAST], compared);
+        if let Some(entry) = of(ratio).filter(|entry| self.is_multiple(target, &entry.square)) {
+            return Some((Square::Value(entry.place), entry.square));
         }
-        let product = |a: &[Element; LANES], b: &[Element; LANES]| -> [Element; LANES] {
-            std::array::from_fn(|lane| self.field.product(lane, a[lane], b[lane]))
-        };
-        let inverse = |a: &[Element; LANES]| -> Option<[Element; LANES]> {
-            let mut inverse = [[0; 2]; LANES];
-            for lane in 0..LANES {
-                inverse[lane] = self.field.inverse(lane, a[lane])?;
+        let usable = self.entries.iter().take_while(|entry| entry.place < before);
+        usable.filter(|entry| entry.is_known || !only_known).find_map(|entry| {
+            let [own, inverse] = entry.ratios;
+            // b² = xy: the ratio of x is that of b² over that of y.
+            if let Some(other) = of(self.field.product(LAST, ratio, inverse)) {
+                let square = self.product(&other.square, &entry.square);
+                if self.is_multiple(target, &square) {
+                    return Some((Square::Product(other.place, entry.place), square));
+                }
             }
-            Some(inverse)
-        };
-        let usable = self.squares.iter().take_while(|square| square.0 < before);
-        usable.filter(|square| square.3 || !only_known).find_map(
-            |(place, square, ratios, _)| {
-                // The last lane decides almost always.
-                let lane = LANES - 1;
-                let over = self.field.inverse(lane, ratios[lane])?;
-                let rest = self.field.product(lane, target[lane], over);
-                if self.with_ratios.contains_key(&rest) {
-                    let wanted = product(target, &inverse(ratios)?);
-                    if let Some((other, values)) = value(&wanted) {
-                        return Some((Square::Product(other, *place), product(&values, square)));
-                    }
-                }
-                let times = self.field.product(lane, target[lane], ratios[lane]);
-                if self.with_ratios.contains_key(&times) {
-                    let wanted = product(target, ratios);
-                    if let Some((other, values)) = value(&wanted) {
-                        let values = product(&values, &inverse(square)?);
-                        return Some((Square::Quotient(other, *place), values));
-                    }
-                }
-                None
-            },
-        )
+            let other = of(self.field.product(LAST, ratio, own))?;
+            let inverse = self.inverse(&entry.square)?;
+            let square = self.product(&other.square, &inverse);
+            let found = Square::Quotient(other.place, entry.place);
+            self.is_multiple(target, &square).then_some((found, square))
+        })
     }
 
-    /// The place of a value whose square has these ratios, and the square.
-    fn place(
-        &self,
-        target: &Ratios,
-        only_known: bool,
-        before: usize,
-    ) -> Option<(usize, [Element; LANES])> {
-        let [first, known] = self.with_ratios.get(&key(target))?;
-        let index = if only_known { known } else { first };
-        let (place, square, ratios, _) = &self.squares[(*index)?];
-        (ratios == target && *place < before).then_some((*place, *square))
+    fn product(&self, a: &Values, b: &Values) -> Values {
+        std::array::from_fn(|lane| match (a[lane], b[lane]) {
+            ([UNDEFINED, _], _) | (_, [UNDEFINED, _]) => [UNDEFINED; 2],
+            (a, b) => self.field.product(lane, a, b),
+        })
+    }
+
+    fn inverse(&self, values: &Values) -> Option<Values> {
+        let mut inverse = [[0; 2]; LANES];
+        for lane in 0..LANES {
+            inverse[lane] = self.field.inverse(lane, values[lane])?;
+        }
+        Some(inverse)
+    }
+
+    /// Whether a is the same multiple of b at all points of a prime, for each prime.
+    fn is_multiple(&self, a: &Values, b: &Values) -> bool {
+        (0..LANES).all(|lane| {
+            let first = prime_of(lane) * SHARED;
+            let product = |x: Element, y: Element| self.field.product(lane, x, y);
+            product(a[lane], b[first]) == product(a[first], b[lane])
+        })
     }
 
     /// The rational number that a is times b at all points.
-    fn number(&self, a: &[Element; LANES], b: &[Element; LANES]) -> Option<Rational> {
+    fn number(&self, a: &Values, b: &Values) -> Option<Rational> {
         let mut number = None;
         for lane in (0..LANES).step_by(SHARED) {
             let image = self.field.product(lane, a[lane], self.field.inverse(lane, b[lane])?);
@@ -241,9 +235,4 @@ impl Samples {
         }
         number
     }
-}
-
-/// What values are looked up by: the ratio at the last lane.
-fn key(ratios: &Ratios) -> Element {
-    ratios[LANES - 1]
 }

@@ -62,6 +62,14 @@ impl Tower {
         algebraic.mask(value) & !self.independent == 0
     }
 
+    /// Whether a value is the square root of an independent base.
+    pub fn is_independent_root(&self, algebraic: &Algebraic<'_>, value: Expr) -> bool {
+        algebraic.bases.iter().zip(&self.standings).any(|(base, standing)| {
+            *standing == Standing::Independent
+                && base.links.first().is_some_and(|(link, _)| *link == value)
+        })
+    }
+
     fn admit(&mut self, algebraic: &Algebraic<'_>, base: usize) {
         for (_, sign) in &algebraic.bases[base].links {
             self.independent |= algebraic.bit(*sign);
