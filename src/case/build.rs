@@ -7,8 +7,8 @@ use super::parameters::{self, Setting};
 use super::section::Section;
 use super::systems::{self, Parts};
 use super::{
-    Case, Column, TABLE_ROWS, branches, claims, field, homogeneous, one_sided, poincare, shadows,
-    solvable, variables, velocities, weights,
+    Case, Column, TABLE_ROWS, claims, field, homogeneous, one_sided, poincare, shadows, variables,
+    velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
 
@@ -60,7 +60,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     if let Some(level) = root.section("level")? {
         parts.chart = level_chart(&level, &parts, names_of_parameters)?;
     } else if matches!(parts.model.system, System::Lagrangian(_)) && !parts.model.level.is_empty() {
-        parts.chart = solvable::steps(&parts.model).map_or(Chart::Numerical, Chart::Solved);
+        parts.chart = Chart::Equations;
     }
     warnings.extend(of_chart(&parts));
     let section = poincare::read(&root)?;
@@ -163,10 +163,7 @@ fn level_chart(
     section.value("equations");
     let chart = match section.section("chart")? {
         Some(chart) => field::chart(&chart, &parts.model, names)?,
-        None => match solvable::steps(&parts.model) {
-            Some(steps) => Chart::Solved(steps),
-            None => Chart::Numerical,
-        },
+        None => Chart::Equations,
     };
     section.finish()?;
     Ok(chart)
@@ -174,22 +171,10 @@ fn level_chart(
 
 /// Which part of the level set a chart makes, where that may not be all of it.
 fn of_chart(parts: &Parts) -> Vec<String> {
-    let model = &parts.model;
     match &parts.chart {
         Chart::Given(_) => {
             vec!["verdicts on the level speak of the image of [level.chart]".to_string()]
         }
-        Chart::Solved(steps) => branches::left_out(model, &parts.free_draws, steps)
-            .into_iter()
-            .map(|step| {
-                format!(
-                    "the level falls apart: `{}` is solved for `{}`, and verdicts on the level speak of \
-                     the branch where it can be",
-                    model.level[step.equation].text,
-                    model.component_name(step.component)
-                )
-            })
-            .collect(),
         _ => Vec::new(),
     }
 }

@@ -6,8 +6,8 @@ use super::parameters::{Given, origin, state_draws};
 use super::section::{Section, Text};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach, Variable,
-    Vocabulary,
+    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach,
+    RootEquation, Variable, Vocabulary,
 };
 
 /// State variables with the draws of their components.
@@ -106,9 +106,22 @@ pub fn equations(
     vocabulary: &Vocabulary,
 ) -> Result<Vec<LevelEquation>, CaseError> {
     let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
-    let equation =
-        |(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) };
-    Ok(read.map(equation).collect())
+    Ok(read.map(|(text, function)| equation(text, function, vocabulary)).collect())
+}
+
+/// An equation of the level, with its sides where one of them is a root.
+pub fn equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
+    let root = text.split_once('=').and_then(|(left, right)| {
+        let left = Formula::parse(left, vocabulary).ok()?;
+        let right = Formula::parse(right, vocabulary).ok()?;
+        let ((radicand, is_modulus), other_side) = match (left.radicand(), right.radicand()) {
+            (Some(root), _) => (root, right),
+            (None, Some(root)) => (root, left),
+            (None, None) => return None,
+        };
+        Some(RootEquation { radicand, is_modulus, other_side })
+    });
+    LevelEquation { text, function: LevelFunction::Formula(function), root }
 }
 
 /// Reads a list of equations: the text, and the difference of both sides, which may depend on no

@@ -7,7 +7,7 @@ use super::section::{Section, Text};
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Algebra, Lagrangian, LevelEquation, LevelFunction, Reach, Role, System, Variable, Vocabulary,
+    Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary,
 };
 
 fn other(text: &Text, message: String, remedy: &str) -> CaseError {
@@ -78,7 +78,7 @@ pub fn read(
     let forces = forces(section, vocabulary, &variables, &roles)?;
     reading.level = level
         .into_iter()
-        .map(|(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) })
+        .map(|(text, function)| field::equation(text, function, &reading.vocabulary))
         .collect();
     Ok(System::Lagrangian(Box::new(Lagrangian {
         kinetic,

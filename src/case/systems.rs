@@ -103,7 +103,7 @@ pub fn read(
 }
 
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
-    LevelEquation { text: text.to_string(), function }
+    LevelEquation { text: text.to_string(), function, root: None }
 }
 
 impl Reading<'_, '_> {

@@ -150,6 +150,19 @@ impl Formula {
         logarithm::logarithmic_derivative(&self.arena, lookup)
     }
 
+    /// A where the whole formula is √A or the norm of a vector, x where it is |x|, and whether it is
+    /// the latter.
+    pub fn radicand(&self) -> Option<(Formula, bool)> {
+        let (argument, is_modulus) = match self.root().operation {
+            Operation::Function(arena::Function::Sqrt, a) => (a, false),
+            Operation::Function(arena::Function::Modulus, a) => (a, true),
+            _ => return None,
+        };
+        let mut arena = self.arena.clone();
+        arena.nodes.truncate(argument + 1);
+        Some((Formula { text: self.text.clone(), arena }, is_modulus))
+    }
+
     /// Does the formula contain an `∫`?
     pub fn has_antiderivative(&self) -> bool {
         let integral = |node: &Node| matches!(node.operation, Operation::Antiderivative(..));

@@ -69,6 +69,19 @@ pub struct LevelEquation {
     pub text: String,
     /// F, a scalar.
     pub function: LevelFunction,
+    /// Its sides, where one of them is a root: A = e² is solved in place of √A = e.
+    pub root: Option<RootEquation>,
+}
+
+/// √A = e, or |x| = e.
+#[derive(Clone, Debug)]
+pub struct RootEquation {
+    /// A or x.
+    pub radicand: Formula,
+    /// Whether it is x.
+    pub is_modulus: bool,
+    /// e, which is not negative on the level.
+    pub other_side: Formula,
 }
 
 /// The function whose zeros a level equation means.
@@ -200,6 +213,20 @@ impl Model {
     /// The draws that make the free parameters, in order.
     pub fn parameter_draws(&self) -> Vec<Draw> {
         self.recipes().flat_map(Recipe::draws).collect()
+    }
+
+    /// The draw of a component of the free parameters that is one number drawn by itself.
+    pub fn draw_of_component(&self, component: usize) -> Option<usize> {
+        let (mut first, mut draw) = (0, 0);
+        for parameter in self.free_parameters() {
+            let Origin::Free(recipe) = &parameter.origin else { continue };
+            if first == component && matches!(recipe, Recipe::Scalar(_)) {
+                return Some(draw);
+            }
+            first += components(parameter.kind);
+            draw += recipe.draws().len();
+        }
+        None
     }
 
     /// The components of the free parameters, made from as many of the draws as they need, and

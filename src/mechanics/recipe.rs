@@ -37,6 +37,8 @@ pub enum Draw {
     OneOf(Vec<Rational>),
     /// From the inside of a range that stands for more: nobody asked for this one.
     Of(Line, Range),
+    /// 1 or −1.
+    Sign,
 }
 
 impl Draw {

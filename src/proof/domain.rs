@@ -15,7 +15,7 @@
 
 use std::collections::VecDeque;
 
-use crate::graph::{Graph, Step};
+use crate::graph::{Expr, Graph, Step};
 use crate::number::{Function, Operation};
 
 use super::classes::Classes;
@@ -73,6 +73,33 @@ pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec
         open.extend(region.cut(&used, part, depth).into_iter().flatten());
     }
     None
+}
+
+/// Whether a value is known to be 0 nowhere inside the extents of the inputs where facts hold.
+pub fn is_nowhere_zero(
+    graph: &Graph,
+    inputs: &[Extent],
+    facts: &[(usize, Fact)],
+    value: Expr,
+) -> bool {
+    let classes = Classes::default();
+    let region = Region { graph, inputs, facts, classes: &classes };
+    let place = graph.place(value);
+    let reached = region.reached(&[place]);
+    let used = region.inputs_of(&reached);
+    let mut open = vec![(region.whole(), 0)];
+    for _ in 0..MOST_PARTS * 16 {
+        let Some((part, depth)) = open.pop() else { return true };
+        let Some(bounds) = region.bounds(&reached, &part) else { continue };
+        if bounds[place].excludes_zero() || bounds[place].is_empty() {
+            continue;
+        }
+        match region.cut(&used, part, depth) {
+            Some(halves) => open.extend(halves),
+            None => return false,
+        }
+    }
+    open.is_empty()
 }
 
 impl Region<'_> {
@@ -326,7 +353,7 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::graph::{Expr, record};
+    use crate::graph::record;
     use crate::number::rational::Rational;
     use crate::scalar::Scalar;
 

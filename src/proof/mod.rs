@@ -15,13 +15,14 @@
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots, and what they are |
 //! | `explore`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `classes`, `extent` | signs of values wherever the inputs can be |
-//! | `elimination`, `rank`, `reconstruct` | linear algebra modulo a prime |
+//! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod bounds;
 mod cells;
 mod chance;
 mod characters;
 mod classes;
+mod coprime;
 mod digest;
 mod domain;
 mod elimination;
@@ -48,7 +49,8 @@ use std::sync::Arc;
 
 pub use bounds::Source;
 pub(crate) use chance::Chance;
-pub use domain::Fact;
+pub use coprime::are_coprime;
+pub use domain::{Fact, is_nowhere_zero};
 pub(crate) use elimination::reduce;
 pub use extent::Extent;
 pub(crate) use reconstruct::reconstruct;

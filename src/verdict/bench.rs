@@ -76,6 +76,14 @@ impl Bench<'_> {
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
         warnings.extend(self.check_quadratures()?);
+        if sampler.is_numerical() {
+            warnings.push(
+                "the level set has no parametrisation: states are found numerically, and verdicts on \
+                 it rest on an estimated distance from it"
+                    .to_string(),
+            );
+        }
+        warnings.extend(self.missed_part(&sampler)?);
         Ok(warnings)
     }
 

@@ -164,7 +164,7 @@ pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
     for recipe in recipes {
         let values: Vec<Option<Rational>> = match recipe {
-            Draw::Within(_) | Draw::Of(..) => vec![None],
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
             Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
         };
         all = all

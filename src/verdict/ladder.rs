@@ -44,9 +44,11 @@ impl Bench<'_> {
             let (negated, others): (Open<'_, '_>, Open<'_, '_>) =
                 open.into_iter().partition(|(item, _)| item.claim.kind.is_negated());
             open = others;
-            self.climb_each(place, &sampler, negated)?;
+            let missed = self.missed_part(&sampler)?;
+            self.climb_each(place, &sampler, missed.as_deref(), negated)?;
         }
-        self.settle(place, &sampler, &mut open)?;
+        let missed = self.missed_part(&sampler)?;
+        self.settle(place, &sampler, missed.as_deref(), &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, finding)| finding.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
@@ -59,6 +61,7 @@ impl Bench<'_> {
         &self,
         place: &Place,
         sampler: &Sampler,
+        missed: Option<&str>,
         open: &mut Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         for (item, finding) in open.iter_mut() {
@@ -77,8 +80,15 @@ impl Bench<'_> {
             self.missing_states(sampler, open);
             self.real_states(sampler, open)?;
         }
-        for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.settled.is_none()) {
-            conclude(item, finding);
+        for (item, finding) in open.iter_mut() {
+            if finding.settled.is_none() {
+                conclude(item, finding);
+            }
+            // What holds at the states that there are need not hold on what they leave out.
+            if let (Some(reason), true) = (missed, finding.holds()) {
+                finding.evidence.proof = None;
+                undecide(finding, reason.to_string());
+            }
         }
         Ok(())
     }
@@ -89,6 +99,7 @@ impl Bench<'_> {
         &self,
         place: &Place,
         sampler: &Sampler,
+        missed: Option<&str>,
         open: Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         let Some(choices) = combinations(sampler.recipes()) else {
@@ -101,7 +112,7 @@ impl Bench<'_> {
             for fixed in &choices {
                 let mut one = Finding::default();
                 let chosen = sampler.with(fixed);
-                self.settle(place, &chosen, &mut vec![(item, &mut one)])?;
+                self.settle(place, &chosen, missed, &mut vec![(item, &mut one)])?;
                 let refuted = one.settled == Some(Verdict::Refuted);
                 if !refuted || finding.settled.is_none() {
                     *finding = one;

@@ -6,6 +6,7 @@
 //! compared with a fixed tolerance.
 
 mod bench;
+mod branches;
 mod conclude;
 mod coverage;
 mod evidence;

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use crate::case::Case;
 use crate::claim::Place;
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use num_dual::DualNum;
+
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, literally, record};
+use crate::level::{self, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, Draws, Line, Origin};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
@@ -23,6 +26,9 @@ const SPARE_DIGITS: usize = 8;
 /// States a run of a tape treats at once.
 pub const LANES: usize = 64;
 
+/// Draws that are tried for a state that has to lie in given ranges.
+const ATTEMPTS: u32 = 64;
+
 /// Makes the inputs of a case's tapes at one place.
 #[derive(Clone)]
 pub struct Sampler {
@@ -32,40 +38,77 @@ pub struct Sampler {
     /// From draws to parameters and state.
     graph: Arc<Graph>,
     made: Vec<Expr>,
+    /// What must not vanish, lest the states leave out a part of the place.
+    pivots: Arc<[Pivot]>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
     dimension: usize,
+    /// Makes parameters and state, without a value where they are out of range.
     tape: Tape,
+    /// Makes them wherever it can.
+    unguarded: Tape,
+    /// Whether some draws lead to no state.
+    is_guarded: bool,
     newton: Option<Newton>,
 }
 
 impl Sampler {
     /// A sampler of states at `place`.
     pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
-        let model = &case.model;
+        let (model, kept) = (&case.model, &place.kept);
+        let some = kept.iter().any(|kept| *kept);
+        let is_charted = match &case.chart {
+            Chart::Rolling | Chart::Sphere | Chart::Free => true,
+            // A chart of the whole level knows nothing of its equations one by one.
+            Chart::Given(_) => kept.iter().all(|kept| *kept),
+            Chart::Equations => false,
+        };
+        let solution = match is_charted || !some {
+            true => None,
+            false => level::solve(model, kept),
+        };
+        let newton = (some && !is_charted && solution.is_none())
+            .then(|| Newton::new(model, kept))
+            .transpose()?;
         let mut draws = model.parameter_draws();
         let parameter_draws = draws.len();
-        draws.extend(case.chart.draws(&case.free_draws, &place.kept));
-        let (graph, outputs) = record(draws.len(), |inputs| {
-            let (mut values, state) = model.make_parameters(inputs);
-            let point = case.chart.point(model, &place.kept, &values, state);
-            values.extend(point);
-            values
+        draws.extend(match &solution {
+            Some(solution) => solution.draws(&case.free_draws),
+            None => case.chart.draws(&case.free_draws, kept),
+        });
+        let (graph, (made, guarded, pivots)) = record(draws.len(), |inputs| {
+            let (parameters, state) = model.make_parameters(inputs);
+            let Some(solution) = &solution else {
+                let mut made = parameters;
+                let point = literally(|| case.chart.point(model, kept, &made, state));
+                made.extend(point);
+                return (made.clone(), made, Vec::new());
+            };
+            let solved = solution.point(model, parameters, state);
+            let bounds = ranges(case, solution, &solved.made);
+            let facts = solved.facts.iter().map(|(value, _)| *value).chain(bounds);
+            let guarded = guarded(&solved.made, facts);
+            (solved.made, guarded, solved.pivots)
         })?;
-        let some = place.kept.iter().any(|kept| *kept);
-        let all = place.kept.iter().all(|kept| *kept);
-        let newton = match &case.chart {
-            Chart::Rolling | Chart::Sphere | Chart::Free => None,
-            // A chart of the whole level knows nothing of its equations one by one.
-            Chart::Given(_) | Chart::Solved(_) if all => None,
-            _ => some.then(|| Newton::new(model, &place.kept)).transpose()?,
-        };
-        let tape = Tape::new(&graph, &outputs);
+        let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
+        let is_guarded = solution.is_some();
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
-        let made = outputs;
-        let graph = Arc::new(graph);
-        Ok(Self { seed, draws, recipes, graph, made, parameter_draws, dimension, tape, newton })
+        let (graph, pivots) = (Arc::new(graph), pivots.into());
+        Ok(Self {
+            seed,
+            draws,
+            recipes,
+            graph,
+            made: guarded,
+            pivots,
+            parameter_draws,
+            dimension,
+            tape,
+            unguarded,
+            is_guarded,
+            newton,
+        })
     }
 
     /// Are the states found numerically, with an estimated rather than a proved distance from the
@@ -101,7 +144,60 @@ impl Sampler {
     }
 
     fn numbers(&self, lanes: usize, start: u64) -> Vec<Vec<Rational>> {
-        (0..lanes).map(|lane| self.draws.state(self.seed, start + lane as u64)).collect()
+        let attempts = self.attempts(start, lanes, None);
+        let state = |(lane, attempt)| {
+            self.draws.attempt(self.seed, start + lane as u64, attempt)
+        };
+        attempts.into_iter().enumerate().map(state).collect()
+    }
+
+    /// For each of some states, the first attempt at which the draws lead to a state, by enclosures
+    /// in f64; the first of all where none does. With few parameter sets, each state has those of
+    /// its set.
+    fn attempts(&self, start: u64, lanes: usize, sets: Option<usize>) -> Vec<u32> {
+        let mut attempts = vec![0; lanes];
+        if !self.is_guarded {
+            return attempts;
+        }
+        let mut evaluator = Evaluator::new(&self.tape, Ball::<LANES>);
+        for first in (0..lanes).step_by(LANES) {
+            let own = &mut attempts[first..lanes.min(first + LANES)];
+            let mut open: Vec<usize> = (0..own.len()).collect();
+            for attempt in 0..ATTEMPTS {
+                let numbers: Vec<Vec<(f64, bool)>> = open
+                    .iter()
+                    .map(|lane| self.nearest(start + (first + lane) as u64, attempt, sets))
+                    .collect();
+                let last = open.len() - 1;
+                let column = |k: usize| Balls::about(|lane| numbers[lane.min(last)][k]);
+                let columns: Vec<Balls<LANES>> = (0..self.draws.len()).map(column).collect();
+                evaluator.run(&columns);
+                let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
+                let mut left = Vec::new();
+                for (place, lane) in open.iter().enumerate() {
+                    match exists(place) {
+                        true => own[*lane] = attempt,
+                        false => left.push(*lane),
+                    }
+                }
+                open = left;
+                if open.is_empty() {
+                    break;
+                }
+            }
+        }
+        attempts
+    }
+
+    /// The draws of a state in f64, with the parameters of its set where there are few.
+    fn nearest(&self, index: u64, attempt: u32, sets: Option<usize>) -> Vec<(f64, bool)> {
+        let mut own = self.draws.nearest(self.seed, index, attempt);
+        if let Some(sets) = sets {
+            let set = (index % LANES as u64) as usize * sets / LANES;
+            let shared = self.draws.nearest(self.seed, set as u64, 0);
+            own[..self.parameter_draws].copy_from_slice(&shared[..self.parameter_draws]);
+        }
+        own
     }
 
     /// Where each of the numbers that are drawn can be.
@@ -112,6 +208,7 @@ impl Sampler {
             Draw::Of(Line::Positive, _) => Extent::POSITIVE,
             // Each value is put in before anything is proved.
             Draw::OneOf(_) => Extent::ALL,
+            Draw::Sign => Extent::SIGN,
         };
         self.recipes.iter().map(extent).collect()
     }
@@ -187,10 +284,7 @@ impl Sampler {
         groups: &[Group],
         fixed: &[Option<Rational>],
     ) -> Result<(Graph, Vec<Group>), Fault> {
-        let own: Vec<(usize, Fact)> = {
-            let reached = self.graph.reached(self.made.iter().copied());
-            conditions(&self.graph, &reached)
-        };
+        let own = self.facts();
         let (composed, groups) = record(self.draws.len(), |draws| {
             let (inputs, made) = self.inputs_from(graph, draws, fixed)?;
             let own: Option<Vec<(Expr, Fact)>> =
@@ -233,9 +327,28 @@ impl Sampler {
         Some((inputs, values))
     }
 
+    /// From draws to parameters and states.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// What must not vanish at a state, lest a part of the place is left out.
+    pub fn pivots(&self) -> &[Pivot] {
+        &self.pivots
+    }
+
+    /// What is known of values on the way to a state, by the places of the graph.
+    pub fn facts(&self) -> Vec<(usize, Fact)> {
+        conditions(&self.graph, &self.graph.reached(self.made.iter().copied()))
+    }
+
     /// What each of the draws is in a field.
     pub fn sources(&self) -> Vec<Source> {
-        vec![Source::Uniform; self.recipes.len()]
+        let source = |draw: &Draw| match draw {
+            Draw::Sign => Source::Sign,
+            _ => Source::Uniform,
+        };
+        self.recipes.iter().map(source).collect()
     }
 
     /// Checks that a parametrisation typed by the user fills the level set.
@@ -256,24 +369,15 @@ impl Sampler {
         start: u64,
         sets: usize,
     ) -> Vec<D::Block> {
-        let numbers: Vec<Vec<Rational>> =
-            (0..LANES).map(|lane| self.sharing(sets, lane, start, Draws::state)).collect();
+        let attempts = self.attempts(start, LANES, Some(sets));
+        let state = |(lane, attempt)| {
+            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
+            let own = self.draws.attempt(self.seed, start + lane as u64, attempt);
+            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            values
+        };
+        let numbers: Vec<Vec<Rational>> = attempts.into_iter().enumerate().map(state).collect();
         self.made_in(domain, &numbers)
-    }
-
-    /// The draws of a state with the parameters of its set.
-    fn sharing<T: Clone>(
-        &self,
-        sets: usize,
-        lane: usize,
-        start: u64,
-        state: impl Fn(&Draws, u64, u64) -> Vec<T>,
-    ) -> Vec<T> {
-        let set = lane * sets / LANES;
-        let mut values = state(&self.draws, self.seed, set as u64);
-        let own = state(&self.draws, self.seed, start + lane as u64);
-        values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
-        values
     }
 
     /// The draws of some states, a block each.
@@ -295,11 +399,11 @@ impl Sampler {
 
     /// Parameters and state of one state, exact where they are rational.
     pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
-        self.exact_from(self.draws.state(self.seed, index))
+        self.exact_from(self.numbers(1, index).swap_remove(0))
     }
 
     fn exact_from(&self, values: Vec<Rational>) -> Vec<Option<Rational>> {
-        let mut evaluator = Evaluator::new(&self.tape, Exact);
+        let mut evaluator = Evaluator::new(&self.unguarded, Exact);
         evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
         let state_begins = self.tape.outputs() - self.dimension;
         evaluator
@@ -313,7 +417,7 @@ impl Sampler {
     /// told apart: with them a residual that was computed from as many bits is found again.
     pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
         if bits > f64::MANTISSA_DIGITS {
-            return self.printed_from(&self.draws.state(self.seed, index), bits);
+            return self.printed_from(&self.numbers(1, index).swap_remove(0), bits);
         }
         let start = index - index % LANES as u64;
         let lane = (index % LANES as u64) as usize;
@@ -339,6 +443,39 @@ impl Sampler {
     }
 }
 
+/// The differences of components that a level determines from the ends of their ranges.
+fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
+    let (parameters, state) = made.split_at(case.model.free_components());
+    let recipes = case.model.parameter_draws();
+    let of_state = solution.components().into_iter().map(|k| (state[k], &case.free_draws[k]));
+    let of_parameters = solution.parameters().into_iter().filter_map(|k| {
+        let draw = case.model.draw_of_component(k).and_then(|draw| recipes.get(draw))?;
+        Some((parameters[k], draw))
+    });
+    let ends = of_state.chain(of_parameters).filter_map(|(value, draw)| match draw {
+        Draw::Within(range) => {
+            let [low, high] = [&range.low, &range.high].map(Expr::rational);
+            Some([value - low, high - value])
+        }
+        _ => None,
+    });
+    ends.flatten().collect()
+}
+
+/// Parameters and state that have no value where some values are negative: √x has none for x < 0.
+fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
+    let mut guarded = made.to_vec();
+    literally(|| {
+        let zero = Expr::rational(&Rational::from(0));
+        for fact in facts {
+            if let Some(first) = guarded.last_mut() {
+                *first += zero * fact.sqrt();
+            }
+        }
+    });
+    guarded
+}
+
 /// Makes blocks of balls, with memory of its own.
 pub struct Maker<'s> {
     sampler: &'s Sampler,
@@ -348,18 +485,20 @@ pub struct Maker<'s> {
 impl Maker<'_> {
     /// Parameters and state of the states `start..start + LANES`.
     pub fn balls(&mut self, start: u64) -> Vec<Balls<LANES>> {
-        let Sampler { draws, seed, .. } = self.sampler;
-        self.made(|lane| draws.nearest(*seed, start + lane as u64))
+        self.made(start, None)
     }
 
     /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
     pub fn balls_sharing_parameters(&mut self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
-        let sampler = self.sampler;
-        self.made(|lane| sampler.sharing(sets, lane, start, Draws::nearest))
+        self.made(start, Some(sets))
     }
 
-    fn made(&mut self, draws_of: impl Fn(usize) -> Vec<(f64, bool)>) -> Vec<Balls<LANES>> {
-        let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(draws_of);
+    fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<LANES>> {
+        let sampler = self.sampler;
+        let attempts = sampler.attempts(start, LANES, sets);
+        let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(|lane| {
+            sampler.nearest(start + lane as u64, attempts[lane], sets)
+        });
         let column = |k: usize| Balls::about(|lane| lanes[lane][k]);
         let columns: Vec<Balls<LANES>> = (0..self.sampler.draws.len()).map(column).collect();
         self.evaluator.run(&columns);

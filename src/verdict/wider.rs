@@ -56,6 +56,9 @@ impl Bench<'_> {
                 continue;
             }
             let sampler = Sampler::new(self.case, place, self.options.seed)?;
+            if self.missed_part(&sampler)?.is_some() {
+                continue;
+            }
             let values = self.run(&outputs).at(&Ball::<LANES>, &sampler.balls(0));
             let all = values.existing(std::slice::from_ref(&common));
             if Look::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
