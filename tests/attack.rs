@@ -1,7 +1,7 @@
 //! Random claims of known truth: no verdict on them is wrong.
 //!
 //! Scenes and claims are grown, rewritten and spoilt by a generator of its own; what is true of them is
-//! found by an oracle that shares nothing with the verifier: floats of 512 bits with their own notion of
+//! found by an oracle that shares nothing with the verifier: floats of 640 bits with their own notion of
 //! what has a value, at states in every cell of signs that it finds. A wrong verdict is made as small as
 //! possible and printed as a file, with the variables that repeat it.
 //!
@@ -38,6 +38,8 @@ mod levels;
 mod limits;
 #[path = "attack/oracle.rs"]
 mod oracle;
+#[path = "attack/own.rs"]
+mod own;
 #[path = "attack/print.rs"]
 mod print;
 #[path = "attack/random.rs"]
@@ -52,6 +54,8 @@ mod run;
 mod scene;
 #[path = "attack/scout.rs"]
 mod scout;
+#[path = "attack/sheets.rs"]
+mod sheets;
 #[path = "attack/shrink.rs"]
 mod shrink;
 #[path = "attack/spoil.rs"]
@@ -67,7 +71,17 @@ fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     // A panic of the verifier is a finding, not the end.
     std::panic::set_hook(Box::new(|_| {}));
-    let trials = vec![Trial::test("no verdict on a random claim is wrong", attack)];
+    let trials = vec![
+        Trial::test("derivatives are what differences show", own::derivatives),
+        Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
+        Trial::test("enclosures hold what is printed", own::enclosures),
+        Trial::test("the oracle knows what is known", own::known_truths),
+        Trial::test("a case depends on its number alone", own::addresses),
+        Trial::test("zeros in towers of roots are within the bound", sheets::random_towers),
+        Trial::test("principal roots go beyond the bound", sheets::principal_roots),
+        Trial::test("dependent roots are on two components", sheets::dependent_roots),
+        Trial::test("no verdict on a random claim is wrong", attack),
+    ];
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 

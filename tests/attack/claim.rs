@@ -218,13 +218,14 @@ fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
             break;
         }
         rows.swap(found, r);
-        for below in found + 1..rows.len() {
-            let factor = &rows[below][c] / &rows[found][c];
-            for column in 0..columns {
-                let part = &factor * &rows[found][column];
-                rows[below][column] = match column == c {
+        let (above, below) = rows.split_at_mut(found + 1);
+        let pivot = &above[found];
+        for row in below {
+            let factor = &row[c] / &pivot[c];
+            for (column, (entry, by)) in row.iter_mut().zip(pivot).enumerate() {
+                *entry = match column == c {
                     true => whole(0),
-                    false => difference(&rows[below][column], &part)?,
+                    false => difference(entry, &(&factor * by))?,
                 };
             }
         }
@@ -236,14 +237,13 @@ fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
 /// Does a function tend to its limit, from each side on which it has values?
 fn limit(a: &Tree, b: &Tree, by: usize, scene: &Scene, values: &[Found<Real>]) -> At {
     let sides = [1, -1].map(|side| from_one_side(a, b, (by, side), scene, values));
-    let worst = |at: &At| match at {
-        At::Off(_) => 0,
-        At::Without(Lack::Decision) => 1,
-        At::Zero => 2,
-        At::Without(Lack::Value) => 3,
-    };
-    let [above, below] = sides;
-    if worst(&above) <= worst(&below) { above } else { below }
+    match sides {
+        [At::Without(Lack::Value), side] | [side, At::Without(Lack::Value)] => side,
+        [At::Zero, At::Zero] => At::Zero,
+        [At::Off(above), At::Off(below)] => At::Off(above.max(below)),
+        // Sides that differ: which of them is meant is not said.
+        _ => At::Without(Lack::Decision),
+    }
 }
 
 /// The same at the steps 10^-12, 10^-24, 10^-36 on one side.

@@ -23,7 +23,7 @@ pub fn derived(tree: &Tree, rates: &dyn Fn(usize) -> Tree) -> Tree {
         Expr::Power(a, top, bottom) => {
             let lowered = match (top - bottom, bottom) {
                 (0, _) => whole(1),
-                (n, 1) if n == 1 => a.clone(),
+                (1, 1) => a.clone(),
                 (n, d) => power(a, n, *d),
             };
             product(&mul(&ratio(*top, *bottom), &lowered), &part(a))

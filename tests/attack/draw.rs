@@ -2,7 +2,7 @@
 
 use super::claim::Claim;
 use super::derive::derived;
-use super::expr::{Number, Tree, add, mul, square, sub, substituted, symbol, whole};
+use super::expr::{Number, Tree, add, modulus, mul, root, square, sub, substituted, symbol, whole};
 use super::flow::{Known, flow};
 use super::grow::Garden;
 use super::levels;
@@ -136,9 +136,9 @@ fn parameter(scene: &Scene, stream: &mut Stream) -> Origin {
                 Garden { scene, symbols: parameters.clone(), functions: false, roots: true };
             let a = garden.symbol(stream);
             Origin::Formula(match stream.below(4) {
-                0 => super::expr::root(&sub(&whole(1), &square(&a))),
-                1 => super::expr::root(&a),
-                2 => super::expr::modulus(&a),
+                0 => root(&sub(&whole(1), &square(&a))),
+                1 => root(&a),
+                2 => modulus(&a),
                 _ => garden.tree(stream, 2),
             })
         }
@@ -149,9 +149,36 @@ fn parameter(scene: &Scene, stream: &mut Stream) -> Origin {
     }
 }
 
+/// Two expressions that differ in the sign of a symbol alone, beside a root that seems to tell it.
+fn shadowed(garden: &Garden<'_>, stream: &mut Stream) -> (Tree, Tree) {
+    let u = garden.symbol(stream);
+    let factor = garden.one_sided(stream);
+    let shadow = match stream.below(4) {
+        0 => root(&mul(&factor, &u)),
+        1 => root(&mul(&u, &root(&factor))),
+        2 => mul(&root(&mul(&u, &factor)), &garden.atom(stream)),
+        _ => root(&mul(&u, &modulus(&factor))),
+    };
+    let with = |u: &Tree| match &shadow {
+        shadow if shadow.size() % 3 == 0 => mul(u, &add(&whole(1), shadow)),
+        shadow if shadow.size() % 3 == 1 => add(shadow, u),
+        shadow => add(u, shadow),
+    };
+    (with(&modulus(&u)), with(&u))
+}
+
 /// Two expressions that are the same wherever both have values; or nearly.
 pub fn pair(garden: &Garden<'_>, stream: &mut Stream) -> (Rewritten, Rewritten) {
     let ranges = garden.scene.intervals();
+    if garden.roots && stream.once_in(16) {
+        let (left, right) = shadowed(garden, stream);
+        let times = (stream.below(2), stream.below(3));
+        let loose = |tree: Tree| Rewritten { tree, exact: false };
+        return (
+            loose(rewritten(&left, &ranges, stream, times.0).tree),
+            loose(rewritten(&right, &ranges, stream, times.1).tree),
+        );
+    }
     let depth = 1 + stream.below(3);
     let tree = garden.tree(stream, depth);
     let times = (stream.below(3), 1 + stream.below(6));

@@ -1,10 +1,12 @@
 //! Level sets whose branches the attack knows: graphs, products, spheres, lines, empty ones.
 
+use std::rc::Rc;
+
 use super::claim::Claim;
 use super::draw::Made;
 use super::expr::{
-    Number, Tree, add, div, modulus, mul, neg, node, ratio, replaced, root, square, sub, symbol,
-    whole,
+    Expr, Number, Tree, add, div, modulus, mul, neg, node, ratio, replaced, root, square, sub,
+    symbol, whole,
 };
 use super::flow::Known;
 use super::grow::Garden;
@@ -92,7 +94,7 @@ fn graph(scene: &mut Scene, stream: &mut Stream) -> Level {
         2 => (add(&value, &whole(1)), add(&x, &whole(1))),
         _ => (x, value.clone()),
     };
-    Level { equations: vec![equation], branches: vec![vec![(X, value)]], charted: false }
+    Level { equations: vec![equation], branches: vec![vec![(X, value)]], chart: None }
 }
 
 /// A product of two factors, each of which may vanish.
@@ -137,7 +139,7 @@ fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
         true => (mul(&first, &second), whole(0)),
         false => (mul(&x, &second), mul(&value, &second)),
     };
-    Level { equations: vec![equation], branches, charted: false }
+    Level { equations: vec![equation], branches, chart: None }
 }
 
 /// The unit sphere or a cylinder by its equation, a hyperbola.
@@ -152,7 +154,7 @@ fn sphere(stream: &mut Stream) -> Level {
         _ => (add(&square(&x), &square(&y)), ratio(1, 4), sub(&ratio(1, 4), &square(&y))),
     };
     let branches = vec![vec![(X, root(&rest))], vec![(X, neg(&root(&rest)))]];
-    Level { equations: vec![(function, value)], branches, charted: false }
+    Level { equations: vec![(function, value)], branches, chart: None }
 }
 
 /// A sphere, a cylinder or a graph with a typed chart.
@@ -167,7 +169,7 @@ fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
     }
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
     let (u, v) = (symbol(3), symbol(4));
-    let shape = stream.below(3);
+    let shape = stream.below(4);
     let (equation, chart) = match shape {
         0 => {
             let below = add(&add(&whole(1), &square(&u)), &square(&v));
@@ -187,13 +189,26 @@ fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
             ];
             ((add(&square(&x), &square(&y)), whole(1)), chart)
         }
+        2 => return (curve(&u, &v), false),
         _ => {
             let (a, b) = (add(&u, &modulus(&u)), root(&square(&add(&v, &whole(1)))));
             let chart = vec![(X, add(&a, &b)), (Y, u), (Z, v)];
             ((x, add(&add(&y, &modulus(&y)), &modulus(&add(&z, &whole(1))))), chart)
         }
     };
-    (Level { equations: vec![equation], branches: vec![chart], charted: true }, shape < 2)
+    let branches = vec![chart.clone()];
+    (Level { equations: vec![equation], branches, chart: Some(chart) }, shape < 2)
+}
+
+/// The plane z = 0 with a chart of a parabola, whose large terms cancel.
+fn curve(u: &Tree, v: &Tree) -> Level {
+    let along = add(u, v);
+    let nothing =
+        sub(&square(&sub(u, v)), &add(&sub(&square(u), &mul(&whole(2), &mul(u, v))), &square(v)));
+    let large = mul(&Rc::new(Expr::Number(Number { top: 1, bottom: 1, tens: 12 })), &nothing);
+    let chart = vec![(X, along.clone()), (Y, add(&square(&along), &large)), (Z, mul(&whole(0), u))];
+    let plane = vec![(Z, whole(0))];
+    Level { equations: vec![(symbol(Z), whole(0))], branches: vec![plane], chart: Some(chart) }
 }
 
 /// Two linear equations in the same variables.
@@ -213,7 +228,7 @@ fn lines(stream: &mut Stream) -> Level {
     Level {
         equations: vec![(first, whole(0)), (second, whole(0))],
         branches: vec![branch],
-        charted: false,
+        chart: None,
     }
 }
 
@@ -231,7 +246,7 @@ fn empty(stream: &mut Stream) -> Level {
             ((x, value.clone()), vec![vec![(X, value)]])
         }
     };
-    Level { equations: vec![equation], branches, charted: false }
+    Level { equations: vec![equation], branches, chart: None }
 }
 
 /// A claim on the level: in one half of them some variables are replaced by what they are there.

@@ -62,16 +62,27 @@ pub fn evenly(scene: &Scene, claim: &Claim, stream: &mut Stream, states: usize) 
 /// What states show of a claim in the cells of signs that are found.
 ///
 /// That something does not vanish is claimed for each choice of listed values by itself: what is said
-/// of such a claim is what is worst among them, less those that leave no state.
+/// of such a claim is what is worst among them, less those that leave no state. Branches of a level
+/// that differ leave it open.
 pub fn searched(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Survey {
     if !claim.is_negated() {
         return in_cells(scene, claim, stream, effort);
     }
-    let scenes = scene.unlisted();
-    let surveys = scenes.iter().map(|scene| in_cells(scene, claim, stream, effort));
-    let mut valued: Vec<Survey> = surveys.filter(|survey| !survey.is_void()).collect();
-    valued.sort_by_key(|survey| (survey.off > 0, survey.zero == 0));
-    valued.into_iter().next().unwrap_or_default()
+    let mut choices: Vec<Survey> = Vec::new();
+    for scene in scene.unlisted() {
+        let of_branches = scene.branches().into_iter();
+        let surveys = of_branches.map(|branch| in_cells(&branch, claim, stream, effort));
+        let valued: Vec<Survey> = surveys.filter(|survey| !survey.is_void()).collect();
+        let mixed = valued.iter().any(|survey| survey.off > 0)
+            && valued.iter().any(|survey| survey.off == 0);
+        match valued.into_iter().next() {
+            Some(_) if mixed => choices.push(Survey { unsure: 1, ..Survey::default() }),
+            Some(survey) => choices.push(survey),
+            None => {}
+        }
+    }
+    choices.sort_by_key(|survey| (survey.off > 0, survey.zero == 0));
+    choices.into_iter().next().unwrap_or_default()
 }
 
 /// States in the middle of each cell of signs that is found, until one fails or effort is used up.

@@ -1,7 +1,7 @@
-//! Real numbers of the oracle: floats of 512 bits in which a sum that cancels is 0.
+//! Real numbers of the oracle: floats of 640 bits in which a sum that cancels is 0.
 //!
-//! All claims are made of numbers whose least digit that matters is above 10^-60. A sum that is more
-//! than 2^260 times smaller than its terms is taken for 0; between that and 2^200 nothing is said.
+//! Claims are made of numbers above 10^-40, whose squares can matter. A sum that is more than 2^420 times
+//! smaller than its terms is taken for 0; between that and 2^340 nothing is said.
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -11,11 +11,11 @@ use super::expr::Number;
 /// A float of [`BITS`] bits.
 pub type Real = FBig<HalfEven, 2>;
 
-pub const BITS: usize = 512;
+pub const BITS: usize = 640;
 /// A sum that loses more bits is 0.
-const ZERO: isize = 260;
+const ZERO: isize = 420;
 /// A sum that loses fewer bits is not.
-const CLEAR: isize = 200;
+const CLEAR: isize = 340;
 /// Arguments of exp beyond this are not looked at.
 const STEEP: f64 = 300.0;
 

@@ -49,6 +49,8 @@ struct Fate {
     constructs: Vec<&'static str>,
     truth: Truth,
     word: &'static str,
+    /// The rung that settled it.
+    method: &'static str,
     wrong: Option<Wrong>,
     seconds: f64,
 }
@@ -93,11 +95,15 @@ pub fn run(plan: &Plan) -> Outcome {
     }
     for (wrong, list) in faults {
         outcome.text.push_str(&format!("\n{} times: {}\n", list.len(), wrong.words()));
-        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut by: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
         for fate in &list {
-            *kinds.entry(fate.constructs[0]).or_default() += 1;
+            by.entry((fate.constructs[0], fate.method)).or_default().push(fate.index);
         }
-        outcome.text.push_str(&format!("  {kinds:?}\n"));
+        for ((kind, method), cases) in by {
+            let first = &cases[..cases.len().min(8)];
+            let line = format!("  {:>5} {kind} by {method}: cases {first:?}\n", cases.len());
+            outcome.text.push_str(&line);
+        }
         let shown: Vec<String> =
             list.par_iter().take(plan.shown).map(|fate| shown(plan.seed, fate, wrong)).collect();
         outcome.text.push_str(&shown.concat());
@@ -117,7 +123,11 @@ fn fates(seed: u64, index: u64) -> Vec<Fate> {
         let mut stream = Stream::new(seed ^ 0x5bd1_e995, index * 16 + number as u64);
         let (truth, wrong) = weighed(&drawn.scene, made, &told, &mut stream);
         let constructs = constructs(&drawn.scene, &made.claim);
-        Fate { index, number, constructs, truth, word: told.word(), wrong, seconds }
+        let method = match &told {
+            Told::Report(report) => report.evidence.method,
+            other => other.word(),
+        };
+        Fate { index, number, constructs, truth, word: told.word(), method, wrong, seconds }
     };
     all.into_iter().enumerate().map(fate).collect()
 }

@@ -39,8 +39,8 @@ pub struct Level {
     pub equations: Vec<(Tree, Tree)>,
     /// What each branch makes of what is drawn; together they are the whole level.
     pub branches: Vec<Vec<(usize, Tree)>>,
-    /// Is the only branch typed as a chart?
-    pub charted: bool,
+    /// A chart that is typed.
+    pub chart: Option<Vec<(usize, Tree)>>,
 }
 
 /// A system.
@@ -79,6 +79,15 @@ impl Scene {
     pub fn states(&self) -> Vec<usize> {
         let is_state = |place: &usize| matches!(self.symbols[*place].origin, Origin::State(..));
         (0..self.symbols.len()).filter(is_state).collect()
+    }
+
+    /// Does a typed chart fill the level?
+    pub fn is_filled(&self) -> bool {
+        let fills = |level: &Level| match &level.chart {
+            Some(chart) => level.branches.first() == Some(chart),
+            None => true,
+        };
+        self.level.as_ref().is_none_or(fills)
     }
 
     /// Does an expression depend on a parameter?
@@ -179,6 +188,16 @@ impl Scene {
     /// The same scene in the whole space.
     pub fn without_level(&self) -> Self {
         Self { level: None, ..self.clone() }
+    }
+
+    /// The same scene on each branch of its level.
+    pub fn branches(&self) -> Vec<Self> {
+        let Some(level) = &self.level else { return vec![self.clone()] };
+        let on = |branch: &Vec<(usize, Tree)>| {
+            let level = Level { branches: vec![branch.clone()], ..level.clone() };
+            Self { level: Some(level), ..self.clone() }
+        };
+        level.branches.iter().map(on).collect()
     }
 
     /// The same scene for each choice of listed values.
@@ -283,14 +302,14 @@ impl Scene {
             };
             let equations: Vec<String> = level.equations.iter().map(side).collect();
             text.push_str(&format!("[level]\nequations = [{}]\n", equations.join(", ")));
-            if level.charted {
+            if let Some(chart) = &level.chart {
                 let input = |symbol: &Symbol| match &symbol.origin {
                     Origin::Input(a, b) => Some(format!("{} = {}", symbol.name, range(a, b))),
                     _ => None,
                 };
                 let inputs: Vec<String> = self.symbols.iter().filter_map(input).collect();
                 text.push_str(&format!("[level.chart]\ninputs = {{ {} }}\n", inputs.join(", ")));
-                for (place, tree) in &level.branches[0] {
+                for (place, tree) in chart {
                     text.push_str(&format!("{} = {}\n", names[*place], quoted(tree)));
                 }
             }

@@ -180,7 +180,8 @@ impl Faulty {
         let level = scene.level.iter();
         let of_level = level.flat_map(|level| {
             let equations = level.equations.iter().flat_map(|(a, b)| [a, b]);
-            equations.chain(level.branches.iter().flatten().map(|(_, tree)| tree))
+            let branches = level.branches.iter().chain(&level.chart).flatten();
+            equations.chain(branches.map(|(_, tree)| tree))
         });
         let of_symbols = scene.symbols.iter().filter_map(|symbol| match &symbol.origin {
             Origin::Formula(tree) => Some(tree),
@@ -215,7 +216,7 @@ impl Faulty {
             for (a, b) in &mut level.equations {
                 (*a, *b) = (moved(a), moved(b));
             }
-            for branch in &mut level.branches {
+            for branch in level.branches.iter_mut().chain(&mut level.chart) {
                 *branch = pairs(branch);
             }
         }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::expr::{
-    Expr, Function, Tree, add, modulus, mul, neg, node, replaced, root, square, sub, symbol,
+    Expr, Function, Tree, add, modulus, mul, neg, node, of, replaced, root, square, sub, symbol,
     ten_to, whole,
 };
 use super::grow::Garden;
@@ -67,6 +67,11 @@ fn changed(part: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Option<Tree
             };
             let factor = if stream.once_in(2) { one_sided } else { root(&one_sided) };
             Some(add(part, &mul(&factor, &garden.atom(stream))))
+        }
+        // A wave that vanishes at short decimals.
+        (_, 4) if garden.functions && stream.once_in(3) => {
+            let turns = mul(&whole(4000), &of(Function::Atan, &whole(1)));
+            Some(add(part, &of(Function::Sin, &mul(&turns, &garden.symbol(stream)))))
         }
         // A term that vanishes but for a sliver at an end of the range.
         (_, 3) if stream.once_in(4) => {

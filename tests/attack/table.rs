@@ -61,7 +61,7 @@ pub fn constructs(scene: &Scene, claim: &Claim) -> Vec<&'static str> {
     note(origins().any(|origin| matches!(origin, Origin::List(_))), "a list of values");
     note(origins().any(|origin| matches!(origin, Origin::Formula(_))), "a parameter by a formula");
     if let Some(level) = &scene.level {
-        let name = match (level.charted, level.equations.len(), level.branches.len()) {
+        let name = match (level.chart.is_some(), level.equations.len(), level.branches.len()) {
             (true, _, _) => "level with a chart",
             (_, 2.., _) => "two linear equations",
             (_, _, 0) => "level without points",
@@ -85,16 +85,6 @@ impl Table {
         for name in constructs.iter().chain(&["all"]) {
             *self.rows.entry((truth, name)).or_default().entry(word).or_default() += 1;
         }
-    }
-
-    /// How many claims of this truth there are.
-    pub fn count(&self, truth: Truth) -> usize {
-        self.rows.get(&(truth, "all")).map_or(0, |row| row.values().sum())
-    }
-
-    /// The names of the constructs that true claims contain.
-    pub fn constructs(&self) -> usize {
-        self.rows.keys().filter(|(truth, _)| *truth == Truth::Holds).count()
     }
 
     /// The table as text.

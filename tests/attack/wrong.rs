@@ -8,7 +8,7 @@ use super::claim::{At, Claim};
 use super::draw::Made;
 use super::oracle::{Survey, evenly, in_cells, searched, signs};
 use super::random::Stream;
-use super::real::{Found, Real};
+use super::real::Lack;
 use super::scene::Scene;
 use super::told::{Told, exceeds, witnessed};
 
@@ -23,8 +23,10 @@ pub enum Wrong {
     RefutedTrue,
     /// Refuted, and there is no state at which it has a value.
     RefutedVoid,
-    /// Refuted by a state at which it does not fail, though it fails elsewhere.
+    /// Refuted by a state at which it holds, though it fails elsewhere.
     IdleWitness,
+    /// Refuted by a state at which it has no value or that is none, though it fails elsewhere.
+    NoWitness,
     /// Confirmed, and it fails on more than a fiftieth of the range.
     ConfirmedFalse,
     /// Confirmed, and there is no state at which it has a value.
@@ -32,9 +34,9 @@ pub enum Wrong {
     /// Said to hold everywhere, and it fails off the level.
     NotEverywhere,
     /// The sign of a density is another.
-    WrongSign,
+    OtherSign,
     /// An integral is said to be new, or constant, and is not.
-    WrongNovelty,
+    OtherNovelty,
     /// The program panicked.
     Panicked,
     /// A file in the language of the guide was not read.
@@ -53,12 +55,13 @@ impl Wrong {
             Wrong::ProvedVoid => "proved, and it has no value anywhere",
             Wrong::RefutedTrue => "refuted, and it holds",
             Wrong::RefutedVoid => "refuted, and it has no value anywhere",
-            Wrong::IdleWitness => "refuted by a state at which it does not fail",
+            Wrong::IdleWitness => "refuted by a state at which it holds",
+            Wrong::NoWitness => "refuted by a state at which it has no value, or that is none",
             Wrong::ConfirmedFalse => "confirmed, and it fails on a large part of the range",
             Wrong::ConfirmedVoid => "confirmed, and it has no value anywhere",
             Wrong::NotEverywhere => "said to hold everywhere, and it fails off the level",
-            Wrong::WrongSign => "a density with a sign that is another",
-            Wrong::WrongNovelty => "an integral that is said to be new or constant, and is not",
+            Wrong::OtherSign => "a density with a sign that is another",
+            Wrong::OtherNovelty => "an integral that is said to be new or constant, and is not",
             Wrong::Panicked => "a panic",
             Wrong::Unreadable => "a file that should be read",
             Wrong::Refused => "a case that is right is refused",
@@ -94,6 +97,7 @@ pub fn weighed(
         Told::Unjudged(_) | Told::Report(_) => {}
     }
     let claim = &made.claim;
+    let filled = scene.is_filled();
     let scene = match made.everywhere {
         true => Cow::Owned(scene.without_level()),
         false => Cow::Borrowed(scene),
@@ -106,8 +110,8 @@ pub fn weighed(
     let wrong = match told {
         Told::Report(report) => against(&scene, claim, truth, report, stream)
             .or_else(|| beside(&scene, claim, report, stream)),
-        // Where the motion stays on the level by construction, and charts fill it.
-        Told::Unjudged(error) if truth != Truth::Void => {
+        // The motion stays on the level by construction.
+        Told::Unjudged(error) if truth != Truth::Void && filled => {
             let complaints = ["the chart", "not invariant"];
             complaints.iter().any(|words| error.contains(words)).then_some(Wrong::Refused)
         }
@@ -127,9 +131,15 @@ fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> S
     let doubtful = match told.verdict() {
         Some(Verdict::Refuted) if !claim.is_negated() => survey.off == 0,
         Some(Verdict::Proved) if claim.is_negated() => survey.off == 0,
+        Some(Verdict::Undecided) | None => false,
         _ => survey.off == 0 && survey.zero == 0,
     };
-    if doubtful { searched(scene, claim, stream, 8) } else { survey }
+    if !doubtful {
+        return survey;
+    }
+    // A wrong verdict is told after a search that is thorough enough for thin cells.
+    let survey = searched(scene, claim, stream, 6);
+    if survey.off > 0 { survey } else { searched(scene, claim, stream, 30) }
 }
 
 /// What is wrong with a verdict.
@@ -146,20 +156,24 @@ fn against(
         (Verdict::Refuted, Truth::Void) => Some(Wrong::RefutedVoid),
         (Verdict::Confirmed, Truth::Void) => Some(Wrong::ConfirmedVoid),
         (Verdict::Refuted, truth) if !claim.is_negated() => {
-            let fails_there = report.evidence.witness.as_ref().map(|witness| {
-                let at = |(values, off): (Vec<Found<Real>>, Real)| match claim.at(scene, &values) {
-                    At::Off(residual) => exceeds(residual, &off),
-                    _ => false,
-                };
-                witnessed(scene, witness).is_some_and(at)
+            // What is found at the witness; nothing where it is no state.
+            let there = report.evidence.witness.as_ref().map(|witness| {
+                let (values, off) = witnessed(scene, witness)?;
+                match claim.at(scene, &values) {
+                    At::Off(residual) if !exceeds(residual, &off) => None,
+                    At::Without(Lack::Value) => None,
+                    at => Some(at),
+                }
             });
-            match (truth, fails_there) {
-                (_, Some(true)) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
+            match (truth, there) {
+                (_, Some(Some(At::Off(_)))) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
+                (Truth::Fails, Some(Some(At::Without(_)))) => None,
                 // The smaller residuals of a rounded state on a level say nothing.
-                (Truth::Fails, Some(false)) if scene.level.is_some() => None,
+                (Truth::Fails, Some(_)) if scene.level.is_some() => None,
                 // A limit has no state.
-                (Truth::Fails, Some(false)) if matches!(claim, Claim::Limit(..)) => None,
-                (Truth::Fails, Some(false)) => Some(Wrong::IdleWitness),
+                (Truth::Fails, Some(_)) if matches!(claim, Claim::Limit(..)) => None,
+                (Truth::Fails, Some(Some(At::Zero))) => Some(Wrong::IdleWitness),
+                (Truth::Fails, Some(None)) => Some(Wrong::NoWitness),
                 _ => Some(Wrong::RefutedTrue),
             }
         }
@@ -200,7 +214,7 @@ fn beside(
                 Sign::Negative => share(positive) > 0.05,
                 Sign::Changes => positive + negative >= 100 && positive.min(negative) == 0,
             };
-            wrong.then_some(Wrong::WrongSign)
+            wrong.then_some(Wrong::OtherSign)
         }
         (Claim::Integral(f), _, Some(independence)) => {
             let survey = in_cells(scene, &Claim::Independent(vec![f.clone()]), stream, 1);
@@ -210,7 +224,7 @@ fn beside(
                 }
                 Independence::Constant | Independence::General => survey.off > 0,
             };
-            wrong.then_some(Wrong::WrongNovelty)
+            wrong.then_some(Wrong::OtherNovelty)
         }
         _ => None,
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use libtest_mimic::{Failed, Trial};
 use liouville::case::Case;
-use liouville::verdict::{Options, Sign, judge};
+use liouville::verdict::{ClaimReport, Independence, Options, Sign, judge};
 
 use crate::file::{Claim, Group, Mutation};
 use crate::right::Answer;
@@ -60,12 +60,26 @@ fn answer(text: &str, place: usize, seed: u64) -> Answer {
 }
 
 fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
-    let sign = match answer {
-        Answer::Verdict(report) => report.evidence.sign,
-        Answer::Error(_) => None,
+    let (sign, independence) = match answer {
+        Answer::Verdict(report) => (report.evidence.sign, report.evidence.independence),
+        Answer::Error(_) => (None, None),
     };
+    let widest =
+        |report: &ClaimReport| report.evidence.holds.iter().any(|place| place == "everywhere");
     match claim.also.as_deref() {
         None => Ok(()),
+        Some("not everywhere") => match answer {
+            Answer::Verdict(report) if widest(report) => {
+                Err("it is told to hold everywhere, and does not".to_string())
+            }
+            _ => Ok(()),
+        },
+        Some("changes its sign") if matches!(sign, Some(Sign::Positive | Sign::Negative)) => {
+            Err(format!("it changes its sign, and is told to be {sign:?}"))
+        }
+        Some("changes its sign") => Ok(()),
+        Some("is not new") if independence != Some(Independence::Independent) => Ok(()),
+        Some("is not new") => Err("it is constant, and told to be new".to_string()),
         Some("keeps its sign") if sign != Some(Sign::Changes) => Ok(()),
         Some("keeps its sign") => Err("it does not change its sign".to_string()),
         Some(other) => Err(format!("`{other}` is nothing to be tested")),
