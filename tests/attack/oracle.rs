@@ -104,7 +104,7 @@ pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
 
 /// Points of each cell, cells in which all has a value first.
 fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Vec<Vec<Point>> {
-    const EACH: usize = 3;
+    const EACH: usize = 2;
     let sight = |point: &Point| -> Option<Sight> {
         let values = scene.rough_values(point)?;
         Some(scout::sight(claim.trees(), &values))

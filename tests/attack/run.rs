@@ -49,10 +49,13 @@ struct Fate {
     constructs: Vec<&'static str>,
     truth: Truth,
     word: &'static str,
+    on_level: bool,
     /// The rung that settled it.
     method: &'static str,
     wrong: Option<Wrong>,
+    /// What the verifier took for the case, and the oracle for the claim.
     seconds: f64,
+    weighing: f64,
 }
 
 /// What became of all claims.
@@ -84,9 +87,12 @@ pub fn run(plan: &Plan) -> Outcome {
     outcome.text = outcome.table.text();
     let slowest = fates.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds));
     if let Some(slowest) = slowest {
-        let total: f64 = fates.iter().map(|fate| fate.seconds).sum();
+        // A case is judged once for all its claims.
+        let cases = fates.iter().filter(|fate| fate.number == 0);
+        let total: f64 = cases.map(|fate| fate.seconds).sum();
+        let weighing: f64 = fates.iter().map(|fate| fate.weighing).sum();
         outcome.text.push_str(&format!(
-            "\n{} claims, {:.1} s; judged in {total:.1} s, the slowest in {:.1} s (case {})\n",
+            "\n{} claims, {:.1} s; judged in {total:.1} s, the slowest in {:.1} s (case {}); weighed in {weighing:.1} s\n",
             fates.len(),
             start.elapsed().as_secs_f64(),
             slowest.seconds,
@@ -95,13 +101,14 @@ pub fn run(plan: &Plan) -> Outcome {
     }
     for (wrong, list) in faults {
         outcome.text.push_str(&format!("\n{} times: {}\n", list.len(), wrong.words()));
-        let mut by: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
+        let mut by: BTreeMap<(&str, &str, &str), Vec<u64>> = BTreeMap::new();
         for fate in &list {
-            by.entry((fate.constructs[0], fate.method)).or_default().push(fate.index);
+            let place = if fate.on_level { " on a level" } else { "" };
+            by.entry((fate.constructs[0], place, fate.method)).or_default().push(fate.index);
         }
-        for ((kind, method), cases) in by {
+        for ((kind, place, method), cases) in by {
             let first = &cases[..cases.len().min(8)];
-            let line = format!("  {:>5} {kind} by {method}: cases {first:?}\n", cases.len());
+            let line = format!("  {:>5} {kind}{place} by {method}: cases {first:?}\n", cases.len());
             outcome.text.push_str(&line);
         }
         let shown: Vec<String> =
@@ -121,13 +128,16 @@ fn fates(seed: u64, index: u64) -> Vec<Fate> {
     let fate = |(number, told): (usize, Told)| {
         let made = &drawn.made[number];
         let mut stream = Stream::new(seed ^ 0x5bd1_e995, index * 16 + number as u64);
+        let began = Instant::now();
         let (truth, wrong) = weighed(&drawn.scene, made, &told, &mut stream);
+        let weighing = began.elapsed().as_secs_f64();
         let constructs = constructs(&drawn.scene, &made.claim);
         let method = match &told {
             Told::Report(report) => report.evidence.method,
             other => other.word(),
         };
-        Fate { index, number, constructs, truth, word: told.word(), method, wrong, seconds }
+        let (word, on_level) = (told.word(), drawn.scene.level.is_some());
+        Fate { index, number, constructs, truth, word, on_level, method, wrong, seconds, weighing }
     };
     all.into_iter().enumerate().map(fate).collect()
 }

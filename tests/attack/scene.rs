@@ -218,6 +218,16 @@ impl Scene {
         all
     }
 
+    /// Is it outside, and not one of the ends? Whether those belong to a range is not asked.
+    pub fn is_out_of_range(&self, place: usize, value: &Real) -> bool {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) => {
+                sign(&(value - number(*a))) < 0 || sign(&(number(*b) - value)) < 0
+            }
+            _ => false,
+        }
+    }
+
     /// The same in f64.
     pub fn rough_values(&self, point: &Point) -> Option<Vec<f64>> {
         let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);

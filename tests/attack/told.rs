@@ -103,7 +103,7 @@ pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, 
             Origin::Input(..) => Err(Lack::Decision),
             Origin::State(..) | Origin::Range(..) | Origin::List(_) => {
                 let value = read(given(&symbol.name)?)?;
-                if !scene.is_in_range(place, &value) {
+                if scene.is_out_of_range(place, &value) {
                     return None;
                 }
                 Ok(value)

@@ -127,11 +127,14 @@ fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> S
         Some(Verdict::Refuted) => claim.is_negated(),
         _ => false,
     };
+    if matches!(told.verdict(), None | Some(Verdict::Undecided)) && !claim.is_negated() {
+        return evenly(scene, claim, stream, 24);
+    }
     let survey = searched(scene, claim, stream, if says_zero { 2 } else { 1 });
     let doubtful = match told.verdict() {
         Some(Verdict::Refuted) if !claim.is_negated() => survey.off == 0,
         Some(Verdict::Proved) if claim.is_negated() => survey.off == 0,
-        Some(Verdict::Undecided) | None => false,
+        None | Some(Verdict::Undecided) => false,
         _ => survey.off == 0 && survey.zero == 0,
     };
     if !doubtful {
