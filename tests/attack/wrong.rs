@@ -94,6 +94,8 @@ pub fn weighed(
         // Numbers that divide by zero are refused as text.
         Told::Unreadable(error) if error.contains("divides by zero") => return (Truth::Void, None),
         Told::Unreadable(_) => return (Truth::Unsure, Some(Wrong::Unreadable)),
+        // A chart of less than the level is rightly refused.
+        Told::Unjudged(_) if !scene.is_filled() => return (Truth::Unsure, None),
         Told::Unjudged(_) | Told::Report(_) => {}
     }
     let claim = &made.claim;
