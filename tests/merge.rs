@@ -138,8 +138,7 @@ fn short_formulas_are_proved_equal_to_the_definitions() {
         })
         .expect("records");
         let fixed = vec![None; sampler.recipes().len()];
-        let groups: Vec<Group> =
-            differences.iter().map(|value| Group::of(vec![*value])).collect();
+        let groups: Vec<Group> = differences.iter().map(|value| Group::of(vec![*value])).collect();
         let (graph, groups) = sampler.compose_groups(&graph, &groups, &fixed).expect("composes");
         let extents = sampler.extents();
         let prover = Prover { sources: &[], extents: &extents, seed: 1 };

@@ -6,8 +6,8 @@ use super::parameters::{Given, origin, state_draws};
 use super::section::{Section, Text};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach,
-    RootEquation, Variable, Vocabulary,
+    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach, RootEquation,
+    Variable, Vocabulary,
 };
 
 /// State variables with the draws of their components.

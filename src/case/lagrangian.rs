@@ -6,9 +6,7 @@ use super::field;
 use super::section::{Section, Text};
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{
-    Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary,
-};
+use crate::mechanics::{Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary};
 
 fn other(text: &Text, message: String, remedy: &str) -> CaseError {
     CaseError::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })

@@ -9,7 +9,7 @@ use num_traits::Zero;
 use super::equation::{Equation, Point};
 use super::quadric::Quadric;
 use super::solution::Solution;
-use super::steps::Step;
+use super::steps::{Step, choices};
 use crate::graph::{Expr, Graph, Step as Node, record};
 use crate::mechanics::{Model, Origin, components};
 use crate::number::rational::Rational;
@@ -81,7 +81,8 @@ impl Look {
             let (parameters, state) = inputs.split_at(free);
             Point { model, parameters: parameters.to_vec(), state: state.to_vec() }
         };
-        let (plain, value) = record(free + dimension, |inputs| within(inputs).value(equation)).ok()?;
+        let (plain, value) =
+            record(free + dimension, |inputs| within(inputs).value(equation)).ok()?;
         let reached = plain.reached([value]);
         let used: Vec<usize> = plain
             .steps()
@@ -91,27 +92,33 @@ impl Look {
                 _ => None,
             })
             .collect();
-        let own: Vec<usize> =
-            used.iter().filter(|k| **k >= free && **k < free + dimension).map(|k| k - free).collect();
+        let own: Vec<usize> = used
+            .iter()
+            .filter(|k| **k >= free && **k < free + dimension)
+            .map(|k| k - free)
+            .collect();
         let parameters: Vec<usize> = used.iter().copied().filter(|k| *k < free).collect();
-        let pairs: Vec<(usize, usize)> =
-            own.iter().flat_map(|i| own.iter().filter(move |j| i <= *j).map(|j| (*i, *j))).collect();
-        let (graph, (value, slopes, bends, parameter_slopes)) = record(free + dimension, |inputs| {
-            let point = within(inputs);
-            let mut slopes = vec![Expr::zero(); dimension];
-            for (component, slope) in own.iter().zip(point.slopes(equation, &own)) {
-                slopes[*component] = slope;
-            }
-            let bend = |(i, j): &(usize, usize)| (*i, *j, point.bend(equation, *i, *j));
-            let parameter = |k: &usize| (*k, point.parameter_slope(equation, *k));
-            (
-                point.value(equation),
-                slopes,
-                pairs.iter().map(bend).collect(),
-                parameters.iter().map(parameter).collect(),
-            )
-        })
-        .ok()?;
+        let pairs: Vec<(usize, usize)> = own
+            .iter()
+            .flat_map(|i| own.iter().filter(move |j| i <= *j).map(|j| (*i, *j)))
+            .collect();
+        let (graph, (value, slopes, bends, parameter_slopes)) =
+            record(free + dimension, |inputs| {
+                let point = within(inputs);
+                let mut slopes = vec![Expr::zero(); dimension];
+                for (component, slope) in own.iter().zip(point.slopes(equation, &own)) {
+                    slopes[*component] = slope;
+                }
+                let bend = |(i, j): &(usize, usize)| (*i, *j, point.bend(equation, *i, *j));
+                let parameter = |k: &usize| (*k, point.parameter_slope(equation, *k));
+                (
+                    point.value(equation),
+                    slopes,
+                    pairs.iter().map(bend).collect(),
+                    parameters.iter().map(parameter).collect(),
+                )
+            })
+            .ok()?;
         let sets = sets(&graph, free);
         Some(Self { equation, graph, sets, parameters, value, slopes, bends, parameter_slopes })
     }
@@ -136,9 +143,7 @@ impl Look {
 
     /// Whether it is of degree 2 at most in some components together.
     fn is_quadratic_in(&self, set: Set) -> bool {
-        let inside = |(i, j, _): &&(usize, usize, Expr)| {
-            set & bit(*i) != 0 && set & bit(*j) != 0
-        };
+        let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
         self.bends.iter().filter(inside).all(|(_, _, bend)| self.set(*bend) & set == 0)
     }
 
@@ -167,7 +172,10 @@ impl Look {
         let (graph, found) = record(self.graph.inputs(), |inputs| {
             let zeros = vec![Expr::zero(); inputs.len()];
             let values = self.graph.replay(&reached, &zeros, |_, _, _| None);
-            wanted.iter().map(|value| values[self.graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            wanted
+                .iter()
+                .map(|value| values[self.graph.place(*value)])
+                .collect::<Option<Vec<Expr>>>()
         })
         .ok()?;
         found?.into_iter().map(|value| graph.constant_value(value).cloned()).collect()
@@ -245,7 +253,7 @@ impl<'m> Search<'m> {
         if count > MOST_TOGETHER || count > unknown.count_ones() as usize {
             return None;
         }
-        let choices = choices(&members(unknown), count);
+        let choices = choices(&members(unknown), count, MOST_CHOICES);
         let mut best: Option<(u32, Step)> = None;
         let mut offer = |cost: u32, step: Step| {
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -273,7 +281,8 @@ impl<'m> Search<'m> {
     /// Whether a block is linear in some of its unknowns and can be solved for them; less where that
     /// divides by less.
     fn linear_cost(&self, block: &[usize], chosen: &[usize], set: Set, solved: Set) -> Option<u32> {
-        if !block.iter().all(|index| self.looks[*index].is_linear_in(set)) || !self.is_regular(block, chosen)
+        if !block.iter().all(|index| self.looks[*index].is_linear_in(set))
+            || !self.is_regular(block, chosen)
         {
             return None;
         }
@@ -350,8 +359,12 @@ impl<'m> Search<'m> {
         let bends = look.bends.iter().filter(inside).map(|(_, _, bend)| look.set(*bend));
         let pivots = slopes.chain(bends).fold(0, |all, own| all | own);
         let all = members(if pivots & unknown == 0 { unknown } else { set });
+        let together = all.iter().fold(0, |set, k| set | bit(*k));
+        let is_of_degree_2 = look.is_quadratic_in(together)
+            && linear.iter().all(|index| self.looks[*index].is_linear_in(together));
         let linear = linear.iter().map(|index| self.looks[*index].equation).collect();
-        Some(Step::Quadratic { linear, quadratic: look.equation, components, all })
+        let quadratic = look.equation;
+        Some(Step::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
     }
 
     /// A quadric with a rational point on an axis, all components of which are unknown.
@@ -377,9 +390,8 @@ impl<'m> Search<'m> {
         left.iter().find_map(|index| {
             let look = &self.looks[*index];
             let usable = |(k, slope): &&(usize, Expr)| {
-                let elsewhere = |other: &Look| {
-                    other.equation != look.equation && other.parameters.contains(k)
-                };
+                let elsewhere =
+                    |other: &Look| other.equation != look.equation && other.parameters.contains(k);
                 is_scalar.contains(k)
                     && look.graph.constant_value(*slope).is_some_and(|slope| !slope.is_zero())
                     && !self.looks.iter().any(elsewhere)
@@ -402,27 +414,4 @@ fn scalar_components(model: &Model) -> Vec<usize> {
         start += components(parameter.kind);
     }
     found
-}
-
-/// All choices of so many of some components, in lexicographic order, up to a bound.
-fn choices(from: &[usize], count: usize) -> Vec<Vec<usize>> {
-    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
-    for round in 0..count {
-        let mut next = Vec::new();
-        for chosen in &all {
-            let start = chosen.last().map_or(0, |last| {
-                from.iter().position(|k| k == last).map_or(0, |place| place + 1)
-            });
-            let end = from.len() + round + 1 - count;
-            for component in from.get(start..end).unwrap_or_default() {
-                next.push([chosen.as_slice(), &[*component]].concat());
-            }
-        }
-        // The last ones are the preferred ones.
-        if next.len() > MOST_CHOICES {
-            next.drain(..next.len() - MOST_CHOICES);
-        }
-        all = next;
-    }
-    all
 }

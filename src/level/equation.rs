@@ -26,7 +26,8 @@ impl Equation {
         let equation = self.of(phase.model());
         match &equation.root {
             Some(root) if self.is_squared => {
-                let (inside, other) = (phase.scalar(&root.radicand), phase.scalar(&root.other_side));
+                let (inside, other) =
+                    (phase.scalar(&root.radicand), phase.scalar(&root.other_side));
                 let square = if root.is_modulus { inside * inside } else { inside };
                 square - other * other
             }
@@ -42,6 +43,7 @@ impl Equation {
 }
 
 /// A point that is being completed.
+#[derive(Clone)]
 pub struct Point<'m> {
     /// The system.
     pub model: &'m Model,
@@ -79,7 +81,8 @@ impl Point<'_> {
         for (component, slope) in direction {
             along[*component] = *slope;
         }
-        let lifted = |(x, u): (&Expr, &Expr)| Dual::new(Dual::new(*x, *u), Dual::new(*u, Expr::zero()));
+        let lifted =
+            |(x, u): (&Expr, &Expr)| Dual::new(Dual::new(*x, *u), Dual::new(*u, Expr::zero()));
         let state: Vec<Dual<Dual<Expr>>> = self.state.iter().zip(&along).map(lifted).collect();
         let lift = |x: Expr| Dual::from_re(Dual::from_re(x));
         let value = equation.value(&self.phase(lift, &state));

@@ -56,6 +56,13 @@ impl Solution {
         draws
     }
 
+    /// What must not vanish at any point of the level, from the coordinates of the point and the free
+    /// parameters.
+    pub fn pivots(&self, model: &Model, parameters: &[Expr], state: &[Expr]) -> Vec<Pivot> {
+        let point = Point { model, parameters: parameters.to_vec(), state: state.to_vec() };
+        self.steps.iter().filter_map(|step| step.pivot(&point)).collect()
+    }
+
     /// The point made from the free parameters and from draws.
     pub fn point(&self, model: &Model, parameters: Vec<Expr>, draws: &[Expr]) -> Solved {
         let (state, signs) = draws.split_at(model.dimension());

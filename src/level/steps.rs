@@ -9,6 +9,9 @@ use crate::mechanics::calculus::gram_determinant;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+/// Larger sets of minors are not written out.
+const MOST_MINORS: usize = 40;
+
 /// Equations solved together, for as many components of the state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
@@ -40,6 +43,8 @@ pub enum Step {
         components: Vec<usize>,
         /// Components of which what is divided by is free.
         all: Vec<usize>,
+        /// Whether the equations are of degree 2 at most in these together.
+        is_of_degree_2: bool,
     },
     /// An equation that is solved for a free parameter.
     Parameter {
@@ -58,11 +63,15 @@ pub struct Pivot {
     /// The determinant of the products of the equations' slopes by all unknowns of which what is
     /// divided by is free.
     pub slope: Expr,
+    /// The minors of these slopes, where they are few: all of them vanish where `slope` does.
+    pub minors: Vec<Expr>,
     /// The sum of squares of what is divided by and of what is left where that vanishes.
     pub whole: Expr,
     /// For one linear equation: its slopes and the rest. Where they have no common factor nothing
     /// can be missed by this step alone.
     pub entries: Vec<Expr>,
+    /// The components of the state that the step makes.
+    pub components: Vec<usize>,
 }
 
 impl Step {
@@ -87,6 +96,27 @@ impl Step {
         }
     }
 
+    /// What must not vanish at a point of the level, from its coordinates.
+    pub fn pivot(&self, point: &Point<'_>) -> Option<Pivot> {
+        let mut completed = point.clone();
+        let pivot = self.complete(&mut completed, None)?;
+        // The slopes of a linear step are free of what it makes; a quadratic one has made a root.
+        Some(match self {
+            Step::Quadratic { linear, quadratic, all, is_of_degree_2, .. } => {
+                let equations = self.equations();
+                let mut rows: Vec<Vec<Expr>> =
+                    equations.iter().map(|equation| point.slopes(*equation, all)).collect();
+                let slope = gram_determinant(&rows);
+                if *is_of_degree_2 {
+                    let column = along_itself(point, linear, *quadratic, all);
+                    rows.iter_mut().zip(column).for_each(|(row, value)| row.push(value));
+                }
+                Pivot { slope, minors: minors(&rows), ..pivot }
+            }
+            _ => pivot,
+        })
+    }
+
     /// Completes a point; the pivot, where one may vanish. `sign` chooses a root.
     pub fn complete(&self, point: &mut Point<'_>, sign: Option<Expr>) -> Option<Pivot> {
         match self {
@@ -97,15 +127,21 @@ impl Step {
             Step::Linear { equations, components, all } => {
                 Some(linear(point, equations, components, all))
             }
-            Step::Quadratic { linear, quadratic, components, all } => {
+            Step::Quadratic { linear, quadratic, components, all, .. } => {
                 let equations: Vec<Equation> = linear.iter().copied().chain([*quadratic]).collect();
                 let whole = quadratic_step(point, linear, *quadratic, components, sign);
                 // Where the equations are independent, points with another pivot are near.
                 let rows: Vec<Vec<Expr>> =
                     equations.iter().map(|equation| point.slopes(*equation, all)).collect();
                 let slope = gram_determinant(&rows);
-                let equations = equations.iter().map(|equation| equation.index).collect();
-                Some(Pivot { equations, slope, whole, entries: Vec::new() })
+                Some(Pivot {
+                    equations: equations.iter().map(|equation| equation.index).collect(),
+                    slope,
+                    minors: Vec::new(),
+                    whole,
+                    entries: Vec::new(),
+                    components: components.clone(),
+                })
             }
             Step::Parameter { equation, component } => {
                 point.parameters[*component] = Expr::zero();
@@ -149,6 +185,62 @@ fn system(
     (rows, rest)
 }
 
+/// The slopes of equations of degree 2 at most along the vector x of some components, at a point
+/// that satisfies them: for F = q(x) + (l,x) + c it is 2q + (l,x) = 2F − 2c − (l,x), and F = 0 there.
+fn along_itself(
+    point: &Point<'_>,
+    linear: &[Equation],
+    quadratic: Equation,
+    components: &[usize],
+) -> Vec<Expr> {
+    let mut origin = point.clone();
+    for component in components {
+        origin.state[*component] = Expr::zero();
+    }
+    let rest = linear.iter().map(|equation| -origin.value(*equation));
+    let slopes = origin.slopes(quadratic, components);
+    let slope = slopes.iter().zip(components).fold(Expr::zero(), |sum, (slope, component)| {
+        sum + *slope * point.state[*component]
+    });
+    let constant = origin.value(quadratic);
+    rest.chain([-(constant + constant) - slope]).collect()
+}
+
+/// The minors of all rows, unless there are many.
+fn minors(rows: &[Vec<Expr>]) -> Vec<Expr> {
+    let width = rows.first().map_or(0, Vec::len);
+    let of = |columns: &Vec<usize>| {
+        let row = |row: &Vec<Expr>| columns.iter().map(|column| row[*column]).collect();
+        determinant(&rows.iter().map(row).collect::<Vec<Vec<Expr>>>())
+    };
+    let columns: Vec<usize> = (0..width).collect();
+    let all = choices(&columns, rows.len(), MOST_MINORS + 1);
+    if all.len() > MOST_MINORS { Vec::new() } else { all.iter().map(of).collect() }
+}
+
+/// All choices of so many of some components, in lexicographic order; the last ones, where there are
+/// more than a bound.
+pub fn choices(from: &[usize], count: usize, most: usize) -> Vec<Vec<usize>> {
+    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
+    for round in 0..count {
+        let mut next = Vec::new();
+        for chosen in &all {
+            let start = chosen.last().map_or(0, |last| {
+                from.iter().position(|k| k == last).map_or(0, |place| place + 1)
+            });
+            let end = (from.len() + round + 1).saturating_sub(count);
+            for component in from.get(start..end).unwrap_or_default() {
+                next.push([chosen.as_slice(), &[*component]].concat());
+            }
+        }
+        if next.len() > most {
+            next.drain(..next.len() - most);
+        }
+        all = next;
+    }
+    all
+}
+
 /// The solution of A x + m = 0, by Cramer's rule.
 fn solved(rows: &[Vec<Expr>], rest: &[Expr]) -> Vec<Expr> {
     let whole = determinant(rows);
@@ -172,7 +264,7 @@ fn linear(
     // What may be solved for as well counts as unknown for the pivot.
     let kept: Vec<Expr> = all.iter().map(|component| point.state[*component]).collect();
     let (mut rows, rest) = system(point, equations, all);
-    let slope = gram_determinant(&rows);
+    let (slope, minors) = (gram_determinant(&rows), minors(&rows));
     rows.iter_mut().zip(&rest).for_each(|(row, m)| row.push(*m));
     let whole = gram_determinant(&rows);
     let entries = if let [row] = &rows[..] { row.clone() } else { Vec::new() };
@@ -183,7 +275,14 @@ fn linear(
     for (component, value) in components.iter().zip(solved(&rows, &rest)) {
         point.state[*component] = value;
     }
-    Pivot { equations: equations.iter().map(|e| e.index).collect(), slope, whole, entries }
+    Pivot {
+        equations: equations.iter().map(|equation| equation.index).collect(),
+        slope,
+        minors,
+        whole,
+        entries,
+        components: components.to_vec(),
+    }
 }
 
 fn quadratic_step(

@@ -133,9 +133,9 @@ impl Source {
             }
             Source::Sign => Rational::from(sign(bits)),
             Source::Range { grid, .. } if is_short => grid.pick(bits),
-            Source::Range { ends, grid } => between(*ends, bits)
-                .and_then(Rational::from_f64)
-                .unwrap_or_else(|| grid.pick(bits)),
+            Source::Range { ends, grid } => {
+                between(*ends, bits).and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits))
+            }
         }
     }
 }

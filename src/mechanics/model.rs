@@ -154,15 +154,19 @@ impl Model {
     }
 
     /// The formulas that are functions of the state before anything is claimed: the equations of
-    /// motion, the level, and the new variables.
+    /// motion, the new variables, and the level.
     pub fn functions(&self) -> Vec<&Formula> {
         let level = self.level.iter().filter_map(|equation| match &equation.function {
             LevelFunction::Formula(formula) => Some(formula),
             _ => None,
         });
+        self.dynamics().into_iter().chain(level).collect()
+    }
+
+    /// The formulas of the equations of motion and of the new variables.
+    pub fn dynamics(&self) -> Vec<&Formula> {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
-        let own = self.system.functions().into_iter().chain(&self.extension);
-        own.chain(level).chain(images).collect()
+        self.system.functions().into_iter().chain(&self.extension).chain(images).collect()
     }
 
     /// The dimension of phase space.

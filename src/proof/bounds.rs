@@ -68,6 +68,15 @@ impl Bounds {
         self.bounds[place].as_ref()
     }
 
+    /// A bound on the degrees of the numerator and of the denominator of the value at a place, all
+    /// factors multiplied out.
+    pub fn expanded_degree(&self, place: usize) -> Option<f64> {
+        let bound = self.at(place)?;
+        let factors = bound.factors.iter();
+        let degrees = factors.map(|(f, e)| e.abs() * self.factors[*f as usize].degree);
+        Some(bound.degree + degrees.sum::<f64>())
+    }
+
     /// Bounds on degree and height of the numerator of the difference of any two values.
     pub fn of_differences(&self) -> (f64, f64) {
         let expanded = |bound: &Bound| {

@@ -56,11 +56,7 @@ pub struct Change<'c> {
 impl Cell {
     /// All real inputs at which the values at some places of a graph exist, facts being known of some
     /// of its values.
-    pub fn whole(
-        graph: &Graph,
-        places: &[usize],
-        facts: &[(Expr, Fact)],
-    ) -> Result<Self, Fault> {
+    pub fn whole(graph: &Graph, places: &[usize], facts: &[(Expr, Fact)]) -> Result<Self, Fault> {
         let facts: Vec<(usize, Fact)> =
             facts.iter().map(|(value, fact)| (graph.place(*value), *fact)).collect();
         let all: Vec<usize> = places.iter().copied().chain(facts.iter().map(|f| f.0)).collect();
@@ -131,10 +127,7 @@ impl Cell {
 }
 
 /// Inputs, those that are signs having been chosen.
-pub fn with_signs(
-    inputs: &[Expr],
-    signs: impl IntoIterator<Item = (usize, bool)>,
-) -> Vec<Expr> {
+pub fn with_signs(inputs: &[Expr], signs: impl IntoIterator<Item = (usize, bool)>) -> Vec<Expr> {
     let mut inputs = inputs.to_vec();
     for (input, positive) in signs {
         let sign = if positive { 1 } else { -1 };

@@ -156,10 +156,8 @@ impl Refusals {
         let field = Quadratic::new(*trial.moduli());
         let mut evaluator = Evaluator::new(&tape, field.clone());
         let mut chance = Chance::of(digest, Stream::Refusals);
-        let mut found = Self {
-            refused: vec![[false; PRIMES]; nested.len()],
-            accepted: vec![0; nested.len()],
-        };
+        let mut found =
+            Self { refused: vec![[false; PRIMES]; nested.len()], accepted: vec![0; nested.len()] };
         let most = (4 * ACCEPTED * PRIMES / LANES) << (nested.len() as u32).min(MOST_NESTED);
         for _ in 0..most {
             let points = trial.points(&[], &mut chance);

@@ -39,18 +39,9 @@ impl Classes {
 
     /// The classes of those values of the graph that `algebraic` was made from that contain no root
     /// but independent ones: a random sign of another root would make equal what is not.
-    pub fn of(
-        algebraic: &Algebraic<'_>,
-        trial: &Trial<'_>,
-        tower: &Tower,
-        digest: Digest,
-    ) -> Self {
+    pub fn of(algebraic: &Algebraic<'_>, trial: &Trial<'_>, tower: &Tower, digest: Digest) -> Self {
         let count = algebraic.values.len();
-        let mut found = Self {
-            of: vec![None; count],
-            zero: vec![None; count],
-            certificate: None,
-        };
+        let mut found = Self { of: vec![None; count], zero: vec![None; count], certificate: None };
         let Some(certificate) = trial.of_differences() else { return found };
         let is_clean = |place: &usize| {
             algebraic.values[*place].is_some_and(|value| tower.is_clean(algebraic, value))

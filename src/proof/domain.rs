@@ -23,6 +23,8 @@ use super::extent::Extent;
 
 /// Parts of the box on which one value is looked at.
 const MOST_PARTS: usize = 64;
+/// Parts of the box on which a value is shown not to vanish.
+const MOST_PIECES: usize = 1 << 12;
 /// Passes over the steps, forwards and backwards.
 const PASSES: usize = 3;
 
@@ -53,8 +55,7 @@ const MOST_BOXES: usize = 1 << 12;
 /// A point inside the extents of some inputs at which some values are positive, whatever the others
 /// do; `None` where none is found.
 pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
-    let facts: Vec<(usize, Fact)> =
-        positive.iter().map(|place| (*place, Fact::Positive)).collect();
+    let facts: Vec<(usize, Fact)> = positive.iter().map(|place| (*place, Fact::Positive)).collect();
     let classes = Classes::default();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
     let reached = region.reached(&[]);
@@ -75,29 +76,45 @@ pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec
     None
 }
 
-/// Whether a value is known to be 0 nowhere inside the extents of the inputs where facts hold.
+/// Whether it is known that some values have no common zero inside the extents of the inputs where
+/// others are not negative.
 pub fn is_nowhere_zero(
     graph: &Graph,
     inputs: &[Extent],
-    facts: &[(usize, Fact)],
-    value: Expr,
+    not_negative: &[Expr],
+    values: &[Expr],
 ) -> bool {
     let classes = Classes::default();
-    let region = Region { graph, inputs, facts, classes: &classes };
-    let place = graph.place(value);
-    let reached = region.reached(&[place]);
+    let fact = |value: &Expr| (graph.place(*value), Fact::NotNegative);
+    let facts: Vec<(usize, Fact)> = not_negative.iter().map(fact).collect();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    let places: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
+    let reached = region.reached(&places);
     let used = region.inputs_of(&reached);
-    let mut open = vec![(region.whole(), 0)];
-    for _ in 0..MOST_PARTS * 16 {
-        let Some((part, depth)) = open.pop() else { return true };
+    let mut open = vec![region.whole()];
+    for _ in 0..MOST_PIECES {
+        let Some(mut part) = open.pop() else { return true };
         let Some(bounds) = region.bounds(&reached, &part) else { continue };
-        if bounds[place].excludes_zero() || bounds[place].is_empty() {
+        let vanishes = |place: &usize| !bounds[*place].excludes_zero() && !bounds[*place].is_empty();
+        if !places.iter().all(vanishes) {
             continue;
         }
-        match region.cut(&used, part, depth) {
-            Some(halves) => open.extend(halves),
-            None => return false,
+        // What the facts leave of the inputs, and the most of it first.
+        for at in &reached {
+            if let Step::Input(input) = graph.step(*at) {
+                part[input] = part[input].common(bounds[*at]);
+            }
         }
+        let spread = |input: &&usize| part[**input].spread();
+        let widest = used.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
+        let Some((input, (low, high))) =
+            widest.and_then(|input| Some((*input, part[*input].halves()?)))
+        else {
+            return false;
+        };
+        let mut upper = part.clone();
+        (part[input], upper[input]) = (low, high);
+        open.extend([upper, part]);
     }
     open.is_empty()
 }

@@ -83,9 +83,12 @@ impl Explorer<'_> {
         let mut seen = 1;
         while let Some((cell, round)) = open.pop() {
             let next = match round >= MOST_ROUNDS || seen > MOST_CELLS {
-                true => Next::Tested(silent(count, &format!(
-                    "its roots and moduli have more than {MOST_CELLS} combinations of signs"
-                ))),
+                true => Next::Tested(silent(
+                    count,
+                    &format!(
+                        "its roots and moduli have more than {MOST_CELLS} combinations of signs"
+                    ),
+                )),
                 false => self.next(&cell)?,
             };
             let mut divided = |change: Change<'_>| -> Result<(), Fault> {
@@ -182,10 +185,8 @@ impl Explorer<'_> {
         if !rewrites.is_empty() {
             return Ok(Next::Rewrite(rewrites, certificate));
         }
-        self.divide(cell, &algebraic, &trial, &tower, open).map_or_else(
-            || self.test(cell, &algebraic, &trial, &tower, &loose, &known),
-            Ok,
-        )
+        self.divide(cell, &algebraic, &trial, &tower, open)
+            .map_or_else(|| self.test(cell, &algebraic, &trial, &tower, &loose, &known), Ok)
     }
 
     /// Whether a clean value is 0 identically, and how surely.
@@ -209,8 +210,7 @@ impl Explorer<'_> {
         if let Some((modulus, argument)) = open.first().copied() {
             let classes = Classes::of(algebraic, trial, tower, self.digest);
             let (known, inputs) = (cell.known(), self.prover.extents);
-            let region =
-                Region { graph: &cell.graph, inputs, facts: &known, classes: &classes };
+            let region = Region { graph: &cell.graph, inputs, facts: &known, classes: &classes };
             if cell.is_part() && region.is_empty() {
                 return Some(Next::Empty(classes.certificate));
             }
@@ -286,8 +286,7 @@ impl Explorer<'_> {
             for (place, value) in special.iter().zip(&cell.values) {
                 made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
             }
-            let values =
-                graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
+            let values = graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
             outputs.iter().map(|output| values[graph.place(*output)]).collect()
         })?;
         let Some((extended, outputs)) = extended else {

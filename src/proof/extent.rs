@@ -5,6 +5,8 @@
 //! functions of `libm`, whose error is below one unit in the last place, by two). A product of a
 //! value with itself is a square. Where no input gives a result the extent is *empty*.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use crate::number::Function;
 use crate::number::rational::Rational;
 
@@ -207,7 +209,6 @@ impl Extent {
 
     /// f(x)
     pub fn unary(self, function: Function) -> Self {
-        let ball = |size: f64| Self { low: -size, high: size };
         match function {
             Function::Neg => self.negated(),
             Function::Abs => self.modulus(),
@@ -215,19 +216,81 @@ impl Extent {
             Function::Sqrt => self.rising(0.0, f64::sqrt).within(true),
             Function::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
             Function::Ln => self.rising(0.0, libm::log),
-            Function::Sin | Function::Cos => ball(1.0),
-            Function::Atan => ball(2.0),
+            Function::Sin => self.sine(),
+            Function::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
+            Function::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
         }
+    }
+
+    /// sin x
+    fn sine(self) -> Self {
+        /// Arguments beyond this are not brought back to one turn.
+        const FAR: f64 = 1e6;
+        /// More than what the turns of an argument below that are rounded by.
+        const SLACK: f64 = 1e-8;
+        let Self { low, high } = self;
+        if self.is_empty() {
+            return self;
+        }
+        if !(low >= -FAR && high <= FAR) {
+            return Self::SIGN;
+        }
+        let ends = [libm::sin(low), libm::sin(high)];
+        let once = Self::outward(ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let mut found = Self::outward(once.low, once.high);
+        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the trough.
+        let passes = |quarter: f64| {
+            let turns = |x: f64| (x - quarter * FRAC_PI_2) / TAU;
+            turns(low - SLACK).ceil() <= turns(high + SLACK).floor()
+        };
+        if passes(1.0) {
+            found.high = 1.0;
+        }
+        if passes(3.0) {
+            found.low = -1.0;
+        }
+        found.common(Self::SIGN)
     }
 
     /// x^q
     pub fn power(self, exponent: &Rational) -> Self {
+        /// Higher powers are not multiplied out.
+        const MOST: u64 = 64;
         match exponent.to_integer() {
             // Roots and powers of what is positive are positive.
             None if self.high < 0.0 => Self::EMPTY,
             None => Self::POSITIVE,
+            Some(n) if n.unsigned_abs() <= MOST => {
+                let power = self.whole_power(n.unsigned_abs());
+                if n < 0 { power.reciprocal() } else { power }
+            }
             Some(n) if n % 2 == 0 => Self::POSITIVE,
             Some(_) => self.sign().map_or(Self::ALL, |positive| Self::ALL.within(positive)),
+        }
+    }
+
+    /// x^n
+    fn whole_power(self, n: u64) -> Self {
+        match n {
+            _ if self.is_empty() => self,
+            0 => Self { low: 1.0, high: 1.0 },
+            n if n % 2 == 0 => self.square().whole_power(n / 2),
+            // An odd power increases.
+            n => {
+                let (low, high) =
+                    (Self { high: self.low, ..self }, Self { low: self.high, ..self });
+                let end = |x: Self| x.square().whole_power(n / 2).times(x);
+                Self { low: end(low).low, high: end(high).high }
+            }
+        }
+    }
+
+    /// How much there is to gain from cutting it.
+    pub fn spread(self) -> f64 {
+        let least = if self.excludes_zero() { self.low.abs().min(self.high.abs()) } else { 0.0 };
+        match (self.high - self.low, least) {
+            (width, 0.0) if width > 0.0 => f64::MAX.min(1e9 * width),
+            (width, least) => width / least,
         }
     }
 }
@@ -286,6 +349,34 @@ mod tests {
         assert!(tiny.times(tiny).sign() == Some(true) && tiny.square().high > 0.0, "underflow");
         assert_eq!(between(1e300, 1e300).square().high, f64::INFINITY, "overflow");
         assert!(between(1e300, 1e300).square().low < f64::INFINITY, "to both sides");
+    }
+
+    #[test]
+    fn sines_and_powers_hold_their_values() {
+        let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+        let mut chance = crate::proof::chance::Chance::new(6, 0);
+        let mut share = || (chance.element(&modulus) >> 9) as f64 / (1u64 << 52) as f64;
+        for round in 0..4000 {
+            let low = 40.0 * share() - 20.0;
+            let high = low + share() * if round % 2 == 0 { 0.5 } else { 8.0 };
+            let extent = Extent { low, high };
+            let at = low + share() * (high - low);
+            let inside = |extent: Extent, value: f64| {
+                extent.low <= value + 1e-12 * value.abs()
+                    && value <= extent.high + 1e-12 * value.abs()
+            };
+            assert!(inside(extent.unary(Function::Sin), at.sin()), "sin {at} in {extent:?}");
+            assert!(inside(extent.unary(Function::Cos), at.cos()), "cos {at} in {extent:?}");
+            assert!(inside(extent.unary(Function::Atan), at.atan()), "atan {at} in {extent:?}");
+            for n in [-3, -2, -1, 0, 1, 2, 3, 5, 8, 13] {
+                let power = extent.power(&Rational::from(n));
+                assert!(inside(power, at.powi(n as i32)), "{at}^{n} in {extent:?}: {power:?}");
+            }
+        }
+        let narrow = Extent { low: 0.3, high: 1.0 };
+        assert!(narrow.unary(Function::Cos).low > 0.54, "cos is positive from 0.3 to 1");
+        let odd = Extent { low: -2.0, high: 3.0 }.power(&Rational::from(3));
+        assert!(odd.low >= -8.0 - 1e-12 && odd.high <= 27.0 + 1e-12, "{odd:?}");
     }
 
     #[test]

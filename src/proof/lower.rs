@@ -202,9 +202,8 @@ impl<'g> Algebraic<'g> {
             })
         })?;
         let Lowering { sources: all, bases, moduli, odd, numbers, number_roots, .. } = lowering;
-        let integer = |(index, roots): (usize, Vec<Expr>)| {
-            (numbers.integer(index), roots.len() as u32)
-        };
+        let integer =
+            |(index, roots): (usize, Vec<Expr>)| (numbers.integer(index), roots.len() as u32);
         let numbers = number_roots.into_iter().map(integer).collect();
         let signs = all.iter().enumerate().filter(|(_, source)| **source == Source::Sign);
         let bits = signs.zip(0..).map(|((input, _), bit)| (input, bit)).collect();

@@ -49,7 +49,7 @@ use std::sync::Arc;
 
 pub use bounds::Source;
 pub(crate) use chance::Chance;
-pub use coprime::are_coprime;
+pub use coprime::{are_coprime, are_polynomials};
 pub use domain::{Fact, is_nowhere_zero};
 pub(crate) use elimination::reduce;
 pub use extent::Extent;
@@ -83,14 +83,14 @@ pub struct Prover<'a> {
 pub struct Group {
     /// Whether all of them are identically zero is asked.
     pub outputs: Vec<Expr>,
-    /// What is known wherever they matter.
-    pub facts: Vec<(Expr, Fact)>,
+    /// What has a value wherever they matter.
+    pub required: Vec<Expr>,
 }
 
 impl Group {
-    /// Values of which nothing else is known.
+    /// Values that matter wherever they exist.
     pub fn of(outputs: Vec<Expr>) -> Self {
-        Self { outputs, facts: Vec::new() }
+        Self { outputs, required: Vec::new() }
     }
 }
 
@@ -167,48 +167,85 @@ impl Prover<'_> {
     pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<Outcome>, Fault> {
         let outputs: Vec<Vec<Expr>> = groups.iter().map(|group| group.outputs.clone()).collect();
         let digest = Digest::of(self.seed, graph, &outputs);
-        let sources = self.sources_of(graph);
+        let question = Asked { graph, sources: self.sources_of(graph), digest };
         let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
-        for (special, members) in buckets(graph, groups, &sources) {
+        for bucket in buckets(graph, groups, &question.sources) {
+            let members = &bucket.members;
             let asked: Vec<&[Expr]> =
                 members.iter().map(|index| groups[*index].outputs.as_slice()).collect();
-            let found = match special.is_empty() {
-                true => self.prove_plain(graph, &asked, &sources, digest),
-                false => {
-                    let facts = &groups[members[0]].facts;
-                    let cell = Cell::whole(graph, &special, facts)?;
-                    let question = &Question { graph, groups: asked, special: &special };
-                    let explorer = Explorer { question, prover: self, sources: &sources, digest };
-                    combined(explorer.explore(cell)?, members.len())
-                }
+            let found = match bucket.special.is_empty() {
+                true => self.prove_plain(&question, &asked),
+                false => combined(self.explore(&question, &asked, &bucket)?, members.len()),
             };
-            for (index, outcome) in members.into_iter().zip(found) {
-                outcomes[index] = Some(outcome);
+            for (index, (outcome, is_partial)) in members.iter().zip(found) {
+                outcomes[*index] = Some(match (is_partial, &outcome) {
+                    (true, Outcome::Zero(_) | Outcome::Void) => {
+                        self.on_all_parts(&question, &groups[*index], outcome)?
+                    }
+                    _ => outcome,
+                });
             }
         }
         Ok(outcomes.into_iter().flatten().collect())
     }
 
-    /// Groups of rational functions.
-    fn prove_plain(
+    fn explore(
         &self,
-        graph: &Graph,
+        question: &Asked<'_>,
         groups: &[&[Expr]],
-        sources: &[Source],
-        digest: Digest,
-    ) -> Vec<Outcome> {
+        bucket: &Bucket,
+    ) -> Result<Explored, Fault> {
+        let Asked { graph, sources, digest } = question;
+        let cell = Cell::whole(graph, &bucket.special, &bucket.facts)?;
+        let question = &Question { graph, groups: groups.to_vec(), special: &bucket.special };
+        Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
+    }
+
+    /// An outcome for values that have none on a part of the inputs, as a derivative has none where
+    /// the radicand of a root vanishes: it stands if what is required has none there either.
+    fn on_all_parts(
+        &self,
+        question: &Asked<'_>,
+        group: &Group,
+        outcome: Outcome,
+    ) -> Result<Outcome, Fault> {
+        let Asked { graph, sources, .. } = question;
+        if group.required.is_empty() {
+            return Ok(outcome);
+        }
+        let both = [&group.outputs[..], &group.required[..]].concat();
+        let wide = Group { outputs: both, required: group.required.clone() };
+        let leaves = match buckets(graph, &[wide], sources).pop() {
+            Some(bucket) => {
+                self.explore(question, &[&group.outputs, &group.required], &bucket)?.leaves
+            }
+            None => Vec::new(),
+        };
+        let is_missing = |leaf: &Leaf| matches!(&leaf.findings[..], [None, Some(_)]);
+        Ok(match leaves.iter().any(is_missing) {
+            true => Outcome::Silent(
+                "it has no value on a part of the states at which all that is written has one"
+                    .to_string(),
+            ),
+            false => outcome,
+        })
+    }
+
+    /// Groups of rational functions.
+    fn prove_plain(&self, question: &Asked<'_>, groups: &[&[Expr]]) -> Vec<(Outcome, bool)> {
+        let Asked { graph, sources, digest } = question;
         let algebraic = Algebraic::plain(graph, sources);
-        let trial = Trial::new(&algebraic, digest);
+        let trial = Trial::new(&algebraic, *digest);
         let is_void = |group: &&[Expr]| group.iter().any(|x| graph.is_nowhere_defined(*x));
         let findings = trial.test(groups, Roots::default());
         groups
             .iter()
             .zip(findings)
             .map(|(group, finding)| match finding {
-                _ if is_void(group) => Outcome::Void,
-                Finding::Zero(certificate) => Outcome::Zero(certificate),
-                Finding::NonZero => Outcome::NonZero(Parts::default()),
-                Finding::Silent(reason) => Outcome::Silent(reason),
+                _ if is_void(group) => (Outcome::Void, true),
+                Finding::Zero(certificate) => (Outcome::Zero(certificate), false),
+                Finding::NonZero => (Outcome::NonZero(Parts::default()), false),
+                Finding::Silent(reason) => (Outcome::Silent(reason), false),
             })
             .collect()
     }
@@ -239,9 +276,26 @@ impl Prover<'_> {
     }
 }
 
+/// What all groups of a question share.
+struct Asked<'q> {
+    graph: &'q Graph,
+    sources: Vec<Source>,
+    digest: Digest,
+}
+
+/// Groups that are proved together.
+struct Bucket {
+    /// The places of the steps that they need and no field computes as they stand.
+    special: Vec<usize>,
+    /// What is known of values wherever they matter.
+    facts: Vec<(Expr, Fact)>,
+    /// The groups, by their numbers.
+    members: Vec<usize>,
+}
+
 /// Groups by the steps that they need and no field computes as they stand, and by what is known; in
 /// the order of the first of each.
-fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<(Vec<usize>, Vec<usize>)> {
+fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
     let is_special = |step: Step<'_>| match step {
         Step::Constant(_) => false,
         Step::Input(input) => sources.get(input) == Some(&Source::Sign),
@@ -251,7 +305,7 @@ fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<(Vec<usiz
     };
     let special: Vec<usize> =
         (0..graph.len()).filter(|place| is_special(graph.step(*place))).collect();
-    let mut buckets: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
+    let mut buckets: Vec<Bucket> = Vec::new();
     for (index, group) in groups.iter().enumerate() {
         let own: Vec<usize> = match special.is_empty() {
             true => Vec::new(),
@@ -260,20 +314,31 @@ fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<(Vec<usiz
                 special.iter().copied().filter(|place| reached[*place]).collect()
             }
         };
-        let is_same = |(special, members): &&mut (Vec<usize>, Vec<usize>)| {
-            let facts = |index: &usize| &groups[*index].facts;
-            *special == own && (own.is_empty() || facts(&members[0]) == &group.facts)
+        let is_same = |bucket: &&mut Bucket| {
+            let required = |index: &usize| &groups[*index].required;
+            bucket.special == own
+                && (own.is_empty() || required(&bucket.members[0]) == &group.required)
         };
         match buckets.iter_mut().find(is_same) {
-            Some((_, members)) => members.push(index),
-            None => buckets.push((own, vec![index])),
+            Some(bucket) => bucket.members.push(index),
+            None => {
+                let facts = match own.is_empty() {
+                    true => Vec::new(),
+                    false => {
+                        let reached = graph.reached(group.required.iter().copied());
+                        let facts = conditions(graph, &reached).into_iter();
+                        facts.map(|(place, fact)| (graph.at(place), fact)).collect()
+                    }
+                };
+                buckets.push(Bucket { special: own, facts, members: vec![index] });
+            }
         }
     }
     buckets
 }
 
-/// What holds on all cells together, for each group.
-fn combined(explored: Explored, count: usize) -> Vec<Outcome> {
+/// What holds on all cells together, for each group, and whether it has no value on some of them.
+fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
     let Explored { leaves, certificate } = explored;
     let of_group = |index: usize| {
         let findings = || leaves.iter().filter_map(move |leaf| leaf.findings[index].as_ref());
@@ -304,6 +369,8 @@ fn combined(explored: Explored, count: usize) -> Vec<Outcome> {
         numbers.collect::<Vec<usize>>()
     };
     let parts: Vec<Vec<usize>> = (0..count).map(of_group).collect();
+    let is_partial: Vec<bool> =
+        (0..count).map(|index| leaves.iter().any(|leaf| leaf.findings[index].is_none())).collect();
     let shared: Vec<Arc<Part>> = leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
     for (outcome, own) in outcomes.iter_mut().zip(parts) {
         if outcome.is_nonzero() && !own.is_empty() {
@@ -311,7 +378,7 @@ fn combined(explored: Explored, count: usize) -> Vec<Outcome> {
             *outcome = Outcome::NonZero(Parts(Some(parts)));
         }
     }
-    outcomes
+    outcomes.into_iter().zip(is_partial).collect()
 }
 
 fn part(cell: Cell) -> Part {

@@ -121,9 +121,8 @@ fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<P
             root.scaled(&square_root(&scale)?)
         }
     };
-    let halves = [1, -1].map(|sign| {
-        a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2))
-    });
+    let halves = [1, -1]
+        .map(|sign| a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)));
     // What is a square itself needs no further root.
     let order = |u: &Polynomial| (u.square().is_none(), u.size());
     halves.into_iter().filter(|u| !u.is_zero()).min_by_key(order)

@@ -53,9 +53,7 @@ impl RootFinder<'_> {
         let arguments = || self.algebraic.bases[base].arguments.clone();
         match &self.tower.standings[base] {
             Standing::Independent => Ok(Search::Independent),
-            Standing::Split => {
-                Ok(Search::Rewrite(Rewrite::Split { arguments: arguments() }, None))
-            }
+            Standing::Split => Ok(Search::Rewrite(Rewrite::Split { arguments: arguments() }, None)),
             Standing::Zero => {
                 let radicand = self.algebraic.bases[base].radicand;
                 let roots = Roots { nested: self.tower.nested, fixed: &[] };

@@ -116,7 +116,8 @@ impl Samples {
         for (index, place) in places.iter().enumerate() {
             let block = *evaluator.output(index);
             if is_defined(&block) && block.iter().all(|x| *x != [0, 0]) {
-                let square = std::array::from_fn(|lane| field.product(lane, block[lane], block[lane]));
+                let square =
+                    std::array::from_fn(|lane| field.product(lane, block[lane], block[lane]));
                 let is_known = known.get(*place) == Some(&true);
                 entries.push(Entry { place: *place, square, ratios: [[0; 2]; 2], is_known });
             }
@@ -126,10 +127,8 @@ impl Samples {
         let mut with_ratio: FxHashMap<Element, [Option<usize>; 2]> = FxHashMap::default();
         for (index, (entry, inverse)) in entries.iter_mut().zip(inverses.chunks(2)).enumerate() {
             let [compared, last] = [entry.square[COMPARED], entry.square[LAST]];
-            entry.ratios = [
-                field.product(LAST, last, inverse[0]),
-                field.product(LAST, compared, inverse[1]),
-            ];
+            entry.ratios =
+                [field.product(LAST, last, inverse[0]), field.product(LAST, compared, inverse[1])];
             let [first, known] = with_ratio.entry(entry.ratios[0]).or_default();
             first.get_or_insert(index);
             if entry.is_known {

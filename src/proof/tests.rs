@@ -223,9 +223,8 @@ fn a_sign_is_not_taken_from_a_product() {
 #[test]
 fn independence_is_that_of_the_true_roots() {
     let sum = |x: &[Expr]| x[0] * x[0] + x[0] * 2.0 + 1.0;
-    let outcome = prove(&[false, false], |x| {
-        (x[1] + sum(x).sqrt()).sqrt() - (x[1] + x[0] + 1.0).sqrt()
-    });
+    let outcome =
+        prove(&[false, false], |x| (x[1] + sum(x).sqrt()).sqrt() - (x[1] + x[0] + 1.0).sqrt());
     assert!(is_proved(&outcome), "√(y + √(x² + 2x + 1)) = √(y + x + 1): {outcome:?}");
     let outcome = prove(&[false, false], |x| {
         let nested = (x[0] + 1.0 + x[0].sqrt() * 2.0).sqrt();
@@ -266,7 +265,8 @@ fn what_vanishes_on_a_cell_is_put_in() {
 #[test]
 fn powers_of_one_base_share_a_root() {
     let power = |x: Expr, n: i64, d: i64| x.power(&Rational::new(n, d));
-    for (a, b, c) in [((1, 4), (3, 4), (1, 1)), ((5, 6), (1, 6), (1, 1)), ((1, 8), (3, 8), (1, 2))] {
+    for (a, b, c) in [((1, 4), (3, 4), (1, 1)), ((5, 6), (1, 6), (1, 1)), ((1, 8), (3, 8), (1, 2))]
+    {
         let outcome = prove(&[false], |x| {
             power(x[0], a.0, a.1) * power(x[0], b.0, b.1) - power(x[0], c.0, c.1)
         });
@@ -284,14 +284,12 @@ fn powers_of_one_base_share_a_root() {
 
 #[test]
 fn roots_of_constants_factor_out() {
-    let outcome = prove(&[false], |x| {
-        (x[0] * number("1/5")).sqrt() - x[0].sqrt() / number("5").sqrt()
-    });
+    let outcome =
+        prove(&[false], |x| (x[0] * number("1/5")).sqrt() - x[0].sqrt() / number("5").sqrt());
     assert!(is_proved(&outcome), "√(x/5) = √x/√5: {outcome:?}");
     let large = "100000000000000000000000000000000000133";
-    let outcome = prove(&[false], |x| {
-        (x[0] * number(large)).sqrt() - x[0].sqrt() * number(large).sqrt()
-    });
+    let outcome =
+        prove(&[false], |x| (x[0] * number(large)).sqrt() - x[0].sqrt() * number(large).sqrt());
     assert!(is_proved(&outcome), "no constant has to be factored: {outcome:?}");
 }
 

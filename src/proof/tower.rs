@@ -129,9 +129,7 @@ impl Tower {
         trial: &Trial<'_>,
         digest: Digest,
     ) {
-        let is_nested = |index: &usize| {
-            algebraic.mask(algebraic.bases[*index].radicand) != 0
-        };
+        let is_nested = |index: &usize| algebraic.mask(algebraic.bases[*index].radicand) != 0;
         let mut open = Vec::new();
         // A root of a root is a factor; other nested roots are looked at once all else is clean.
         for index in (0..algebraic.bases.len()).filter(is_nested) {
@@ -139,8 +137,7 @@ impl Tower {
             if !self.may_become_clean(algebraic, base.radicand, &open) {
                 continue;
             }
-            let has_factor =
-                base.arguments.iter().any(|place| has_root_as_factor(graph, *place));
+            let has_factor = base.arguments.iter().any(|place| has_root_as_factor(graph, *place));
             if has_factor && self.is_clean(algebraic, base.radicand) {
                 self.standings[index] = Standing::Split;
             } else {

@@ -143,12 +143,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn test_in<F: Residues>(
-        &self,
-        field: F,
-        groups: &[&[Expr]],
-        roots: Roots<'_>,
-    ) -> Vec<Finding> {
+    fn test_in<F: Residues>(&self, field: F, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {
         let draws = DRAWS << roots.nested.min(MOST_NESTED);
         let mut findings: Vec<Option<Finding>> = Vec::new();
         let mut certificates: Vec<Option<Certificate>> = Vec::new();
@@ -338,7 +333,11 @@ impl Residues for Quadratic<LANES> {
 /// Primes with unique odd roots and chains of square roots where a graph has them, lane by lane.
 ///
 /// The last ones are kept: one claim after the other asks for the same.
-pub fn suitable_moduli(digest: Digest, stream: Stream, algebraic: &Algebraic<'_>) -> [Modulus; LANES] {
+pub fn suitable_moduli(
+    digest: Digest,
+    stream: Stream,
+    algebraic: &Algebraic<'_>,
+) -> [Modulus; LANES] {
     type Known = (Digest, Stream, Wanted, [Modulus; LANES]);
     thread_local! {
         static LAST: RefCell<Option<Known>> = const { RefCell::new(None) };
@@ -355,8 +354,7 @@ pub fn suitable_moduli(digest: Digest, stream: Stream, algebraic: &Algebraic<'_>
             return *moduli;
         }
         let mut chance = Chance::of(digest, stream);
-        let primes: [Modulus; PRIMES] =
-            std::array::from_fn(|_| chance.prime_with_roots(&wanted));
+        let primes: [Modulus; PRIMES] = std::array::from_fn(|_| chance.prime_with_roots(&wanted));
         let moduli = std::array::from_fn(|lane| primes[prime_of(lane)]);
         *last = Some((digest, stream, wanted, moduli));
         moduli

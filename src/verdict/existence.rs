@@ -12,11 +12,11 @@ use super::recorded::Recorded;
 use super::sampler::{LANES, Sampler};
 use super::witness;
 use crate::graph::{Evaluator, Fault, Tape};
+use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::number::Enclosing;
 use crate::proof::Part;
 
 /// States without a value in f64 that are looked at more closely.
@@ -37,7 +37,7 @@ impl Bench<'_> {
             if missing.is_empty() {
                 continue;
             }
-            let (run, layout) = self.lay_out(std::iter::once(*item), false);
+            let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
             let looked = missing.len().min(MOST_MISSING);
             let mut doubtful = 0;
@@ -126,7 +126,7 @@ impl Bench<'_> {
         part: Option<&Part>,
         finding: &mut Finding,
     ) -> bool {
-        let (run, layout) = self.lay_out(std::iter::once(item), false);
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         let span = &layout.spans[0];
         let member = part.map(Membership::of);
         let mut known = None;
@@ -182,7 +182,7 @@ impl Bench<'_> {
             .map(|(draw, x)| draw.only().or_else(|| Rational::from_f64(*x)))
             .collect();
         let Some(numbers) = numbers else { return false };
-        let (run, layout) = self.lay_out(std::iter::once(item), false);
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
         let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
         if !layout.existing(&values, span)[0] {

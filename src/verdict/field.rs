@@ -5,7 +5,7 @@ use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
-use crate::proof::{Certificate, Group, Outcome, Parts, Prover, conditions};
+use crate::proof::{Certificate, Group, Outcome, Parts, Prover};
 
 /// Combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
@@ -73,8 +73,7 @@ impl<'a> Field<'a> {
 
     /// Is each group of values zero at all states of the place, whatever the parameters?
     pub fn test(&self, queries: &[Query]) -> Result<Vec<Answer>, Fault> {
-        let silent =
-            |reason: &str| Ok(vec![Answer::Silent(reason.to_string()); queries.len()]);
+        let silent = |reason: &str| Ok(vec![Answer::Silent(reason.to_string()); queries.len()]);
         if queries.is_empty() {
             return Ok(Vec::new());
         }
@@ -88,16 +87,12 @@ impl<'a> Field<'a> {
         let seed = self.bench.options.seed;
         let prover = Prover { sources: &sources, extents: &extents, seed };
         let graph = self.bench.graph;
-        let groups: Vec<Group> = queries
-            .iter()
-            .map(|query| {
-                let requirement = query.requirement.iter().chain(&self.bench.common.requirement);
-                let reached = graph.reached(requirement.copied());
-                let facts = conditions(graph, &reached).into_iter();
-                let facts = facts.map(|(place, fact)| (graph.at(place), fact)).collect();
-                Group { outputs: query.outputs.clone(), facts }
-            })
-            .collect();
+        let common = self.bench.common.required_at(self.sampler.kept());
+        let group = |query: &Query| Group {
+            outputs: query.outputs.clone(),
+            required: [&query.requirement[..], &common].concat(),
+        };
+        let groups: Vec<Group> = queries.iter().map(group).collect();
         let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];
         for fixed in combinations {
             let (graph, groups) = self.sampler.compose_groups(graph, &groups, &fixed)?;
@@ -211,7 +206,8 @@ mod tests {
             // What is claimed to be independent fails where the residual does vanish.
             if claim.expect == Expect::Fails && !claim.kind.is_negated() {
                 let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
-                let outcome = Field::new(&bench, &sampler).test(&[Query::of(residual)]).expect("tested");
+                let outcome =
+                    Field::new(&bench, &sampler).test(&[Query::of(residual)]).expect("tested");
                 found.push((claim.name.clone(), outcome.into_iter().next().expect("one group")));
             }
         }

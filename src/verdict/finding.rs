@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::field::Where;
 use super::evidence::{Evidence, Independence, Rung, Verdict};
+use super::field::Where;
 use super::recorded::{Recorded, Span};
 use super::run::Values;
 use super::sampler::LANES;

@@ -10,8 +10,8 @@ use super::sampler::LANES;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Fault, record};
-use crate::mechanics::calculus::Jet;
 use crate::mechanics::Phase;
+use crate::mechanics::calculus::Jet;
 
 /// How thoroughly to judge.
 #[derive(Clone, Copy, Debug)]

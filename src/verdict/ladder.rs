@@ -19,7 +19,6 @@ use super::recorded::{Layout, Recorded, Span};
 use super::run::{Run, waves};
 use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
-use crate::graph::Expr;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::twofold::TwofoldBall;
@@ -131,7 +130,7 @@ impl Bench<'_> {
 
     /// Balls over f64 at the first block, with what tells rounding from truth.
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let (run, layout) = self.lay_out(open.iter().map(|(item, _)| *item), true);
+        let (run, layout) = self.lay_out(sampler, open.iter().map(|(item, _)| *item), true);
         let values = run.at(&Ball::<LANES>, &sampler.balls(0));
         for ((item, finding), span) in open.iter_mut().zip(&layout.spans) {
             let existing = layout.existing(&values, span);
@@ -228,7 +227,8 @@ impl Bench<'_> {
                 return;
             }
             if laid_out.as_ref().is_none_or(|(_, _, count)| *count != left.len()) {
-                let (run, layout) = self.lay_out(left.iter().map(|(item, _)| *item), false);
+                let (run, layout) =
+                    self.lay_out(sampler, left.iter().map(|(item, _)| *item), false);
                 laid_out = Some((run, layout, left.len()));
             }
             let Some((run, layout, _)) = &laid_out else { return };
@@ -253,7 +253,7 @@ impl Bench<'_> {
         if left.is_empty() {
             return;
         }
-        let (run, layout) = self.lay_out(left.iter().map(|(item, _)| *item), true);
+        let (run, layout) = self.lay_out(sampler, left.iter().map(|(item, _)| *item), true);
         let domain = TwofoldBall::<LANES>;
         let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
         for ((item, finding), span) in left.iter_mut().zip(&layout.spans) {
@@ -273,7 +273,7 @@ impl Bench<'_> {
             finding.settled.is_none() && !finding.is_zero && finding.undefined.is_none()
         };
         for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
-            let (run, layout) = self.lay_out(std::iter::once(*item), false);
+            let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let span = &layout.spans[0];
             let before = finding.evidence.method;
             // Where the fields are silent there may be nothing to find.
@@ -299,8 +299,9 @@ impl Bench<'_> {
 
     /// Have formula and residual a value that only numbers of 64 bits are too small for?
     fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
-        let parts = [&self.common.requirement, &item.requirement, &item.residual, &item.context.value];
-        let outputs: Vec<Expr> = parts.into_iter().flatten().copied().collect();
+        let mut outputs = self.common.required_at(sampler.kept());
+        let parts = [&item.requirement, &item.residual, &item.context.value];
+        outputs.extend(parts.into_iter().flatten());
         let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
         let is_defined = |index| {
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
@@ -312,10 +313,11 @@ impl Bench<'_> {
     /// One tape for some claims.
     pub(super) fn lay_out<'r>(
         &self,
+        sampler: &Sampler,
         items: impl Iterator<Item = &'r Recorded<'r>>,
         with_context: bool,
     ) -> (Run, Layout) {
-        let mut outputs = self.common.requirement.clone();
+        let mut outputs = self.common.required_at(sampler.kept());
         let common = 0..outputs.len();
         let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
         (self.run(&outputs), Layout { common, spans })

@@ -8,8 +8,8 @@ use crate::case::{Claim, Expect};
 use crate::claim::{Context, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::{Origin, Phase, System};
 use crate::mechanics::calculus::{Jet, rejection};
+use crate::mechanics::{LevelEquation, LevelFunction, Origin, Phase, System};
 use crate::number::Enclosing;
 
 /// A claim with everything recorded about it.
@@ -71,7 +71,9 @@ impl<'c> Recorded<'c> {
 pub struct Common {
     pub field: Vec<Expr>,
     /// The formulas of the system as they are written: without a value of theirs there is no state.
-    pub requirement: Vec<Expr>,
+    requirement: Vec<Expr>,
+    /// Those of the level functions.
+    level_requirement: Vec<Vec<Expr>>,
     /// The level functions, zero on the level.
     pub level: Vec<Expr>,
     /// Their rates along the motion.
@@ -99,7 +101,14 @@ impl Common {
                     Origin::Formula(formula) => Some(formula),
                     _ => None,
                 });
-                literal_values(phase, formulas.chain(model.functions()))
+                literal_values(phase, formulas.chain(model.dynamics()))
+            },
+            level_requirement: {
+                let formula = |equation: &LevelEquation| match &equation.function {
+                    LevelFunction::Formula(formula) => literal_values(phase, [formula]),
+                    _ => Vec::new(),
+                };
+                phase.model().level.iter().map(formula).collect()
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
@@ -117,6 +126,15 @@ impl Common {
                 .map(|k| rejection(&gradients[k], &gradients[..k]))
                 .collect(),
         }
+    }
+}
+
+impl Common {
+    /// What has a value wherever there is a state at which these equations of the level hold.
+    pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
+        let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
+        let level = level.flat_map(|(values, _)| values);
+        self.requirement.iter().chain(level).copied().collect()
     }
 }
 

@@ -14,7 +14,7 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::{Extent, Fact, Group, Source, conditions};
+use crate::proof::{Extent, Group, Source};
 use crate::scalar::Scalar;
 
 use super::newton::Newton;
@@ -38,11 +38,14 @@ pub struct Sampler {
     /// From draws to parameters and state.
     graph: Arc<Graph>,
     made: Vec<Expr>,
-    /// What must not vanish, lest the states leave out a part of the place.
+    /// How the level is solved, and what must not vanish, lest a part of it is left out.
+    solution: Option<Arc<Solution>>,
     pivots: Arc<[Pivot]>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
     dimension: usize,
+    /// The level equations that hold.
+    kept: Vec<bool>,
     /// Makes parameters and state, without a value where they are out of range.
     tape: Tape,
     /// Makes them wherever it can.
@@ -95,15 +98,18 @@ impl Sampler {
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());
+        let solution = solution.map(Arc::new);
         Ok(Self {
             seed,
             draws,
             recipes,
             graph,
             made: guarded,
+            solution,
             pivots,
             parameter_draws,
             dimension,
+            kept: kept.clone(),
             tape,
             unguarded,
             is_guarded,
@@ -115,6 +121,11 @@ impl Sampler {
     /// level?
     pub fn is_numerical(&self) -> bool {
         self.newton.is_some()
+    }
+
+    /// Which of the level's equations hold at the states.
+    pub fn kept(&self) -> &[bool] {
+        &self.kept
     }
 
     /// Parameters and state of the states `start..start + LANES`, as balls.
@@ -145,9 +156,7 @@ impl Sampler {
 
     fn numbers(&self, lanes: usize, start: u64) -> Vec<Vec<Rational>> {
         let attempts = self.attempts(start, lanes, None);
-        let state = |(lane, attempt)| {
-            self.draws.attempt(self.seed, start + lane as u64, attempt)
-        };
+        let state = |(lane, attempt)| self.draws.attempt(self.seed, start + lane as u64, attempt);
         attempts.into_iter().enumerate().map(state).collect()
     }
 
@@ -202,14 +211,6 @@ impl Sampler {
 
     /// Where each of the numbers that are drawn can be.
     pub fn extents(&self) -> Vec<Extent> {
-        let extent = |draw: &Draw| match draw {
-            Draw::Within(range) => Extent::between(&range.low, &range.high),
-            Draw::Of(Line::All, _) => Extent::ALL,
-            Draw::Of(Line::Positive, _) => Extent::POSITIVE,
-            // Each value is put in before anything is proved.
-            Draw::OneOf(_) => Extent::ALL,
-            Draw::Sign => Extent::SIGN,
-        };
         self.recipes.iter().map(extent).collect()
     }
 
@@ -277,30 +278,26 @@ impl Sampler {
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
     }
 
-    /// The same for groups of values with facts; what is known of the states beside comes with them.
+    /// The same for groups of values; states, too, have a value wherever the values matter.
     pub fn compose_groups(
         &self,
         graph: &Graph,
         groups: &[Group],
         fixed: &[Option<Rational>],
     ) -> Result<(Graph, Vec<Group>), Fault> {
-        let own = self.facts();
         let (composed, groups) = record(self.draws.len(), |draws| {
-            let (inputs, made) = self.inputs_from(graph, draws, fixed)?;
-            let own: Option<Vec<(Expr, Fact)>> =
-                own.iter().map(|(place, fact)| Some((made[*place]?, *fact))).collect();
-            let own = own?;
-            let needed = groups.iter().flat_map(|group| {
-                group.outputs.iter().copied().chain(group.facts.iter().map(|(value, _)| *value))
-            });
-            let reached = graph.reached(needed);
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
+            let needed =
+                groups.iter().flat_map(|group| group.outputs.iter().chain(&group.required));
+            let reached = graph.reached(needed.copied());
             let values = graph.replay(&reached, &inputs, |_, _, _| None);
-            let at = |value: &Expr| values[graph.place(*value)];
+            let all = |some: &[Expr]| {
+                some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            };
             let group = |group: &Group| {
-                let facts = group.facts.iter().map(|(value, fact)| Some((at(value)?, *fact)));
-                let mut facts = facts.collect::<Option<Vec<(Expr, Fact)>>>()?;
-                facts.extend(own.iter().copied());
-                Some(Group { outputs: group.outputs.iter().map(at).collect::<Option<_>>()?, facts })
+                let mut required = all(&group.required)?;
+                required.extend(&inputs[..self.made.len()]);
+                Some(Group { outputs: all(&group.outputs)?, required })
             };
             groups.iter().map(group).collect::<Option<Vec<Group>>>()
         })?;
@@ -337,9 +334,14 @@ impl Sampler {
         &self.pivots
     }
 
-    /// What is known of values on the way to a state, by the places of the graph.
-    pub fn facts(&self) -> Vec<(usize, Fact)> {
-        conditions(&self.graph, &self.graph.reached(self.made.iter().copied()))
+    /// How the level is solved, if it is.
+    pub fn solution(&self) -> Option<&Solution> {
+        self.solution.as_deref()
+    }
+
+    /// How many of the draws make the parameters.
+    pub fn parameter_draws(&self) -> usize {
+        self.parameter_draws
     }
 
     /// What each of the draws is in a field.
@@ -443,6 +445,18 @@ impl Sampler {
     }
 }
 
+/// Where a number that is drawn can be.
+pub fn extent(draw: &Draw) -> Extent {
+    match draw {
+        Draw::Within(range) => Extent::between(&range.low, &range.high),
+        Draw::Of(Line::All, _) => Extent::ALL,
+        Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+        // Each value is put in before anything is proved.
+        Draw::OneOf(_) => Extent::ALL,
+        Draw::Sign => Extent::SIGN,
+    }
+}
+
 /// The differences of components that a level determines from the ends of their ranges.
 fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     let (parameters, state) = made.split_at(case.model.free_components());
@@ -496,9 +510,8 @@ impl Maker<'_> {
     fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<LANES>> {
         let sampler = self.sampler;
         let attempts = sampler.attempts(start, LANES, sets);
-        let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(|lane| {
-            sampler.nearest(start + lane as u64, attempts[lane], sets)
-        });
+        let lanes: [Vec<(f64, bool)>; LANES] =
+            std::array::from_fn(|lane| sampler.nearest(start + lane as u64, attempts[lane], sets));
         let column = |k: usize| Balls::about(|lane| lanes[lane][k]);
         let columns: Vec<Balls<LANES>> = (0..self.sampler.draws.len()).map(column).collect();
         self.evaluator.run(&columns);

@@ -41,7 +41,7 @@ impl Bench<'_> {
                 start..outputs.len()
             };
             let mut asked = Vec::new();
-            let common = extend(&self.common.requirement);
+            let common = extend(&self.common.required_at(&place.kept));
             for (item, finding) in recorded.iter().zip(findings.iter_mut()) {
                 let wider = item.wider.iter().find(|wider| wider.place == *place);
                 let covered = finding.evidence.holds.iter().any(|name| name == "everywhere");
@@ -80,8 +80,7 @@ impl Bench<'_> {
                     open.push((claim, finding, query, look.is_zero()));
                 }
             }
-            let queries: Vec<Query> =
-                open.iter().map(|(_, _, query, _)| query.clone()).collect();
+            let queries: Vec<Query> = open.iter().map(|(_, _, query, _)| query.clone()).collect();
             let answers = match self.options.trust {
                 Trust::Float => vec![None; queries.len()],
                 _ => Field::new(self, &sampler).test(&queries)?.into_iter().map(Some).collect(),
@@ -92,7 +91,8 @@ impl Bench<'_> {
                     Some(Answer::NonZero(_)) => false,
                     Some(Answer::Silent(_) | Answer::Void) | None => {
                         let constant = |expr: &Expr| self.graph.constant_value(*expr);
-                        let folded = query.outputs.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
+                        let folded =
+                            query.outputs.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
                         let confirmed = finding.settled == Some(Verdict::Confirmed);
                         if is_zero && claim.only_there && !folded {
                             let place = place.name(model);

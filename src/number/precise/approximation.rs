@@ -44,7 +44,11 @@ impl Approximation {
             radius += BigUint::one();
         }
         let radius = radius.to_u64().unwrap_or(u64::MAX);
-        Self { mantissa: mantissa >> shift, exponent: exponent.saturating_add(shift as i64), radius }
+        Self {
+            mantissa: mantissa >> shift,
+            exponent: exponent.saturating_add(shift as i64),
+            radius,
+        }
     }
 
     /// The number, unless it is too large or too small for its exponent to be relied on.
