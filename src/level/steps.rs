@@ -199,9 +199,10 @@ fn along_itself(
     }
     let rest = linear.iter().map(|equation| -origin.value(*equation));
     let slopes = origin.slopes(quadratic, components);
-    let slope = slopes.iter().zip(components).fold(Expr::zero(), |sum, (slope, component)| {
-        sum + *slope * point.state[*component]
-    });
+    let slope = slopes
+        .iter()
+        .zip(components)
+        .fold(Expr::zero(), |sum, (slope, component)| sum + *slope * point.state[*component]);
     let constant = origin.value(quadratic);
     rest.chain([-(constant + constant) - slope]).collect()
 }
@@ -225,9 +226,9 @@ pub fn choices(from: &[usize], count: usize, most: usize) -> Vec<Vec<usize>> {
     for round in 0..count {
         let mut next = Vec::new();
         for chosen in &all {
-            let start = chosen.last().map_or(0, |last| {
-                from.iter().position(|k| k == last).map_or(0, |place| place + 1)
-            });
+            let start = chosen
+                .last()
+                .map_or(0, |last| from.iter().position(|k| k == last).map_or(0, |place| place + 1));
             let end = (from.len() + round + 1).saturating_sub(count);
             for component in from.get(start..end).unwrap_or_default() {
                 next.push([chosen.as_slice(), &[*component]].concat());

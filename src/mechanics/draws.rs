@@ -69,6 +69,12 @@ impl Draws {
         self.picked(seed, index, attempt, Source::pick)
     }
 
+    /// Numbers for a state near the ends of ranges and near 0, where what is small elsewhere may have
+    /// another sign.
+    pub fn edge(&self, seed: u64, index: u64) -> Vec<Rational> {
+        self.picked(seed, index, 0, Source::edge)
+    }
+
     /// The f64 nearest to each of them, and whether it is that number.
     pub fn nearest(&self, seed: u64, index: u64, attempt: u32) -> Vec<(f64, bool)> {
         self.picked(seed, index, attempt, Source::nearest)
@@ -137,6 +143,27 @@ impl Source {
                 between(*ends, bits).and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits))
             }
         }
+    }
+}
+
+impl Source {
+    /// One of both ends, 0, or any number, up to a thousandth of the range.
+    fn edge(&self, bits: u64, is_short: bool) -> Rational {
+        const NEAR: f64 = 1.0 / 1024.0;
+        let (place, bits) = (bits % 4, bits >> 2 << 2);
+        let near = match self {
+            Source::Range { ends: [low, high], .. } => {
+                let width = NEAR * (high - low);
+                match place {
+                    0 => between([*low, low + width], bits),
+                    1 => between([high - width, *high], bits),
+                    2 if *low < 0.0 && *high > 0.0 => between([-width, width], bits),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
     }
 }
 
@@ -273,6 +300,16 @@ mod tests {
         assert!((0..64).any(|k| sign(k) == Rational::from(-1)), "some are not");
         assert_ne!(draws.attempt(1, 3, 1), draws.state(1, 3), "another attempt");
         assert_eq!(draws.attempt(1, 3, 0), draws.state(1, 3), "the first attempt");
+    }
+
+    #[test]
+    fn edges_are_near_the_ends_and_near_zero() {
+        let draws = Draws::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
+        let found: Vec<f64> = (0..64).map(|k| draws.edge(1, k)[0].to_f64().0).collect();
+        assert!(found.iter().all(|x| *x > -1.0 && *x < 1000.0), "inside: {found:?}");
+        assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
+        assert!(found.iter().any(|x| *x > 999.0), "near the upper end");
+        assert!(found.iter().any(|x| (2.0..998.0).contains(x)), "anywhere");
     }
 
     #[test]

@@ -20,6 +20,7 @@ use crate::number::{Function, Operation};
 
 use super::classes::Classes;
 use super::extent::Extent;
+use super::rewrite::conditions;
 
 /// Parts of the box on which one value is looked at.
 const MOST_PARTS: usize = 64;
@@ -95,7 +96,8 @@ pub fn is_nowhere_zero(
     for _ in 0..MOST_PIECES {
         let Some(mut part) = open.pop() else { return true };
         let Some(bounds) = region.bounds(&reached, &part) else { continue };
-        let vanishes = |place: &usize| !bounds[*place].excludes_zero() && !bounds[*place].is_empty();
+        let vanishes =
+            |place: &usize| !bounds[*place].excludes_zero() && !bounds[*place].is_empty();
         if !places.iter().all(vanishes) {
             continue;
         }
@@ -117,6 +119,14 @@ pub fn is_nowhere_zero(
         open.extend([upper, part]);
     }
     open.is_empty()
+}
+
+/// The sign of a value at all inputs inside their extents at which some values exist, 0 going with
+/// either; `None` where it is not known.
+pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) -> Option<bool> {
+    let facts = conditions(graph, &graph.reached(required.iter().copied()));
+    let classes = Classes::default();
+    Region { graph, inputs, facts: &facts, classes: &classes }.sign(graph.place(value))
 }
 
 impl Region<'_> {

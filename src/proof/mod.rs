@@ -50,7 +50,7 @@ use std::sync::Arc;
 pub use bounds::Source;
 pub(crate) use chance::Chance;
 pub use coprime::{are_coprime, are_polynomials};
-pub use domain::{Fact, is_nowhere_zero};
+pub use domain::{Fact, is_nowhere_zero, sign};
 pub(crate) use elimination::reduce;
 pub use extent::Extent;
 pub(crate) use reconstruct::reconstruct;

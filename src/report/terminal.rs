@@ -197,7 +197,12 @@ fn details(report: &CaseReport) -> String {
                 Sign::Negative => "negative",
                 Sign::Changes => "of both signs",
             };
-            out.push_str(&format!("      sign      {sign} at the states that were tried\n"));
+            let extent = match (evidence.sign_is_proved, evidence.sign) {
+                (true, Some(Sign::Changes)) => "at states with the same parameters",
+                (true, _) => "at all states",
+                (false, _) => "at the states that were tried",
+            };
+            out.push_str(&format!("      sign      {sign} {extent}\n"));
         }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));

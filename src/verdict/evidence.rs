@@ -179,6 +179,9 @@ pub struct Evidence {
     /// For densities that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sign: Option<Sign>,
+    /// Whether that sign is proved at all states, rather than seen at those that were tried.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sign_is_proved: bool,
     /// What a density on a level set refers to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,

@@ -382,6 +382,36 @@ impl Sampler {
         self.made_in(domain, &numbers)
     }
 
+    /// One of those states in a domain of one lane.
+    pub fn state_sharing_parameters<D: Domain + Clone>(
+        &self,
+        domain: &D,
+        index: u64,
+        sets: usize,
+    ) -> Vec<D::Block> {
+        let mut values = self.numbers(1, index).swap_remove(0);
+        let set = (index % LANES as u64) as usize * sets / LANES;
+        let shared = self.draws.state(self.seed, set as u64);
+        values[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
+        self.made_in(domain, &[values])
+    }
+
+    /// States in another domain near the ends of ranges and near 0, with few parameter sets.
+    pub fn states_at_edges<D: Domain + Clone>(
+        &self,
+        domain: &D,
+        start: u64,
+        sets: usize,
+    ) -> Vec<D::Block> {
+        let state = |lane: usize| {
+            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
+            let own = self.draws.edge(self.seed, start + lane as u64);
+            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            values
+        };
+        self.made_in(domain, &(0..LANES).map(state).collect::<Vec<_>>())
+    }
+
     /// The draws of some states, a block each.
     fn columns<D: Domain>(&self, domain: &D, lanes: &[Vec<Rational>]) -> Vec<D::Block> {
         (0..self.draws.len())
