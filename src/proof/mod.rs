@@ -104,7 +104,10 @@ pub enum Outcome {
     NonZero(Parts),
     /// Neither, and the reason.
     Silent(String),
-    /// It has a value for no real inputs.
+    /// They are zero wherever they exist, and have no value on a part of the inputs at which what is
+    /// required has one.
+    Partial,
+    /// They have a value for no real inputs.
     Void,
 }
 
@@ -223,10 +226,7 @@ impl Prover<'_> {
         };
         let is_missing = |leaf: &Leaf| matches!(&leaf.findings[..], [None, Some(_)]);
         Ok(match leaves.iter().any(is_missing) {
-            true => Outcome::Silent(
-                "it has no value on a part of the states at which all that is written has one"
-                    .to_string(),
-            ),
+            true => Outcome::Partial,
             false => outcome,
         })
     }

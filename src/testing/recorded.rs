@@ -120,7 +120,7 @@ impl Recorded {
                     return Err(Failure::RefutedInFields { what });
                 }
                 Outcome::Silent(why) => return Err(Failure::Unproved { what, why }),
-                Outcome::Void => {
+                Outcome::Void | Outcome::Partial => {
                     let why = "it has no value".to_string();
                     return Err(Failure::Unproved { what, why });
                 }

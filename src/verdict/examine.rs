@@ -118,7 +118,7 @@ pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
                  that matters"
             ),
         );
-    } else if let Some(reason) = finding.blurred.take() {
+    } else if let Some(reason) = finding.partial.take().or(finding.blurred.take()) {
         undecide(finding, reason);
     } else {
         finding.settled = Some(Verdict::Confirmed);

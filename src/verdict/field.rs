@@ -43,6 +43,9 @@ pub enum Answer {
     NonZero(Vec<Where>),
     /// Neither, and the reason.
     Silent(String),
+    /// All values are zero wherever they exist, and that is not wherever all that is written has a
+    /// value.
+    Partial,
     /// There are no states at which all values exist.
     Void,
 }
@@ -103,6 +106,7 @@ impl<'a> Field<'a> {
                         Answer::NonZero(vec![Where { fixed: fixed.clone(), parts }])
                     }
                     Outcome::Silent(reason) => Answer::Silent(reason),
+                    Outcome::Partial => Answer::Partial,
                     Outcome::Void => Answer::Void,
                 };
                 *all = Some(match all.take() {
@@ -151,6 +155,7 @@ fn both(a: Answer, b: Answer) -> Answer {
         }
         (Answer::NonZero(found), _) | (_, Answer::NonZero(found)) => Answer::NonZero(found),
         (Answer::Silent(reason), _) | (_, Answer::Silent(reason)) => Answer::Silent(reason),
+        (Answer::Partial, _) | (_, Answer::Partial) => Answer::Partial,
     }
 }
 

@@ -203,6 +203,15 @@ impl Bench<'_> {
                     finding.rung("prime field", format!("silent: {reason}"));
                     finding.evidence.silence = Some(reason);
                 }
+                Answer::Partial => {
+                    let reason = format!(
+                        "the residual of this {} has no value on a part of the states at which all \
+                         that is written has one",
+                        item.claim.kind.name()
+                    );
+                    finding.rung("prime field", reason.clone());
+                    finding.partial = Some(reason);
+                }
                 Answer::Void => {
                     let reason = "there is no state at which all that is written has a value";
                     finding.rung("prime field", reason.to_string());

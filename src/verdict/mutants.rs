@@ -141,7 +141,7 @@ impl Bench<'_> {
             match answer {
                 Answer::Zero(_) => proved.push((candidate, true)),
                 Answer::NonZero(_) => killed += 1,
-                Answer::Silent(_) | Answer::Void => silent.push(candidate),
+                Answer::Silent(_) | Answer::Void | Answer::Partial => silent.push(candidate),
             }
         }
         let open = silent.len();

@@ -287,17 +287,21 @@ impl Sampler {
     ) -> Result<(Graph, Vec<Group>), Fault> {
         let (composed, groups) = record(self.draws.len(), |draws| {
             let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
-            let needed =
-                groups.iter().flat_map(|group| group.outputs.iter().chain(&group.required));
-            let reached = graph.reached(needed.copied());
-            let values = graph.replay(&reached, &inputs, |_, _, _| None);
-            let all = |some: &[Expr]| {
+            let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
+                graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
+            };
+            let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
+            // √x √x is x where x ≥ 0, and what is required has no value elsewhere.
+            let required = literally(|| {
+                values_of(&mut groups.iter().flat_map(|group| &group.required).copied())
+            });
+            let all = |some: &[Expr], values: &[Option<Expr>]| {
                 some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
             };
             let group = |group: &Group| {
-                let mut required = all(&group.required)?;
+                let mut required = all(&group.required, &required)?;
                 required.extend(&inputs[..self.made.len()]);
-                Some(Group { outputs: all(&group.outputs)?, required })
+                Some(Group { outputs: all(&group.outputs, &outputs)?, required })
             };
             groups.iter().map(group).collect::<Option<Vec<Group>>>()
         })?;

@@ -1,5 +1,7 @@
 //! The signs of densities that hold.
 
+use std::ops::Range;
+
 use super::bench::Bench;
 use super::evidence::Sign;
 use super::field::combinations;
@@ -38,16 +40,25 @@ impl Bench<'_> {
         if open.is_empty() {
             return Ok(());
         }
-        let densities: Vec<Expr> = open.iter().map(|(density, ..)| *density).collect();
         let proved = self.proved_signs(sampler, &open)?;
-        let run = self.run(&densities);
-        let mut seen: Vec<Signs> = vec![Signs::default(); densities.len()];
+        let mut outputs: Vec<Expr> = open.iter().map(|(density, ..)| *density).collect();
+        let first = outputs.len();
+        outputs.extend(self.common.required_at(sampler.kept()));
+        let common = first..outputs.len();
+        let own = open.iter().map(|(_, item, _)| {
+            let start = outputs.len();
+            outputs.extend(&item.requirement);
+            [common.clone(), start..outputs.len()]
+        });
+        let required: Vec<[Range<usize>; 2]> = own.collect();
+        let run = self.run(&outputs);
+        let mut seen: Vec<Signs> = vec![Signs::default(); required.len()];
         for blocks in waves(0..self.blocks()) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
             };
             for values in run.at_blocks(sampler, blocks, sharing) {
-                observe(&values, &mut seen);
+                observe(&values, &required, &mut seen);
             }
             let is_known = |(seen, proved): (&Signs, &Option<bool>)| match proved {
                 Some(_) => sign(seen).is_some(),
@@ -62,7 +73,7 @@ impl Bench<'_> {
                 sign(seen).is_none() || (proved.is_none() && sign(seen) != Some(Sign::Changes))
             };
             if seen.iter().zip(&proved).any(is_open) {
-                self.look_closely(&run, sampler, &mut seen);
+                self.look_closely(&run, &required, sampler, &mut seen);
             }
         }
         for (((_, _, finding), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
@@ -79,19 +90,28 @@ impl Bench<'_> {
 
     /// Observes signs near the ends of ranges, with twice the digits, and exactly where a root may
     /// be 0.
-    fn look_closely(&self, run: &Run, sampler: &Sampler, seen: &mut [Signs]) {
+    fn look_closely(
+        &self,
+        run: &Run,
+        required: &[[Range<usize>; 2]],
+        sampler: &Sampler,
+        seen: &mut [Signs],
+    ) {
         let domain = TwofoldBall::<LANES>;
         let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
-        observe(&run.at(&domain, &states), seen);
+        observe(&run.at(&domain, &states), required, seen);
         for start in (0..EDGES).step_by(LANES) {
             let states = sampler.states_at_edges(&domain, start as u64, PARAMETER_SETS);
-            observe(&run.at(&domain, &states), seen);
+            observe(&run.at(&domain, &states), required, seen);
         }
         let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
         for lane in (0..LANES).step_by(LANES / EXACT_STATES) {
             let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
             let values = run.at(&domain, &states);
-            for (index, seen) in seen.iter_mut().enumerate() {
+            for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
+                if !values.existing(required)[0] {
+                    continue;
+                }
                 note::<Mixed>(values.output(index), 0, &mut seen[lane * PARAMETER_SETS / LANES]);
             }
         }
@@ -123,10 +143,11 @@ impl Bench<'_> {
     }
 }
 
-/// Notes the signs of a block of values, by parameter set.
-fn observe<D: Enclosing>(values: &Values<D>, seen: &mut [Signs]) {
-    for (index, seen) in seen.iter_mut().enumerate() {
-        for lane in 0..LANES {
+/// Notes the signs of a block of values where there is a state, by parameter set.
+fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Signs]) {
+    for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
+        let existing = values.existing(required);
+        for lane in (0..LANES).filter(|lane| existing[*lane]) {
             note::<D>(values.output(index), lane, &mut seen[lane * PARAMETER_SETS / LANES]);
         }
     }

@@ -88,7 +88,7 @@ impl Bench<'_> {
             for ((claim, finding, query, is_zero), answer) in open.into_iter().zip(answers) {
                 let holds = match answer {
                     Some(Answer::Zero(_)) => true,
-                    Some(Answer::NonZero(_)) => false,
+                    Some(Answer::NonZero(_) | Answer::Partial) => false,
                     Some(Answer::Silent(_) | Answer::Void) | None => {
                         let constant = |expr: &Expr| self.graph.constant_value(*expr);
                         let folded =

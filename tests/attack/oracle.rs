@@ -155,11 +155,17 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
     found.into_iter().map(|(_, points)| points).collect()
 }
 
-/// At how many of some states drawn evenly an expression is positive, and negative.
-pub fn signs(scene: &Scene, tree: &Tree, stream: &mut Stream, states: usize) -> (usize, usize) {
+/// At how many of some states an expression is positive, and negative.
+pub fn signs(
+    scene: &Scene,
+    tree: &Tree,
+    stream: &mut Stream,
+    states: usize,
+    near_ends: bool,
+) -> (usize, usize) {
     let (mut positive, mut negative) = (0, 0);
     for _ in 0..states {
-        let point = scene.point(stream, false);
+        let point = scene.point(stream, near_ends);
         let Some(values) = scene.values(&point) else { continue };
         match (Place { values: &values, along: &[] }).value(tree).map(|value| real::sign(&value)) {
             Ok(1) => positive += 1,

@@ -175,14 +175,26 @@ impl Scene {
         Some(values)
     }
 
-    /// Is the value strictly inside the declared range?
+    /// Is the value inside the declared range, both ends with it?
     pub fn is_in_range(&self, place: usize, value: &Real) -> bool {
         match &self.symbols[place].origin {
             Origin::State(a, b) | Origin::Range(a, b) => {
-                sign(&(value - number(*a))) > 0 && sign(&(number(*b) - value)) > 0
+                sign(&(value - number(*a))) >= 0 && sign(&(number(*b) - value)) >= 0
             }
             _ => true,
         }
+    }
+
+    /// Do intervals show that no state lies on the level?
+    pub fn is_empty(&self) -> bool {
+        let ranges = self.intervals();
+        let misses = |(place, tree): &(usize, Tree)| {
+            let (low, high) = ranges[*place];
+            super::interval::range(tree, &ranges).is_some_and(|(a, b)| b < low || high < a)
+        };
+        let is_empty =
+            |level: &Level| level.branches.iter().all(|branch| branch.iter().any(misses));
+        self.level.as_ref().is_some_and(is_empty)
     }
 
     /// The same scene in the whole space.

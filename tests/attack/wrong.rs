@@ -105,7 +105,7 @@ pub fn weighed(
         false => Cow::Borrowed(scene),
     };
     let survey = surveyed(&scene, claim, told, stream);
-    let truth = truth(claim, &survey);
+    let truth = truth(&scene, claim, &survey);
     if made.vanishes && survey.off > 0 {
         return (truth, Some(Wrong::Instrument));
     }
@@ -212,12 +212,16 @@ fn beside(
     match (claim, evidence.sign, evidence.independence) {
         // The sign is that at fixed parameters.
         (Claim::Density(density), Some(sign), _) if !scene.has_parameter(density) => {
-            let (positive, negative) = signs(scene, density, stream, 200);
+            let (positive, negative) = signs(scene, density, stream, 200, false);
             let share = |count: usize| count as f64 / (positive + negative).max(1) as f64;
             let wrong = match sign {
                 Sign::Positive => share(negative) > 0.05,
                 Sign::Negative => share(positive) > 0.05,
-                Sign::Changes => positive + negative >= 100 && positive.min(negative) == 0,
+                Sign::Changes if positive.min(negative) == 0 => {
+                    let (above, below) = signs(scene, density, stream, 400, true);
+                    positive + negative >= 100 && (above + positive).min(below + negative) == 0
+                }
+                Sign::Changes => false,
             };
             wrong.then_some(Wrong::OtherSign)
         }
@@ -235,7 +239,9 @@ fn beside(
     }
 }
 
-fn truth(claim: &Claim, survey: &Survey) -> Truth {
+fn truth(scene: &Scene, claim: &Claim, survey: &Survey) -> Truth {
+    // A level of which no state was found may have some all the same.
+    let is_seen = survey.lacking > 0 || scene.level.is_none() || scene.is_empty();
     let clear = survey.unsure <= survey.zero / 2;
     match (survey.off > 0, survey.zero > 0) {
         (true, _) if claim.is_negated() => Truth::Holds,
@@ -243,7 +249,7 @@ fn truth(claim: &Claim, survey: &Survey) -> Truth {
         (false, true) if !clear => Truth::Unsure,
         (false, true) if claim.is_negated() => Truth::Fails,
         (false, true) => Truth::Holds,
-        (false, false) if survey.is_void() => Truth::Void,
+        (false, false) if survey.is_void() && is_seen => Truth::Void,
         (false, false) => Truth::Unsure,
     }
 }
