@@ -157,6 +157,11 @@ pub struct Look {
 }
 
 impl Look {
+    /// Has it no value at all states?
+    pub fn is_nowhere_defined(&self) -> bool {
+        self.defined == 0
+    }
+
     /// Looks at a residual, and the square of its scale, at the lanes that hold a state.
     pub fn at<D: Enclosing>(
         residuals: &[&D::Block],

@@ -1,7 +1,8 @@
 //! States on a level set that has no parametrisation: Newton's method in f64.
 //!
-//! The state found lies near the level, not on it. It is handed on as a ball whose radius is an
-//! estimate of its distance from the level: verdicts from such states are no proofs.
+//! The state found lies near the level, not on it. It is handed on as a box in which Krawczyk's operator
+//! proves that there is a point of the level; where it does not, there is no state. What such boxes
+//! refute is refuted; what holds at all of them is not proved by that.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,8 +15,11 @@ use crate::number::float::Float;
 
 /// Quadratic convergence needs far fewer; a start that takes more is given up.
 const MAX_STEPS: usize = 60;
-/// The distance |J⁺||F| to first order, with room for the curvature of the level.
-const SAFETY: f64 = 4.0;
+/// Boxes that are tried about a point, each wider than the one before.
+const BOXES: usize = 6;
+const WIDER: f64 = 8.0;
+/// A radius above 0, where a point is on the level to the last digit.
+const SMALLEST: f64 = 1e-300;
 
 /// The level functions and their gradients on a tape.
 #[derive(Clone)]
@@ -54,31 +58,39 @@ impl Newton {
         for lane in 0..LANES {
             let column: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
             let found = self.solve(&column);
+            let parameters: Vec<Balls<1>> = values[..self.parameters]
+                .iter()
+                .map(|block| Balls::new([block.mid[lane]], [block.rad[lane]]))
+                .collect();
+            let boxed = found.and_then(|state| {
+                let radii = self.box_about(&parameters, &state)?;
+                Some((state, radii))
+            });
             for (k, block) in values[self.parameters..].iter_mut().enumerate() {
-                (block.mid[lane], block.rad[lane]) = match &found {
-                    Some((state, radius)) => (state[k], *radius),
+                (block.mid[lane], block.rad[lane]) = match &boxed {
+                    Some((state, radii)) => (state[k], radii[k]),
                     None => (f64::NAN, f64::NAN),
                 };
             }
         }
     }
 
-    /// A point of the level near `start`, with an estimate of its distance from it.
-    fn solve(&self, start: &[f64]) -> Option<(Vec<f64>, f64)> {
+    /// A point near the level, from `start`.
+    fn solve(&self, start: &[f64]) -> Option<Vec<f64>> {
         let mut point = start.to_vec();
         let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
         let mut last = f64::INFINITY;
         for _ in 0..MAX_STEPS {
             evaluator.run(&point.iter().map(|x| [*x]).collect::<Vec<_>>());
             let outputs: Vec<f64> = evaluator.outputs().map(|block| block[0]).collect();
-            let (inverse, step) = self.step(&outputs)?;
+            let step = self.step(&outputs)?;
             let size = step.norm();
             for (x, dx) in point[self.parameters..].iter_mut().zip(step.iter()) {
                 *x -= dx;
             }
             // Steps shrink until rounding stops them.
             if size == 0.0 || (size >= last && size < f64::EPSILON.sqrt() * self.norm(&point)) {
-                return Some((point[self.parameters..].to_vec(), self.distance(&point, &inverse)));
+                return Some(point[self.parameters..].to_vec());
             }
             last = size;
         }
@@ -89,24 +101,102 @@ impl Newton {
         DVector::from_column_slice(&point[self.parameters..]).norm()
     }
 
-    /// J⁺ and the step J⁺F.
-    fn step(&self, outputs: &[f64]) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    /// The step J⁺F.
+    fn step(&self, outputs: &[f64]) -> Option<DVector<f64>> {
         let (values, slopes) = outputs.split_at(self.equations);
         let jacobian = DMatrix::from_row_slice(self.equations, self.dimension, slopes);
         let square = &jacobian * jacobian.transpose();
         let inverse = jacobian.transpose() * square.lu().try_inverse()?;
         let step = &inverse * DVector::from_column_slice(values);
-        step.iter().all(|x| x.is_finite()).then_some((inverse, step))
+        step.iter().all(|x| x.is_finite()).then_some(step)
     }
 
-    fn distance(&self, point: &[f64], inverse: &DMatrix<f64>) -> f64 {
-        let balls: Vec<Balls<1>> = point.iter().map(|x| Balls::new([*x], [0.0])).collect();
+    /// The radii of a box about a state in which there is exactly one point of the level with the same
+    /// other coordinates: as many of these are moved as there are equations.
+    ///
+    /// With C ≈ J⁻¹ for the coordinates that move, −C F(x) + (1 − C J(X)) (X − x) lies inside X − x.
+    fn box_about(&self, parameters: &[Balls<1>], state: &[f64]) -> Option<Vec<f64>> {
         let mut evaluator = Evaluator::new(&self.tape, Ball::<1>);
-        evaluator.run(&balls);
-        let defect: f64 = (0..self.equations)
-            .map(|k| evaluator.output(k))
-            .map(|ball| (ball.mid[0].abs() + ball.rad[0]).powi(2))
-            .sum();
-        SAFETY * inverse.norm() * defect.sqrt()
+        let mut at = |radii: &[f64]| -> Option<Vec<Balls<1>>> {
+            let point = state.iter().zip(radii).map(|(x, r)| Balls::new([*x], [*r]));
+            evaluator.run(&parameters.iter().cloned().chain(point).collect::<Vec<_>>());
+            let values: Vec<Balls<1>> = evaluator.outputs().cloned().collect();
+            values.iter().all(|value| value.is_defined(0)).then_some(values)
+        };
+        let here = at(&vec![0.0; state.len()])?;
+        let (functions, slopes) = here.split_at(self.equations);
+        let middle = DMatrix::from_row_iterator(
+            self.equations,
+            self.dimension,
+            slopes.iter().map(|slope| slope.mid[0]),
+        );
+        let moved = leading_columns(&middle)?;
+        let inverse = middle.select_columns(&moved).try_inverse()?;
+        let magnitude = |i: usize, of: &dyn Fn(usize) -> f64| -> f64 {
+            (0..self.equations).map(|k| inverse[(i, k)].abs() * of(k)).sum()
+        };
+        // Twice what rounding may add to a sum of so many products.
+        let slack = 1.0 + 4.0 * (self.equations + 4) as f64 * f64::EPSILON;
+        let offset: Vec<f64> = (0..self.equations)
+            .map(|i| magnitude(i, &|k| functions[k].mid[0].abs() + functions[k].rad[0]) * slack)
+            .collect();
+        let mut radii = vec![0.0; state.len()];
+        let mut factor = 2.0;
+        for _ in 0..BOXES {
+            for (i, k) in moved.iter().enumerate() {
+                radii[*k] = factor * offset[i].max(SMALLEST);
+            }
+            let there = at(&radii)?;
+            let slope = |k: usize, j: usize| &there[self.equations + k * self.dimension + moved[j]];
+            let reach = |i: usize| -> f64 {
+                let along = |j: usize| {
+                    let sum: f64 =
+                        (0..self.equations).map(|k| inverse[(i, k)] * slope(k, j).mid[0]).sum();
+                    let one = if i == j { 1.0 } else { 0.0 };
+                    let size = magnitude(i, &|k| slope(k, j).mid[0].abs());
+                    let blur = magnitude(i, &|k| slope(k, j).rad[0]) + (slack - 1.0) * (size + 1.0);
+                    ((one - sum).abs() + blur) * radii[moved[j]]
+                };
+                (offset[i] + (0..self.equations).map(along).sum::<f64>()) * slack
+            };
+            if (0..self.equations).all(|i| reach(i) < radii[moved[i]]) {
+                return Some(radii);
+            }
+            factor *= WIDER;
+        }
+        None
+    }
+}
+
+/// As many columns as there are rows, each the largest of what those before it leave.
+fn leading_columns(matrix: &DMatrix<f64>) -> Option<Vec<usize>> {
+    let mut rest = matrix.clone();
+    let mut chosen = Vec::new();
+    for _ in 0..matrix.nrows() {
+        let size = |k: usize| rest.column(k).norm_squared();
+        let open = (0..rest.ncols()).filter(|k| !chosen.contains(k));
+        let best = open.max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
+        let direction = rest.column(best).clone_owned();
+        let length = direction.norm();
+        if length == 0.0 || !length.is_finite() {
+            return None;
+        }
+        let direction = direction / length;
+        let along = direction.transpose() * &rest;
+        rest -= &direction * along;
+        chosen.push(best);
+    }
+    Some(chosen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leading_columns_are_independent() {
+        let matrix = DMatrix::from_row_slice(2, 3, &[1.0, 2.0, 0.1, 2.0, 4.0, 0.0]);
+        assert_eq!(leading_columns(&matrix), Some(vec![1, 2]));
+        assert_eq!(leading_columns(&DMatrix::zeros(1, 2)), None);
     }
 }
