@@ -383,7 +383,15 @@ fn a_bracket_is_looked_at_where_there_are_images() {
     let text = "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = '0*x'\n[variables]\nX = 'x'\nY = 'x'\nZ = 'x'\n\
                 [poisson]\n\"X,Y\" = '(X−Y)*X*Z'\n\"Y,Z\" = '(Y−Z)^2+X−Z'\n\"Z,X\" = '(Z−X)*Y^2+X−Y'\n\
                 [[claim]]\njacobi-identity = 'holds'\n";
-    assert_eq!(claims(text)[0].evidence.holds, ["at the images of all states"], "X = Y = Z there");
+    let claim = &claims(text)[0];
+    assert_eq!(claim.verdict, Verdict::Undecided, "X = Y = Z there, and it fails elsewhere");
+    let reason = claim.evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("1 of 3 dimensions"), "{reason}");
+    let bracket =
+        text.find("\"X,Y\"").expect("it is given")..text.find("[[claim]]").expect("so is this");
+    let mut linear = text.to_string();
+    linear.replace_range(bracket, "\"X,Y\" = 'Z'\n\"Y,Z\" = 'X'\n\"Z,X\" = 'Y'\n");
+    assert_eq!(claims(&linear)[0].verdict, Verdict::Proved, "so(3) is one for all X, Y and Z");
 }
 
 #[test]

@@ -247,12 +247,18 @@ fn a_claim_without_a_name_shows_both_sides() {
 }
 
 #[test]
-fn a_cofactor_with_a_pole_is_remarked() {
+fn a_cofactor_has_a_value_where_its_function_is_zero() {
     let found = claims(&oscillator(
         "[[claim]]\ninvariant-relation = 'x'\ncofactor = 'y/x'\n\
-         [[claim]]\ninvariant-relation = 'x² + y²'\ncofactor = '0*x'\n",
+         [[claim]]\ninvariant-relation = 'x² + y²'\ncofactor = '0*x'\n\
+         [[claim]]\ninvariant-relation = '(x² + y²)*(x − 1)'\ncofactor = 'y/(x − 1)'\n\
+         [[claim]]\ninvariant-relation = '(x² + y²)*(x − 3)²/(x − 3)²'\ncofactor = 'x*(x² − x²)/(x − 1)'\n",
     ));
-    let remark = found[0].evidence.remark.as_deref().unwrap_or_default();
-    assert!(remark.contains("divides by `x`"), "x' = y on x = 0: {remark}");
-    assert_eq!(found[1].evidence.remark, None);
+    let verdicts: Vec<Verdict> = found.iter().map(|claim| claim.verdict).collect();
+    let expected = [Verdict::Undecided, Verdict::Proved, Verdict::Undecided, Verdict::Proved];
+    assert_eq!(verdicts, expected, "x' = y on x = 0");
+    let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("has a value where F = 0"), "{reason}");
+    let remark = found[3].evidence.remark.as_deref().unwrap_or_default();
+    assert!(remark.contains("divides by `x − 1`"), "{remark}");
 }

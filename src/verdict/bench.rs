@@ -3,6 +3,7 @@
 use super::field::{Answer, Field, Query};
 use super::finding::{Look, are_zero};
 use super::judge::{JudgeError, Options};
+use super::ladder::{BITS, PRECISE_STATES};
 use super::physics;
 use super::recorded::Common;
 use super::run::{Doubles, Run};
@@ -12,6 +13,7 @@ use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::level;
 use crate::number::ball::{Ball, Balls};
+use crate::number::mixed::{Mixed, Number};
 use crate::number::twofold::TwofoldBall;
 
 /// A case on the bench: its graph and how to run parts of it.
@@ -39,7 +41,8 @@ impl Bench<'_> {
         let defined =
             |blocks: &[&Balls<LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
         let drawn: Vec<&Balls<LANES>> = states.iter().collect();
-        if (0..LANES).all(|lane| !defined(&drawn, lane)) {
+        let is_nowhere = (0..LANES).all(|lane| !defined(&drawn, lane));
+        if is_nowhere && !self.has_field_with_more_digits(&sampler) {
             let found = LANES as u64;
             return Err(match sampler.is_numerical() || sampler.solution().is_some() {
                 true => JudgeError::Unreachable(found),
@@ -123,14 +126,28 @@ impl Bench<'_> {
 
     /// Has the field a value at some state, in double-double?
     fn has_field_with_more_digits(&self, sampler: &Sampler) -> bool {
-        let domain = TwofoldBall::<LANES>;
+        let field = &self.common.field;
+        let is_defined = |values: &[&Number]| {
+            values.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
+        };
         if sampler.is_numerical() {
             return false;
         }
-        let states = sampler.states(&domain, LANES, 0);
-        let values = self.run(&self.common.field).at(&domain, &states);
-        let field = values.range(0..self.common.field.len());
-        (0..LANES).any(|lane| field.iter().all(|block| block.is_defined(lane)))
+        let domain = TwofoldBall::<LANES>;
+        let values = self.run(field).at(&domain, &sampler.states(&domain, LANES, 0));
+        let blocks = values.range(0..field.len());
+        if (0..LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
+            return true;
+        }
+        // √0 has a value that only exact numbers know.
+        let domain = Mixed::new(BITS[0]);
+        let run = self.run(field);
+        (0..PRECISE_STATES).any(|index| {
+            let states = sampler.states(&domain, 1, index);
+            let values = run.at(&domain, &states);
+            is_defined(&states.iter().collect::<Vec<_>>())
+                && is_defined(&values.range(0..field.len()))
+        })
     }
 
     /// Checks that no level equation of the user's follows from those before it.
