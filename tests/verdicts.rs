@@ -260,5 +260,5 @@ fn a_cofactor_has_a_value_where_its_function_is_zero() {
     let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
     assert!(reason.contains("has a value where F = 0"), "{reason}");
     let remark = found[3].evidence.remark.as_deref().unwrap_or_default();
-    assert!(remark.contains("divides by `x − 1`"), "{remark}");
+    assert!(remark.contains("divides by `(x − 1)`"), "{remark}");
 }
