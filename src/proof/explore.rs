@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Expr, Fault, Graph, Step};
+use crate::graph::{Expr, Fault, Graph, Step, literally};
 use crate::number::Operation;
 
 use super::Prover;
@@ -280,27 +280,19 @@ impl Explorer<'_> {
         // The outputs themselves, made from what their roots and functions are here.
         let outputs = groups.concat();
         let reached = graph.reached(outputs.iter().copied());
-        let extended = algebraic.with(|inputs, at| {
+        let replayed = |inputs: &[Expr], at: &dyn Fn(Expr) -> Option<Expr>| {
             let inputs = with_signs(inputs, cell.fixed.iter().copied());
             let mut made = FxHashMap::default();
             for (place, value) in special.iter().zip(&cell.values) {
                 made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
             }
             let values = graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
-            outputs.iter().map(|output| values[graph.place(*output)]).collect()
-        })?;
-        let Some((extended, outputs)) = extended else {
+            outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<Expr>>>()
+        };
+        let Some((extended, made)) = algebraic.with(replayed)? else {
             return all_silent("a function has no value in a prime field");
         };
-        let mut rest = outputs.as_slice();
-        let all: Vec<&[Expr]> = groups
-            .iter()
-            .map(|group| {
-                let (own, others) = rest.split_at(group.len());
-                rest = others;
-                own
-            })
-            .collect();
+        let all = self.by_group(&made);
         let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
         let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
         let extended_trial = Trial::new(&extended, self.digest);
@@ -328,8 +320,24 @@ impl Explorer<'_> {
             }
             finding => finding,
         });
-        let findings: Vec<Option<Finding>> =
+        let mut findings: Vec<Option<Finding>> =
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
+        if findings.iter().flatten().any(|finding| matches!(finding, Finding::NonZero)) {
+            // x/x is recorded as 1, and has no value on a cell where x is 0.
+            let Some((literal, made)) =
+                algebraic.with(|inputs, at| literally(|| replayed(inputs, at)))?
+            else {
+                return all_silent("a function has no value in a prime field");
+            };
+            let trial = Trial::new(&literal, self.digest);
+            let roots = Roots { nested: tower.nested, fixed: &[] };
+            for (finding, group) in findings.iter_mut().zip(self.by_group(&made)) {
+                let is_nonzero = matches!(finding, Some(Finding::NonZero));
+                if is_nonzero && !trial.has_values(group, roots) {
+                    *finding = None;
+                }
+            }
+        }
         let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
         if !cell.is_part() || !findings.iter().all(is_zero) {
             // Whether there is such a cell at all is worth knowing now.
@@ -341,6 +349,19 @@ impl Explorer<'_> {
             }
         }
         Ok(Next::Tested(findings))
+    }
+}
+
+impl Explorer<'_> {
+    /// The outputs of all groups, one after the other, by group.
+    fn by_group<'o>(&self, outputs: &'o [Expr]) -> Vec<&'o [Expr]> {
+        let mut rest = outputs;
+        let own = |group: &&[Expr]| {
+            let (own, others) = rest.split_at(group.len());
+            rest = others;
+            own
+        };
+        self.question.groups.iter().map(own).collect()
     }
 }
 

@@ -143,6 +143,26 @@ impl<'a> Trial<'a> {
         }
     }
 
+    /// Whether all of a group have values at some random point.
+    pub fn has_values(&self, group: &[Expr], roots: Roots<'_>) -> bool {
+        match self.algebraic.mask_of(group) {
+            0 => self.has_values_in(Prime::new(self.moduli), group, roots),
+            _ => self.has_values_in(Quadratic::new(self.moduli), group, roots),
+        }
+    }
+
+    fn has_values_in<F: Residues>(&self, field: F, group: &[Expr], roots: Roots<'_>) -> bool {
+        let draws = DRAWS << roots.nested.min(MOST_NESTED);
+        let tape = Tape::new(&self.algebraic.graph, group);
+        let mut evaluator = Evaluator::new(&tape, field);
+        let mut chance = Chance::of(self.digest, Stream::Points);
+        (0..draws).step_by(POINTS).any(|_| {
+            evaluator.run(&F::blocks(&self.points(roots.fixed, &mut chance)));
+            let exists = |lane| evaluator.outputs().all(|block| F::is_zero(block, lane).is_some());
+            (0..LANES).any(exists)
+        })
+    }
+
     fn test_in<F: Residues>(&self, field: F, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {
         let draws = DRAWS << roots.nested.min(MOST_NESTED);
         let mut findings: Vec<Option<Finding>> = Vec::new();
