@@ -322,18 +322,23 @@ impl Explorer<'_> {
         });
         let mut findings: Vec<Option<Finding>> =
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
-        if findings.iter().flatten().any(|finding| matches!(finding, Finding::NonZero)) {
+        let is_open = |finding: &Finding| matches!(finding, Finding::NonZero | Finding::Silent(_));
+        if findings.iter().flatten().any(is_open) {
             // x/x is recorded as 1, and has no value on a cell where x is 0.
-            let Some((literal, made)) =
-                algebraic.with(|inputs, at| literally(|| replayed(inputs, at)))?
+            let Some((literal, made)) = algebraic.with(|inputs, at| {
+                let special =
+                    cell.values.iter().map(|value| at(algebraic.values[cell.graph.place(*value)]?));
+                let special: Option<Vec<Expr>> = special.collect();
+                Some([literally(|| replayed(inputs, at))?, special?].concat())
+            })?
             else {
                 return all_silent("a function has no value in a prime field");
             };
             let trial = Trial::new(&literal, self.digest);
             let roots = Roots { nested: tower.nested, fixed: &[] };
-            for (finding, group) in findings.iter_mut().zip(self.by_group(&made)) {
-                let is_nonzero = matches!(finding, Some(Finding::NonZero));
-                if is_nonzero && !trial.has_values(group, roots) {
+            let (made, special) = made.split_at(outputs.len());
+            for (finding, group) in findings.iter_mut().zip(self.by_group(made)) {
+                if finding.as_ref().is_some_and(is_open) && trial.is_void(group, special, roots) {
                     *finding = None;
                 }
             }

@@ -143,24 +143,42 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Whether all of a group have values at some random point.
-    pub fn has_values(&self, group: &[Expr], roots: Roots<'_>) -> bool {
-        match self.algebraic.mask_of(group) {
-            0 => self.has_values_in(Prime::new(self.moduli), group, roots),
-            _ => self.has_values_in(Quadratic::new(self.moduli), group, roots),
+    /// Whether one of a group has no value at any random point at which some given values exist: it
+    /// divides by what is 0 identically, but for a probability below that of a certificate.
+    pub fn is_void(&self, group: &[Expr], given: &[Expr], roots: Roots<'_>) -> bool {
+        match self.algebraic.mask_of(&[group, given].concat()) {
+            0 => self.is_void_in(Prime::new(self.moduli), group, given, roots),
+            _ => self.is_void_in(Quadratic::new(self.moduli), group, given, roots),
         }
     }
 
-    fn has_values_in<F: Residues>(&self, field: F, group: &[Expr], roots: Roots<'_>) -> bool {
-        let draws = DRAWS << roots.nested.min(MOST_NESTED);
-        let tape = Tape::new(&self.algebraic.graph, group);
+    fn is_void_in<F: Residues>(
+        &self,
+        field: F,
+        group: &[Expr],
+        given: &[Expr],
+        roots: Roots<'_>,
+    ) -> bool {
+        let tape = Tape::new(&self.algebraic.graph, &[given, group].concat());
         let mut evaluator = Evaluator::new(&tape, field);
         let mut chance = Chance::of(self.digest, Stream::Points);
-        (0..draws).step_by(POINTS).any(|_| {
+        let mut lacking = [0; PRIMES];
+        for _ in (0..DRAWS << roots.nested.min(MOST_NESTED)).step_by(POINTS) {
             evaluator.run(&F::blocks(&self.points(roots.fixed, &mut chance)));
-            let exists = |lane| evaluator.outputs().all(|block| F::is_zero(block, lane).is_some());
-            (0..LANES).any(exists)
-        })
+            for lane in 0..LANES {
+                let mut exists = evaluator.outputs().map(|block| F::is_zero(block, lane).is_some());
+                if exists.by_ref().take(given.len()).all(|exists| exists) {
+                    if exists.all(|exists| exists) {
+                        return false;
+                    }
+                    lacking[prime_of(lane)] += 1;
+                }
+            }
+            if lacking.iter().all(|count| *count >= POINTS) {
+                return true;
+            }
+        }
+        false
     }
 
     fn test_in<F: Residues>(&self, field: F, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {

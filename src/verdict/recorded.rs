@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
+use num_dual::DualNum;
+
 use super::physics;
 use super::run::Values;
 use crate::case::{Claim, Expect};
-use crate::claim::{Condition, Context, Novelty, Place, quadrature_defects};
+use crate::claim::{Condition, Context, Kind, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
-use crate::graph::Expr;
+use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{LevelEquation, LevelFunction, Origin, Phase, System};
 use crate::number::Enclosing;
@@ -50,7 +52,14 @@ impl<'c> Recorded<'c> {
         Self {
             claim,
             residual: residual(&claim.place),
-            requirement: literal_values(&jet.phase, claim.kind.formulas()),
+            requirement: {
+                let mut values = literal_values(&jet.phase, claim.kind.formulas());
+                // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) has no value.
+                if let (Kind::Density(_), Some(density)) = (&claim.kind, values.first().copied()) {
+                    values.push(literally(|| density.recip()));
+                }
+                values
+            },
             context: claim.kind.context(jet, &claim.place.kept),
             novelty: match claim.expect {
                 Expect::Fails => Novelty::default(),
