@@ -25,6 +25,7 @@ pub(super) struct Node {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Operation {
     Number(Rational),
+    Constant(Constant),
     /// The value of the symbol in this slot of [`Arena::symbols`].
     Symbol(usize),
     Identity,
@@ -69,8 +70,21 @@ pub(super) enum Operation {
     Diagonal(NodeId),
     /// A function of one scalar.
     Function(Function, NodeId),
+    /// The angle of the point (x, y), given as `(y, x)`.
+    Angle(NodeId, NodeId),
+    /// The least or the greatest of some scalars.
+    Extreme(Extreme, Box<[NodeId]>),
     /// `∫(integrand, variable)`.
     Antiderivative(NodeId, NodeId),
+}
+
+/// The numbers that have a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Constant {
+    /// π
+    Pi,
+    /// e, Euler's number.
+    Euler,
 }
 
 /// The functions of one scalar.
@@ -82,8 +96,24 @@ pub(super) enum Function {
     Sin,
     Cos,
     Tan,
+    Asin,
+    Acos,
     Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
     Modulus,
+    Sign,
+}
+
+/// Which of some scalars is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extreme {
+    Least,
+    Greatest,
 }
 
 /// The nodes of a formula under construction and, once built, of the formula.

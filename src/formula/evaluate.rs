@@ -1,9 +1,9 @@
 //! The value of a formula: one pass over its nodes.
 
-use super::algebra;
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, Constant, Function, NodeId, Operation};
 use super::scope::Symbol;
 use super::value::Value;
+use super::{algebra, elementary};
 use crate::scalar::Scalar;
 use nalgebra::{Matrix3, Vector3};
 
@@ -60,6 +60,8 @@ fn step<T: Scalar>(operation: &Operation, v: &Values<T>, symbols: &[Value<T>]) -
     use Value::{Matrix, Scalar, Vector};
     match operation {
         Operation::Number(value) => Scalar(T::rational(value)),
+        Operation::Constant(Constant::Pi) => Scalar(elementary::pi()),
+        Operation::Constant(Constant::Euler) => Scalar(T::one().exp()),
         Operation::Symbol(slot) => symbols[*slot],
         Operation::Identity => Matrix(algebra::identity()),
         Operation::Negate(a) => v.0[*a].map(|x| -x),
@@ -106,6 +108,11 @@ fn step<T: Scalar>(operation: &Operation, v: &Values<T>, symbols: &[Value<T>]) -
         }
         Operation::Diagonal(a) => Matrix(algebra::diagonal(&v.vector(*a))),
         Operation::Function(function, a) => Scalar(apply(*function, v.scalar(*a))),
+        Operation::Angle(y, x) => Scalar(elementary::angle(v.scalar(*y), v.scalar(*x))),
+        Operation::Extreme(which, all) => {
+            let all = all.iter().map(|a| v.scalar(*a));
+            Scalar(all.reduce(|a, b| elementary::extreme(*which, a, b)).expect(TYPED))
+        }
         Operation::Antiderivative(f, x) => Scalar(T::antiderivative(v.scalar(*f), v.scalar(*x))),
     }
 }
@@ -118,7 +125,16 @@ fn apply<T: Scalar>(function: Function, x: T) -> T {
         Function::Sin => x.sin(),
         Function::Cos => x.cos(),
         Function::Tan => x.tan(),
+        Function::Asin => x.arcsine(),
+        Function::Acos => elementary::arccosine(x),
         Function::Atan => x.atan(),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Asinh => x.asinh(),
+        Function::Acosh => x.acosh(),
+        Function::Atanh => x.atanh(),
         Function::Modulus => x.modulus(),
+        Function::Sign => x / x.modulus(),
     }
 }

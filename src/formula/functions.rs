@@ -1,6 +1,6 @@
 //! The named functions: their spellings, what they take, and the nodes they become.
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, Extreme, Function, NodeId, Operation};
 use super::error::{FormulaError, Span};
 use super::typing::Operand;
 use super::value::Type::{self, Matrix, Scalar, Vector};
@@ -66,8 +66,22 @@ const FUNCTIONS: &[Overload] = &[
     overload(&["sin"], &[Scalar], |f, a, s| scalar(f, Function::Sin, a, s)),
     overload(&["cos"], &[Scalar], |f, a, s| scalar(f, Function::Cos, a, s)),
     overload(&["tan"], &[Scalar], |f, a, s| scalar(f, Function::Tan, a, s)),
+    overload(&["asin", "arcsin"], &[Scalar], |f, a, s| scalar(f, Function::Asin, a, s)),
+    overload(&["acos", "arccos"], &[Scalar], |f, a, s| scalar(f, Function::Acos, a, s)),
     overload(&["atan", "arctan"], &[Scalar], |f, a, s| scalar(f, Function::Atan, a, s)),
+    overload(&["sinh"], &[Scalar], |f, a, s| scalar(f, Function::Sinh, a, s)),
+    overload(&["cosh"], &[Scalar], |f, a, s| scalar(f, Function::Cosh, a, s)),
+    overload(&["tanh"], &[Scalar], |f, a, s| scalar(f, Function::Tanh, a, s)),
+    overload(&["asinh", "arsinh"], &[Scalar], |f, a, s| scalar(f, Function::Asinh, a, s)),
+    overload(&["acosh", "arcosh"], &[Scalar], |f, a, s| scalar(f, Function::Acosh, a, s)),
+    overload(&["atanh", "artanh"], &[Scalar], |f, a, s| scalar(f, Function::Atanh, a, s)),
     overload(&["abs"], &[Scalar], |f, a, s| scalar(f, Function::Modulus, a, s)),
+    overload(&["sign", "sgn"], &[Scalar], |f, a, s| scalar(f, Function::Sign, a, s)),
+    overload(&["atan2"], &[Scalar, Scalar], |f, a, s| {
+        f.push(Operation::Angle(a[0], a[1]), Scalar, s)
+    }),
+    overload(&["min"], &[Scalar, Scalar], |f, a, s| extreme(f, Extreme::Least, a, s)),
+    overload(&["max"], &[Scalar, Scalar], |f, a, s| extreme(f, Extreme::Greatest, a, s)),
     overload(&["∫", "integral"], &[Scalar, Scalar], |f, a, s| {
         f.push(Operation::Antiderivative(a[0], a[1]), Scalar, s)
     }),
@@ -75,6 +89,10 @@ const FUNCTIONS: &[Overload] = &[
 
 fn scalar(arena: &mut Arena, function: Function, a: &[NodeId], span: Span) -> NodeId {
     arena.push(Operation::Function(function, a[0]), Scalar, span)
+}
+
+fn extreme(arena: &mut Arena, which: Extreme, a: &[NodeId], span: Span) -> NodeId {
+    arena.push(Operation::Extreme(which, a.into()), Scalar, span)
 }
 
 fn vector(arena: &mut Arena, a: &[NodeId], span: Span) -> NodeId {
@@ -110,7 +128,11 @@ pub(super) fn usage(name: &str) -> String {
             [Scalar, .., Scalar] if function.arguments.len() == 9 => {
                 format!("`{name}(…)` of 9 scalars")
             }
-            [Scalar, Scalar] => format!("`{name}(integrand, variable)`"),
+            [Scalar, Scalar] => match name {
+                "atan2" => "`atan2(y, x)`".to_string(),
+                "min" | "max" => format!("`{name}(a, b)`"),
+                _ => format!("`{name}(integrand, variable)`"),
+            },
             arguments => {
                 let types: Vec<String> = arguments.iter().map(Type::to_string).collect();
                 format!("`{name}({})`", types.join(", "))

@@ -34,7 +34,7 @@ impl Check<'_> {
         let one = Rational::from(1);
         Ok(match &self.arena.nodes[node].operation {
             Operation::Number(value) => (!value.is_zero()).then(Form::zero),
-            Operation::Identity => Some(Form::zero()),
+            Operation::Identity | Operation::Constant(_) => Some(Form::zero()),
             Operation::Symbol(slot) => Some(self.system.symbol(self.arena.symbols[*slot].0)),
             Operation::Add(a, b) | Operation::Subtract(a, b) => self.equal(node, &[*a, *b])?,
             Operation::Vector(entries) | Operation::Rows(entries) => self.equal(node, entries)?,
@@ -61,6 +61,11 @@ impl Check<'_> {
             | Operation::Trace(a)
             | Operation::Diagonal(a) => self.forms[*a].clone(),
             Operation::Function(function, a) => self.function(*function, *a)?,
+            Operation::Extreme(_, all) => self.equal(node, all)?,
+            Operation::Angle(y, x) => {
+                self.equal(node, &[*y, *x])?;
+                Some(Form::zero())
+            }
         })
     }
 
@@ -107,12 +112,20 @@ impl Check<'_> {
             Function::Sqrt => return Ok(self.times(a, &Rational::new(1, 2))),
             Function::Modulus => return Ok(self.forms[a].clone()),
             // the logarithm of a density changes by a constant, which no derivative sees
-            Function::Ln => return Ok(Some(Form::zero())),
+            Function::Ln | Function::Sign => return Ok(Some(Form::zero())),
             Function::Exp => "the argument of exp",
             Function::Sin => "the argument of sin",
             Function::Cos => "the argument of cos",
             Function::Tan => "the argument of tan",
+            Function::Asin => "the argument of asin",
+            Function::Acos => "the argument of acos",
             Function::Atan => "the argument of atan",
+            Function::Sinh => "the argument of sinh",
+            Function::Cosh => "the argument of cosh",
+            Function::Tanh => "the argument of tanh",
+            Function::Asinh => "the argument of asinh",
+            Function::Acosh => "the argument of acosh",
+            Function::Atanh => "the argument of atanh",
         };
         self.weightless(a, name)?;
         Ok(Some(Form::zero()))

@@ -4,7 +4,7 @@
 //! and in line within exponents.
 
 use super::Formula;
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, Constant, Extreme, Function, NodeId, Operation};
 use super::scope::Symbol;
 use super::value::Type;
 use crate::number::rational::Rational;
@@ -126,6 +126,7 @@ impl Paper<'_> {
         let whole = |layout| (layout, Bond::Whole);
         match &self.arena.nodes[node].operation {
             Number(value) => number(value, inline),
+            Constant(value) => whole(Layout::name(letter(*value), Type::Scalar)),
             Symbol(slot) => whole(self.symbol(*slot)),
             Identity => whole(Layout::name("E", Type::Matrix)),
             Negate(a) => {
@@ -192,6 +193,8 @@ impl Paper<'_> {
                 whole(Layout::Matrix(rows.iter().map(|row| self.row(*row, inline)).collect()))
             }
             Function(function, a) => self.function(*function, *a, inline),
+            Angle(y, x) => self.called("atan2", &[*y, *x], inline),
+            Extreme(which, all) => self.called(which_word(*which), all, inline),
             Antiderivative(f, x) => {
                 let parts = vec![
                     Layout::Sign("∫"),
@@ -268,6 +271,11 @@ impl Paper<'_> {
         (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), Bond::Power)
     }
 
+    /// `max(a,b)`
+    fn called(&self, word: &'static str, arguments: &[NodeId], inline: bool) -> Bonded {
+        (Layout::Row(vec![Layout::Word(word), self.list(arguments, inline)]), Bond::Power)
+    }
+
     fn indexed(&self, a: NodeId, digits: String, inline: bool) -> Layout {
         if let Operation::Symbol(slot) = self.arena.nodes[a].operation
             && let Layout::Name { letter, index, primes, .. } = self.symbol(slot)
@@ -315,10 +323,33 @@ impl Paper<'_> {
             Function::Sin => "sin",
             Function::Cos => "cos",
             Function::Tan => "tan",
+            Function::Asin => "arcsin",
+            Function::Acos => "arccos",
             Function::Atan => "arctan",
+            Function::Sinh => "sinh",
+            Function::Cosh => "cosh",
+            Function::Tanh => "tanh",
+            Function::Asinh => "arsinh",
+            Function::Acosh => "arcosh",
+            Function::Atanh => "artanh",
+            Function::Sign => "sgn",
         };
         let argument = self.set(a, inline).0.fenced();
         (Layout::Row(vec![Layout::Word(word), argument]), Bond::Power)
+    }
+}
+
+fn letter(constant: Constant) -> &'static str {
+    match constant {
+        Constant::Pi => "π",
+        Constant::Euler => "e",
+    }
+}
+
+fn which_word(which: Extreme) -> &'static str {
+    match which {
+        Extreme::Least => "min",
+        Extreme::Greatest => "max",
     }
 }
 

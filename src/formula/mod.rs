@@ -42,6 +42,7 @@
 mod algebra;
 mod arena;
 mod diagnosis;
+mod elementary;
 mod error;
 mod evaluate;
 mod functions;

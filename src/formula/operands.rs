@@ -51,6 +51,9 @@ impl Parser<'_> {
                 let matrix = arena.push_symbol(symbol, Type::Matrix, span.clone());
                 arena.push(Operation::Entry(matrix, i, j), Type::Scalar, span.clone())
             }
+            Some(Meaning::Constant(constant)) => {
+                arena.push(Operation::Constant(constant), Type::Scalar, span.clone())
+            }
             Some(Meaning::Identity) => arena.push(Operation::Identity, Type::Matrix, span.clone()),
             Some(Meaning::OutOfRange(base, ty)) => return Err(out_of_range(name, &base, ty, span)),
             None => return Err(self.unknown_name(name, span)),

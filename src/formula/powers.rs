@@ -1,6 +1,6 @@
 //! Powers: which exponents go with scalars, vectors and matrices.
 
-use super::arena::{MAX_CONSTANT_BITS, Operation};
+use super::arena::{Constant, Function, MAX_CONSTANT_BITS, NodeId, Operation};
 use super::error::{FormulaError, Span};
 use super::typing::{Builder, Built, Operand};
 use super::value::Type;
@@ -19,6 +19,7 @@ impl Builder<'_> {
         }
         match self.arena.take_constant(exponent.node) {
             Some(value) => self.constant_power(base, &value, exponent.span.clone(), span),
+            None if self.is_euler(base) => Ok(self.exponential(exponent.node, span)),
             None if base.value_type == Type::Scalar => {
                 Ok(self.push(Operation::PowerOf(base.node, exponent.node), Type::Scalar, span))
             }
@@ -37,6 +38,11 @@ impl Builder<'_> {
         exponent: Span,
         span: Span,
     ) -> Built {
+        if self.is_euler(base) {
+            let number = Operation::Number(value.clone());
+            let exponent = self.push(number, Type::Scalar, exponent);
+            return Ok(self.exponential(exponent.node, span));
+        }
         let whole = value.to_integer();
         match (base.value_type, whole) {
             (Type::Scalar, _) => self.scalar_power(base, value, span),
@@ -60,6 +66,15 @@ impl Builder<'_> {
                 Err(FormulaError::new(exponent, message))
             }
         }
+    }
+
+    fn is_euler(&self, base: &Operand) -> bool {
+        self.arena.nodes[base.node].operation == Operation::Constant(Constant::Euler)
+    }
+
+    /// e^x is exp(x), whatever x is.
+    fn exponential(&mut self, exponent: NodeId, span: Span) -> Operand {
+        self.push(Operation::Function(Function::Exp, exponent), Type::Scalar, span)
     }
 
     fn scalar_power(&mut self, base: &Operand, value: &Rational, span: Span) -> Built {

@@ -1,5 +1,6 @@
 //! What names mean: the surroundings of a formula, and how a written name is looked up in them.
 
+use super::arena::Constant;
 use super::names::canonical_name;
 use super::value::Type;
 
@@ -27,6 +28,8 @@ pub(super) enum Meaning {
     Entry(Symbol, usize, usize),
     /// The identity matrix.
     Identity,
+    /// π or e.
+    Constant(Constant),
     /// A component that does not exist, of the named vector or matrix.
     OutOfRange(String, Type),
 }
@@ -41,8 +44,11 @@ pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<Meaning> {
     if let Some((symbol, ty)) = whole(&name) {
         return Some(Meaning::Whole(symbol, ty));
     }
-    if name == "E" {
-        return Some(Meaning::Identity);
+    match name.as_str() {
+        "E" => return Some(Meaning::Identity),
+        "π" => return Some(Meaning::Constant(Constant::Pi)),
+        "e" => return Some(Meaning::Constant(Constant::Euler)),
+        _ => {}
     }
     // the spelling as written may be the one in the scope: `gamma3` where `gamma` is declared
     component(&name, scope).or_else(|| component(written, scope))
@@ -106,6 +112,8 @@ mod tests {
         assert_eq!(find("I1"), Some(Meaning::Entry(Symbol(2), 0, 0)), "a diagonal entry");
         assert_eq!(find("I₁₂"), Some(Meaning::Entry(Symbol(2), 0, 1)), "an entry");
         assert_eq!(find("E"), Some(Meaning::Identity), "E is the identity");
+        assert_eq!(find("pi"), Some(Meaning::Constant(Constant::Pi)), "π by its name");
+        assert_eq!(find("e"), Some(Meaning::Constant(Constant::Euler)), "Euler's number");
     }
 
     #[test]

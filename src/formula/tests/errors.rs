@@ -35,7 +35,6 @@ fn unknown_names_are_guessed_at() {
     error("x + g2", "unknown name `g2`", "g2", Some("did you mean `g1`?"));
     error("X", "unknown name `X`", "X", Some("did you mean `x`?"));
     error("energy", "unknown name `energy`", "energy", None);
-    error("pi", "unknown name `pi`", "pi", None);
     error("sqr(x)", "unknown function `sqr`", "sqr", Some("did you mean `sqrt`?"));
     error("γ4", "there is no component `γ4`", "γ4", Some("`γ` has the components γ1, γ2, γ3"));
     error("I14", "there is no component `I14`", "I14", Some("`I` has the entries I11 to I33"));

@@ -59,4 +59,6 @@ fn brackets_are_those_that_the_tree_needs() {
     assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
     assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
     assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
+    assert_eq!(set("2*π*e^m"), "2 π exp(m)", "constants");
+    assert_eq!(set("max(m, k)*sinh(2*m)"), "max(m,k) sinh(2 m)", "of several arguments");
 }
