@@ -39,7 +39,7 @@ pub fn read(
         }
     };
     // The potential is a function of the centre, which stands in γ's place where Σ is given by h.
-    let centre = vocabulary.hide("r", Meaning::State(NORMAL), Type::Vector, Reach::Configuration);
+    let centre = vocabulary.hide("r", Meaning::State(NORMAL), Type::VECTOR, Reach::Configuration);
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();
     of_centre.bind("r", centre);

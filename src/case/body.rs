@@ -87,7 +87,7 @@ fn optional(
 pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
     Features {
         radius: has(vocabulary, "R", Type::Scalar),
-        displacement: has(vocabulary, "c", Type::Vector),
+        displacement: has(vocabulary, "c", Type::VECTOR),
         curvature: curved,
         potential: section.value("potential").is_some(),
         profile: section.value("profile").is_some(),
@@ -108,13 +108,13 @@ pub fn rubber(
         false => None,
     };
     let mass = formula_or(section, "mass", "m", vocabulary, scalar)?;
-    let inertia = formula_or(section, "inertia", "I", vocabulary, Type::Matrix)?;
-    let gyrostat = optional(section, "gyrostat", vocabulary, Type::Vector)?;
+    let inertia = formula_or(section, "inertia", "I", vocabulary, Type::MATRIX)?;
+    let gyrostat = optional(section, "gyrostat", vocabulary, Type::VECTOR)?;
     let shape = shape(section, arbitrary, vocabulary, parameters)?;
     let potential = potential(section, arbitrary, vocabulary, parameters)?;
     let moment = match section.text("moment")? {
         Some(text) => {
-            let (what, kind) = ("`moment`", Some(Type::Vector));
+            let (what, kind) = ("`moment`", Some(Type::VECTOR));
             Some(formula(&text, vocabulary, what, kind, Reach::Phase)?)
         }
         None => None,
@@ -127,10 +127,10 @@ pub fn rubber(
 pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Result<System, CaseError> {
     Ok(System::FlatBase(Box::new(FlatBase {
         mass: formula_or(section, "mass", "m", vocabulary, Type::Scalar)?,
-        inertia: formula_or(section, "inertia", "I", vocabulary, Type::Matrix)?,
+        inertia: formula_or(section, "inertia", "I", vocabulary, Type::MATRIX)?,
         curvature: formula_or(section, "curvature", "k", vocabulary, Type::Scalar)?,
         height: formula_or(section, "height", "z", vocabulary, Type::Scalar)?,
-        gyrostat: optional(section, "gyrostat", vocabulary, Type::Vector)?,
+        gyrostat: optional(section, "gyrostat", vocabulary, Type::VECTOR)?,
     })))
 }
 
@@ -161,7 +161,7 @@ fn shape(
         return Ok(Shape::Support(read(&support, "the support function", Type::Scalar)?));
     }
     if let Some(text) = contact {
-        return Ok(Shape::Contact(read(&text, "the point of contact", Type::Vector)?));
+        return Ok(Shape::Contact(read(&text, "the point of contact", Type::VECTOR)?));
     }
     if let Some(text) = profile {
         if text.value == "arbitrary" {
@@ -181,7 +181,7 @@ fn shape(
 fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> {
     let (needs, kind, support) = match text.value.as_str() {
         "ball" => ("R", Type::Scalar, "R*|γ|"),
-        "ellipsoid" => ("B", Type::Matrix, "√(γ,B*γ)"),
+        "ellipsoid" => ("B", Type::MATRIX, "√(γ,B*γ)"),
         "disk" => ("R", Type::Scalar, "R*√(γ1² + γ2²)"),
         _ => {
             return Err(CaseError::at(
@@ -204,12 +204,12 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, CaseError> 
             },
         ));
     }
-    if let Some(entry) = vocabulary.find("c").filter(|entry| entry.kind != Type::Vector) {
+    if let Some(entry) = vocabulary.find("c").filter(|entry| entry.kind != Type::VECTOR) {
         let message = format!("`c`, the place of the mass centre, is a {}", entry.kind);
         let remedy = "make it a vector, c = [0, 0, 0.5], or give it another name".to_string();
         return Err(CaseError::at(text.span.clone(), Problem::Other { message, remedy }));
     }
-    let displaced = if has(vocabulary, "c", Type::Vector) { " + (c,γ)" } else { "" };
+    let displaced = if has(vocabulary, "c", Type::VECTOR) { " + (c,γ)" } else { "" };
     Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
 }
 

@@ -2,8 +2,8 @@
 
 use super::body::formula;
 use super::error::{CaseError, Problem};
-use super::parameters::{Given, origin, state_draws};
 use super::section::{Section, Text};
+use super::shapes::{Refusal, given, state_draws};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
     Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach, Variable,
@@ -50,7 +50,10 @@ pub fn add_state(
         let wrong = |message: String| {
             CaseError::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
         };
-        let given: Given = origin(&name, value).map_err(wrong)?;
+        let given = given(&name, value, vocabulary).map_err(|refusal| match refusal {
+            Refusal::Message(message) => wrong(message),
+            Refusal::Size(error, _) => CaseError::at(value.span(), Problem::Formula(error)),
+        })?;
         let (kind, draws) = state_draws(&given).ok_or_else(|| {
             wrong(format!("`{name}` needs the range that its states are drawn from"))
         })?;

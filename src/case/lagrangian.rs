@@ -142,7 +142,7 @@ fn algebra(
     let start = |index: usize| variables[..index].iter().map(Variable::len).sum::<usize>();
     if let Some(text) = section.text("algebra")? {
         let vectors: Vec<usize> =
-            quasi.iter().copied().filter(|i| variables[*i].kind == Type::Vector).collect();
+            quasi.iter().copied().filter(|i| variables[*i].kind == Type::VECTOR).collect();
         return match (text.value.as_str(), vectors.as_slice()) {
             ("so(3)", [index]) if quasi.len() == 1 => Ok(Algebra::Rotations(start(*index))),
             ("so(3)", _) => {

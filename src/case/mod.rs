@@ -18,6 +18,7 @@ mod parameters;
 mod poincare;
 mod section;
 mod shadows;
+mod shapes;
 mod solvable;
 mod systems;
 mod variables;

@@ -1,10 +1,10 @@
 //! Parameters: numbers, lists, ranges and formulas.
 
 use toml::Spanned;
-use toml::de::DeValue;
 
 use super::error::{CaseError, Problem};
-use super::section::{Section, Text, numbers};
+use super::section::{Section, Text};
+use super::shapes::{Given, Refusal, TENSORS, given};
 use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name};
 use crate::graph;
 use crate::mechanics::{Draw, Line, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
@@ -18,9 +18,6 @@ pub struct Setting {
     /// The constant typed for it.
     pub value: String,
 }
-
-/// Names that a list of three numbers gives a diagonal matrix.
-const TENSORS: [&str; 2] = ["I", "B"];
 
 /// Reads `[parameters]` and adds them to the vocabulary; settings replace the file's values.
 pub fn read(
@@ -38,8 +35,20 @@ pub fn read(
             return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
         }
         let setting = settings.iter().find(|setting| setting.name == name);
-        let written = origin(&name, value)
-            .map_err(|message| CaseError::at(value.span(), Problem::Parameter(message)))?;
+        let written = match (given(&name, value, vocabulary), section) {
+            (Ok(written), _) => written,
+            (Err(Refusal::Size(error, start)), Some(section)) => {
+                let text = section.as_text(key.get_ref(), value)?;
+                let place = start + error.span().start..start + error.span().end;
+                return Err(CaseError::at(text.locate(place), Problem::Formula(error)));
+            }
+            (Err(Refusal::Size(error, _)), None) => {
+                return Err(CaseError::at(value.span(), Problem::Formula(error)));
+            }
+            (Err(Refusal::Message(message)), _) => {
+                return Err(CaseError::at(value.span(), Problem::Parameter(message)));
+            }
+        };
         kinds.push(written.kind());
         let origin = setting.map_or(written, |setting| set(setting, &name));
         let (kind, origin) = match origin {
@@ -127,27 +136,6 @@ pub fn unknown_setting(settings: &[Setting], parameters: &[Parameter]) -> Result
     }
 }
 
-/// What a value of `[parameters]` or `[state]` says.
-pub enum Given {
-    /// Components that are fixed.
-    Fixed(Type, Vec<Rational>),
-    /// Components drawn anew for every state.
-    Drawn(Recipe),
-    /// Anything else: to be read as a formula.
-    Formula(String),
-}
-
-impl Given {
-    /// Scalar, vector or matrix, where that is known before formulas are read.
-    fn kind(&self) -> Option<Type> {
-        match self {
-            Given::Fixed(kind, _) => Some(*kind),
-            Given::Drawn(recipe) => Some(recipe.kind()),
-            Given::Formula(_) => None,
-        }
-    }
-}
-
 fn set(setting: &Setting, name: &str) -> Given {
     let text = setting.value.trim();
     let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
@@ -157,104 +145,6 @@ fn set(setting: &Setting, name: &str) -> Given {
         return Given::Formula(format!("diag({list})"));
     }
     Given::Formula(text.to_string())
-}
-
-/// The meaning of a value.
-pub fn origin(name: &str, value: &Spanned<DeValue<'_>>) -> Result<Given, String> {
-    match value.get_ref() {
-        DeValue::Integer(number) => fixed_scalar(&number.to_string()),
-        DeValue::Float(number) => fixed_scalar(&number.to_string()),
-        DeValue::Array(array) => {
-            if let Some(entries) = numbers(array) {
-                let values = read_all(&entries)?;
-                return match values.len() {
-                    3 if TENSORS.contains(&name) => {
-                        Ok(Given::Fixed(Type::Matrix, diagonal(values)))
-                    }
-                    3 => Ok(Given::Fixed(Type::Vector, values)),
-                    found => Err(format!("a list needs three numbers, not {found}")),
-                };
-            }
-            let rows: Option<Vec<Vec<String>>> = array
-                .iter()
-                .map(|row| match row.get_ref() {
-                    DeValue::Array(row) => numbers(row).filter(|row| row.len() == 3),
-                    _ => None,
-                })
-                .collect();
-            match rows.filter(|rows| rows.len() == 3) {
-                Some(rows) => Ok(Given::Fixed(Type::Matrix, read_all(&rows.concat())?)),
-                None => Err("a matrix is three rows of three numbers".to_string()),
-            }
-        }
-        DeValue::String(text) => described(text.trim()),
-        _ => Err("a parameter is a number, a list, a range or a formula".to_string()),
-    }
-}
-
-fn fixed_scalar(text: &str) -> Result<Given, String> {
-    Ok(Given::Fixed(Type::Scalar, read_all(&[text.to_string()])?))
-}
-
-fn read_all(texts: &[String]) -> Result<Vec<Rational>, String> {
-    texts
-        .iter()
-        .map(|text| text.parse().map_err(|error: RationalError| error.to_string()))
-        .collect()
-}
-
-fn diagonal(values: Vec<Rational>) -> Vec<Rational> {
-    let mut entries = vec![Rational::from(0); 9];
-    for (k, value) in values.into_iter().enumerate() {
-        entries[4 * k] = value;
-    }
-    entries
-}
-
-/// A string: a number, a range with its shape, a list of alternatives, or a formula.
-fn described(text: &str) -> Result<Given, String> {
-    if let Ok(number) = text.parse::<Rational>() {
-        return Ok(Given::Fixed(Type::Scalar, vec![number]));
-    }
-    if text == "rotation" {
-        return Ok(Given::Drawn(Recipe::Rotation));
-    }
-    if let Some(list) = text.strip_prefix("one of ") {
-        let values: Vec<String> = list.split(',').map(|item| item.trim().to_string()).collect();
-        return Ok(Given::Drawn(Recipe::Scalar(Draw::OneOf(read_all(&values)?))));
-    }
-    let (shape, inner) = match text.split_once('(') {
-        Some((shape, rest)) if text.ends_with(')') => (shape.trim(), &rest[..rest.len() - 1]),
-        _ => ("", text),
-    };
-    let Some((low, high)) = inner.split_once("..") else {
-        return Ok(Given::Formula(text.to_string()));
-    };
-    let range = range(low, high)?;
-    let draw = || Draw::Within(range.clone());
-    let recipe = match shape {
-        "" => Recipe::Scalar(draw()),
-        "vector" => Recipe::Vector(draw()),
-        "matrix" => Recipe::Matrix(draw()),
-        "diag" => Recipe::Diagonal(draw()),
-        "spherical" => Recipe::Spherical(draw()),
-        "inertia" => Recipe::Inertia(range),
-        "axisymmetric" => Recipe::AxisymmetricInertia(range),
-        "full" => Recipe::FullInertia(range),
-        other => return Err(format!("`{other}(a..b)` is no kind of parameter")),
-    };
-    Ok(Given::Drawn(recipe))
-}
-
-fn range(low: &str, high: &str) -> Result<Range, String> {
-    let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
-    let range = Range { low: read(low)?, high: read(high)? };
-    let (width, _) = (&range.high - &range.low).to_f64();
-    match range.low < range.high {
-        false => Err(format!("the range {}..{} is empty", range.low, range.high)),
-        true if width.is_normal() => Ok(range),
-        true => Err("this range is beyond the numbers that f64 can hold".to_string()),
-    }
 }
 
 /// The components of a formula without names, exactly.
@@ -267,16 +157,6 @@ pub fn constant(formula: &Formula) -> Option<Vec<Rational>> {
     })
     .ok()?;
     values.into_iter().map(|value| graph.constant_value(value).cloned()).collect()
-}
-
-/// A range for each component of a state variable.
-pub fn state_draws(given: &Given) -> Option<(Type, Vec<Draw>)> {
-    match given {
-        Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(_) | Recipe::Matrix(_))) => {
-            Some((recipe.kind(), recipe.draws()))
-        }
-        _ => None,
-    }
 }
 
 /// Free parameters that hold the coefficients of an arbitrary function.

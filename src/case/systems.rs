@@ -111,7 +111,7 @@ impl Reading<'_, '_> {
         let nothing = DeTable::new();
         let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
         let features = body::features(&section, curved, &self.vocabulary);
-        let own = [("ω", Type::Vector), ("γ", Type::Vector)];
+        let own = [("ω", Type::VECTOR), ("γ", Type::VECTOR)];
         self.declare(&own, &[], of_rubber(features), name)?;
         self.further_state()?;
         self.read_abbreviations()?;
@@ -151,7 +151,7 @@ impl Reading<'_, '_> {
         let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
         let by_support = section.value("surface").is_none();
         let second = if by_support { "γ" } else { "r" };
-        let own = [("M", Type::Vector), (second, Type::Vector)];
+        let own = [("M", Type::VECTOR), (second, Type::VECTOR)];
         let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
         let draws = if by_support { Vec::new() } else { vec![near; 6] };
         self.declare(&own, &draws, of_ball(by_support), name)?;

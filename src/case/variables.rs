@@ -47,7 +47,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
         })
     };
     let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
-    let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
+    let keeps_body = is_body && stays(1) && state[0].kind == Type::VECTOR;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
         Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
         _ => entry.reach == Reach::Parameters,
@@ -65,9 +65,9 @@ fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>
     let count = target.state.len();
     let mut blocks: Vec<Vec<Option<Block>>> = vec![vec![None; count]; count];
     if let Some(text) = section.text("structure")? {
-        let vectors = target.state.iter().filter(|v| v.kind == Type::Vector).count();
+        let vectors = target.state.iter().filter(|v| v.kind == Type::VECTOR).count();
         let pairs: &[(usize, usize)] = match (text.value.as_str(), vectors) {
-            ("e(3)", 2..) if target.state[1].kind == Type::Vector => &[(0, 0), (0, 1)],
+            ("e(3)", 2..) if target.state[1].kind == Type::VECTOR => &[(0, 0), (0, 1)],
             ("so(3)", 1..) => &[(0, 0)],
             (found, _) => {
                 let message = format!("`{found}` is no bracket of these variables");
@@ -94,14 +94,14 @@ fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>
             return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
         };
         let kind = match (target.state[i].kind, target.state[j].kind) {
-            (Type::Vector, Type::Vector) => Type::Matrix,
+            (Type::Vector(rows), Type::Vector(columns)) => Type::Matrix(rows, columns),
             (Type::Scalar, Type::Scalar) => Type::Scalar,
-            (Type::Matrix, _) | (_, Type::Matrix) => {
+            (Type::Matrix(..), _) | (_, Type::Matrix(..)) => {
                 let message = "a bracket of matrices cannot be given".to_string();
                 let remedy = "take the columns as variables".to_string();
                 return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
             }
-            _ => Type::Vector,
+            (Type::Vector(length), _) | (_, Type::Vector(length)) => Type::Vector(length),
         };
         if blocks[i][j].is_some() {
             let message = format!("the block {} is given already", key.get_ref());

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::error::Span;
+use super::kind::Type;
 use super::scope::Symbol;
-use super::value::Type;
 use crate::number::rational::Rational;
 
 /// Exact constants wider than this are left to the evaluation.
@@ -28,7 +28,10 @@ pub(super) enum Operation {
     Constant(Constant),
     /// The value of the symbol in this slot of [`Arena::symbols`].
     Symbol(usize),
+    /// The identity matrix of its type.
     Identity,
+    /// The zero of its type; as a scalar a sum of no terms, which any type may be added to.
+    Zero,
     Negate(NodeId),
     Add(NodeId, NodeId),
     Subtract(NodeId, NodeId),
@@ -53,6 +56,8 @@ pub(super) enum Operation {
     MatrixPower(NodeId, u32),
     /// Component of a vector, from 0.
     Component(NodeId, usize),
+    /// Row of a matrix, from 0.
+    Row(NodeId, usize),
     /// Entry of a matrix: row, column, from 0.
     Entry(NodeId, usize, usize),
     Transpose(NodeId),
@@ -62,10 +67,14 @@ pub(super) enum Operation {
     Trace(NodeId),
     /// `A⁻¹ b`.
     Solve(NodeId, NodeId),
-    /// The vector of three scalars.
-    Vector([NodeId; 3]),
-    /// The matrix with three vectors as rows.
-    Rows([NodeId; 3]),
+    /// The vector of some scalars.
+    Vector(Box<[NodeId]>),
+    /// The matrix with some vectors as rows.
+    Rows(Box<[NodeId]>),
+    /// The sum of terms of one type, one for each index.
+    Sum(Box<[NodeId]>),
+    /// The product of scalars, one for each index.
+    Product(Box<[NodeId]>),
     /// The matrix with a vector on its diagonal.
     Diagonal(NodeId),
     /// A function of one scalar.

@@ -17,16 +17,28 @@ struct Fault {
     message: String,
     span: Span,
     help: Option<String>,
+    unknown: Option<String>,
 }
 
 impl FormulaError {
     pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
-        Self(Box::new(Fault { message: message.into(), span, help: None }))
+        Self(Box::new(Fault { message: message.into(), span, help: None, unknown: None }))
     }
 
     pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
+    }
+
+    /// The same about a name that is not known.
+    pub(super) fn with_unknown(mut self, name: &str) -> Self {
+        self.0.unknown = Some(name.to_string());
+        self
+    }
+
+    /// The name that is not known, as it is written, where that is the trouble.
+    pub fn unknown_name(&self) -> Option<&str> {
+        self.0.unknown.as_deref()
     }
 
     /// What is wrong.

@@ -2,6 +2,7 @@
 
 use super::arena::{Arena, Function, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
+use super::kind::Type;
 use super::weights::{Form, Weight, WeightSystem};
 use crate::number::rational::Rational;
 
@@ -37,7 +38,16 @@ impl Check<'_> {
             Operation::Identity | Operation::Constant(_) => Some(Form::zero()),
             Operation::Symbol(slot) => Some(self.system.symbol(self.arena.symbols[*slot].0)),
             Operation::Add(a, b) | Operation::Subtract(a, b) => self.equal(node, &[*a, *b])?,
-            Operation::Vector(entries) | Operation::Rows(entries) => self.equal(node, entries)?,
+            Operation::Vector(all) | Operation::Rows(all) | Operation::Sum(all) => {
+                self.equal(node, all)?
+            }
+            Operation::Product(all) => {
+                let factors = all.iter().map(|a| self.forms[*a].as_ref());
+                factors.collect::<Option<Vec<&Form>>>().map(|factors| {
+                    factors.into_iter().fold(Form::zero(), |sum, form| sum.plus(form, &one))
+                })
+            }
+            Operation::Zero => None,
             Operation::Multiply(a, b)
             | Operation::Scale(a, b)
             | Operation::Apply(a, b)
@@ -52,10 +62,11 @@ impl Check<'_> {
             Operation::PowerOf(a, b) => self.power_of(*a, *b)?,
             Operation::MatrixPower(a, n) => self.times(*a, &Rational::from(i64::from(*n))),
             Operation::Inverse(a) => self.times(*a, &-&one),
-            Operation::Adjugate(a) => self.times(*a, &Rational::from(2)),
-            Operation::Determinant(a) => self.times(*a, &Rational::from(3)),
+            Operation::Adjugate(a) => self.times(*a, &Rational::from(self.rows(*a) - 1)),
+            Operation::Determinant(a) => self.times(*a, &Rational::from(self.rows(*a))),
             Operation::Negate(a)
             | Operation::Component(a, _)
+            | Operation::Row(a, _)
             | Operation::Entry(a, _, _)
             | Operation::Transpose(a)
             | Operation::Trace(a)
@@ -67,6 +78,14 @@ impl Check<'_> {
                 Some(Form::zero())
             }
         })
+    }
+
+    /// The rows of a matrix, as a number to multiply by.
+    fn rows(&self, node: NodeId) -> i64 {
+        match self.arena.nodes[node].value_type {
+            Type::Matrix(rows, _) => rows as i64,
+            _ => 1,
+        }
     }
 
     /// The common weight of terms that have to agree.

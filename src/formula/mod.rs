@@ -41,12 +41,14 @@
 
 mod algebra;
 mod arena;
+mod binders;
 mod diagnosis;
 mod elementary;
 mod error;
 mod evaluate;
 mod functions;
 mod homogeneity;
+mod kind;
 mod layout;
 mod lexer;
 mod logarithm;
@@ -58,8 +60,10 @@ mod poles;
 mod powers;
 mod scope;
 mod spelling;
+mod tables;
 mod typing;
 mod unary;
+mod unknown;
 mod value;
 mod weights;
 
@@ -73,12 +77,13 @@ use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
+pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;
-pub use value::{Type, Value};
+pub use value::{Table, Value};
 pub use weights::{Weight, WeightSystem};
 
 use arena::{Arena, Node, Operation};
@@ -96,6 +101,11 @@ impl Formula {
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Formula, FormulaError> {
         let arena = parser::parse(text, scope)?;
         Ok(Formula { text: text.to_string(), arena })
+    }
+
+    /// The whole number that a text is, in names whose values the scope knows.
+    pub(crate) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, FormulaError> {
+        parser::whole_number(text, scope)
     }
 
     /// The text as written.
@@ -123,8 +133,9 @@ impl Formula {
     /// # Panics
     /// If `lookup` gives a value of another type than the scope declared for the symbol.
     pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
-        let values = evaluate::values(&self.arena, lookup);
-        values[values.len() - 1]
+        let mut values = evaluate::values(&self.arena, lookup);
+        // a formula that was read has at least one node
+        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
     }
 
     /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.

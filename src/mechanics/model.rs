@@ -37,7 +37,7 @@ pub enum Origin {
 pub struct Variable {
     /// Its canonical name.
     pub name: String,
-    /// Scalar or vector.
+    /// Scalar, vector or matrix.
     pub kind: Type,
 }
 
@@ -55,11 +55,7 @@ impl Variable {
 
 /// Components of a value of this kind.
 pub fn components(kind: Type) -> usize {
-    match kind {
-        Type::Scalar => 1,
-        Type::Vector => 3,
-        Type::Matrix => 9,
-    }
+    kind.size()
 }
 
 /// One equation F = 0 of the level set.
@@ -168,13 +164,10 @@ impl Model {
         found.map(|(variable, start)| (variable, component - start))
     }
 
-    /// The name of a component of the state, such as `γ3`.
+    /// The name of a component of the state, such as `γ3` or `L[2,1]`.
     pub fn component_name(&self, component: usize) -> String {
         match self.variable_of(component) {
-            Some((variable, place)) if variable.kind != Type::Scalar => {
-                format!("{}{}", variable.name, place + 1)
-            }
-            Some((variable, _)) => variable.name.clone(),
+            Some((variable, place)) => variable.kind.component(&variable.name, place),
             None => String::new(),
         }
     }

@@ -64,13 +64,13 @@ impl<'m, T: Scalar> Configuration<'m, T> {
 
     /// The value of state variable `index`.
     pub fn variable(&self, index: usize) -> Value<T> {
-        self.state[index]
+        self.state[index].clone()
     }
 
     /// The value of parameter `index`.
     pub fn parameter(&self, index: usize) -> Value<T> {
         match (&self.parameters[index], &self.model.parameters[index].origin) {
-            (Some(value), _) => *value,
+            (Some(value), _) => value.clone(),
             (None, Origin::Formula(formula)) => self.evaluate(formula),
             (None, _) => unreachable!("only formulas have no value of their own"),
         }
@@ -86,7 +86,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
 
     fn value(&self, symbol: Symbol) -> Value<T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
-            return *value;
+            return value.clone();
         }
         let value = match self.model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(index) => self.parameter(index),
@@ -94,14 +94,14 @@ impl<'m, T: Scalar> Configuration<'m, T> {
             Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
             Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
         };
-        self.known.borrow_mut().insert(symbol, value);
+        self.known.borrow_mut().insert(symbol, value.clone());
         value
     }
 
     /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
     pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
         let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
-        state[index] = dual_value(self.state[index], direction);
+        state[index] = dual_value(&self.state[index], &direction);
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
     }
 
@@ -119,7 +119,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
             .map(|value| {
                 let (own, others) = rest.split_at(value.value_type().size());
                 rest = others;
-                dual_value(*value, Value::from_components(value.value_type(), own))
+                dual_value(value, &Value::from_components(value.value_type(), own))
             })
             .collect();
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
@@ -194,7 +194,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The value behind a symbol.
     pub fn value(&self, symbol: Symbol) -> Value<T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
-            return *value;
+            return value.clone();
         }
         let model = self.model();
         let value = match model.vocabulary.entry(symbol).meaning {
@@ -203,7 +203,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
             Meaning::Quantity(Quantity::Rate(index)) => self.rate(index),
             Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
         };
-        self.known.borrow_mut().insert(symbol, value);
+        self.known.borrow_mut().insert(symbol, value.clone());
         value
     }
 
@@ -262,7 +262,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         if !parameters.is_empty() {
             let mut changed = all.to_vec();
             for (index, value) in parameters {
-                changed[*index] = Some(*value);
+                changed[*index] = Some(value.clone());
             }
             all = changed.into();
         }
@@ -300,10 +300,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
 }
 
 fn lift_parameters<T: Scalar>(parameters: &[Option<Value<T>>]) -> Rc<[Option<Value<Dual<T>>>]> {
-    parameters.iter().map(|value| value.map(|value| value.map(Dual::from_re))).collect()
+    let lift = |value: &Value<T>| value.map(Dual::from_re);
+    parameters.iter().map(|value| value.as_ref().map(lift)).collect()
 }
 
-fn dual_value<T: Scalar>(value: Value<T>, direction: Value<T>) -> Value<Dual<T>> {
+fn dual_value<T: Scalar>(value: &Value<T>, direction: &Value<T>) -> Value<Dual<T>> {
     let parts = value.components().into_iter().zip(direction.components());
     let parts: Vec<_> = parts.map(|(re, eps)| Dual::new(re, eps)).collect();
     Value::from_components(value.value_type(), &parts)

@@ -215,6 +215,8 @@ fn reading_and_evaluating_keep_within_a_small_stack() {
             ("(1 + γ1*(", "))", 95),
             ("[1,2,3]*((γ,γ + γ × 2*", "))", 95),
             ("-", "", 190),
+            ("sum(i, 1..1, ", ")", 190),
+            ("if(1 = 1, ", ", 0)", 190),
         ] {
             // most of these are no formulas of fitting types; all must come back
             let text = format!("{}x{}", open.repeat(times), close.repeat(times));

@@ -7,7 +7,7 @@ struct Letters;
 impl Scope for Letters {
     fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
         let kinds =
-            [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::Vector), ("J", Type::Matrix)];
+            [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::VECTOR), ("J", Type::MATRIX)];
         let place = kinds.iter().position(|(known, _)| *known == name)?;
         Some((Symbol(place as u32), kinds[place].1))
     }
