@@ -1,10 +1,13 @@
 //! Parameters: numbers, lists, ranges and formulas.
 
 use toml::Spanned;
+use toml::de::DeValue;
 
-use super::error::{CaseError, Problem};
+use super::error::{Mistake, Problem};
+use super::order::{Item, ItemKind, Stage};
 use super::section::{Section, Text};
-use super::shapes::{Given, Refusal, TENSORS, given};
+use super::shapes::{self, Given, Refusal};
+use super::systems::Reading;
 use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name};
 use crate::graph;
 use crate::mechanics::{Draw, Line, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
@@ -19,132 +22,161 @@ pub struct Setting {
     pub value: String,
 }
 
-/// Reads `[parameters]` and adds them to the vocabulary; settings replace the file's values.
-pub fn read(
-    section: Option<&Section<'_>>,
-    settings: &[Setting],
-    vocabulary: &mut Vocabulary,
-) -> Result<Vec<Parameter>, CaseError> {
-    let mut parameters: Vec<Parameter> = Vec::new();
-    let mut formulas = Vec::new();
-    let mut kinds = Vec::new();
-    for (key, value) in section.map(Section::entries).unwrap_or_default() {
-        let name = named(key)?;
-        if parameters.iter().any(|known| known.name == name) {
-            let reason = "it is declared twice".to_string();
-            return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
+/// What a name cannot be.
+pub const NO_NAME: &str = "a name is letters, then digits, primes or _";
+
+impl<'r, 's> Reading<'r, 's> {
+    /// Reads `[parameters]`; settings replace the file's values.
+    pub(super) fn read_parameters(&mut self) {
+        let Some(section) = self.root.table("parameters") else { return };
+        for (key, value) in section.entries() {
+            let Some(name) = self.mistakes().keep(named(key)) else { continue };
+            if self.parameters.iter().any(|known| known.name == name) {
+                let reason = "it is declared twice".to_string();
+                let problem = Problem::BadName { name, reason };
+                self.mistakes().add(Mistake::at(key.span(), problem));
+                continue;
+            }
+            let index = self.parameters.len();
+            let origin = Origin::Fixed(vec![Rational::from(0)]);
+            self.parameters.push(Parameter { name: name.clone(), kind: Type::Scalar, origin });
+            self.items.push(Item::new(name, key.span(), ItemKind::Parameter(index, value)));
         }
-        let setting = settings.iter().find(|setting| setting.name == name);
-        let written = match (given(&name, value, vocabulary), section) {
-            (Ok(written), _) => written,
-            (Err(Refusal::Size(error, start)), Some(section)) => {
-                let text = section.as_text(key.get_ref(), value)?;
-                let place = start + error.span().start..start + error.span().end;
-                return Err(CaseError::at(text.locate(place), Problem::Formula(error)));
-            }
-            (Err(Refusal::Size(error, _)), None) => {
-                return Err(CaseError::at(value.span(), Problem::Formula(error)));
-            }
-            (Err(Refusal::Message(message)), _) => {
-                return Err(CaseError::at(value.span(), Problem::Parameter(message)));
-            }
-        };
-        kinds.push(written.kind());
-        let origin = setting.map_or(written, |setting| set(setting, &name));
-        let (kind, origin) = match origin {
-            Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
-            Given::Drawn(recipe) => (recipe.kind(), Origin::Free(recipe)),
-            Given::Formula(text) => {
-                let text = match (setting, section) {
-                    (None, Some(section)) => section.as_text(key.get_ref(), value)?,
-                    _ => Text::made(text, 0..0),
-                };
-                formulas.push((parameters.len(), text));
-                (Type::Scalar, Origin::Fixed(Vec::new()))
-            }
-        };
-        parameters.push(Parameter { name, kind, origin });
+        self.list_abbreviations();
+        self.settle(Stage::Parameters);
     }
-    for (index, parameter) in parameters.iter().enumerate() {
-        if formulas.iter().all(|(formula, _)| *formula != index) {
-            declare(parameter, index, vocabulary);
-        }
-    }
-    for (index, text) in formulas {
-        let formula = Formula::parse(&text.value, vocabulary).map_err(|error| {
-            let name = &parameters[index].name;
-            match settings.iter().find(|setting| setting.name == *name) {
-                Some(setting) => refused(setting, &error),
-                None => CaseError::at(text.locate(error.span()), Problem::Formula(error)),
+
+    /// Reads one parameter, if all that it uses is known.
+    pub(super) fn read_parameter(
+        &mut self,
+        index: usize,
+        item: usize,
+        value: &'s Spanned<DeValue<'s>>,
+    ) -> Result<(), Mistake> {
+        let name = self.items[item].name.clone();
+        let text = || self.root.as_text(&name, value);
+        let written = shapes::given(value, &self.vocabulary).map_err(|refusal| match refusal {
+            Refusal::Message(message) => Mistake::at(value.span(), Problem::Parameter(message)),
+            Refusal::Size(error, start) => {
+                let inner = start + error.span().start..start + error.span().end;
+                let place = text().map_or(value.span(), |text| text.locate(inner));
+                Mistake::at(place, Problem::Formula(error))
             }
         })?;
-        let found = formula.value_type();
-        if let Some(setting) = settings.iter().find(|set| set.name == parameters[index].name)
-            && let Some(kind) = kinds[index].filter(|kind| *kind != found)
+        let setting = self.settings.iter().find(|setting| setting.name == name);
+        let (given, text) = match setting {
+            None => (written, text().ok()),
+            Some(setting) => (set(setting, &written), None),
+        };
+        let text = text.unwrap_or_else(|| match &given {
+            Given::Formula(formula) => Text::made(formula.clone(), value.span()),
+            _ => Text::made(String::new(), value.span()),
+        });
+        let (kind, origin) = match given {
+            Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
+            Given::Drawn(recipe) => (recipe.kind(), Origin::Free(recipe)),
+            Given::List(values) => {
+                self.lists.push(name.clone());
+                let (kind, values) = shapes::list(values, self.assumed.is_diagonal(&name));
+                (kind, Origin::Fixed(values))
+            }
+            Given::Formula(_) => {
+                let formula = Formula::parse(&text.value, &self.vocabulary);
+                let formula = formula.map_err(|error| match setting {
+                    Some(setting) => refused(setting, &error),
+                    None => Mistake::at(text.locate(error.span()), Problem::Formula(error)),
+                })?;
+                (formula.value_type(), origin_of(formula))
+            }
+        };
+        if let Some(setting) = setting
+            && let Some(expected) = self.kind_of_written(value).filter(|known| *known != kind)
         {
-            let problem = format!("`{}` is a {kind}, and this is a {found}", setting.name);
+            let problem = format!("`{name}` is a {expected}, and this is a {kind}");
             return Err(set_to(setting, &problem, "give a value of the same kind"));
         }
-        parameters[index].kind = found;
-        parameters[index].origin = match constant(&formula) {
-            Some(values) => Origin::Fixed(values),
-            None => Origin::Formula(formula),
+        let whole = match (&origin, kind) {
+            (Origin::Fixed(values), Type::Scalar) => values.first().and_then(Rational::to_integer),
+            (Origin::Formula(formula), Type::Scalar) => {
+                Formula::whole_number(formula.text(), &self.vocabulary).ok()
+            }
+            _ => None,
         };
-        declare(&parameters[index], index, vocabulary);
+        self.vocabulary.add(&name, Meaning::Parameter(index), kind, Reach::Parameters);
+        if let Some(whole) = whole {
+            self.vocabulary.set_whole(&name, whole);
+        }
+        self.parameters[index] = Parameter { name, kind, origin };
+        Ok(())
     }
-    Ok(parameters)
+
+    /// The kind of what the file writes, where that is known without reading formulas.
+    fn kind_of_written(&self, value: &Spanned<DeValue<'_>>) -> Option<Type> {
+        match shapes::given(value, &self.vocabulary).ok()? {
+            Given::Fixed(kind, _) => Some(kind),
+            Given::Drawn(recipe) => Some(recipe.kind()),
+            Given::List(_) | Given::Formula(_) => None,
+        }
+    }
+}
+
+/// The numbers of a formula without names, or the formula.
+fn origin_of(formula: Formula) -> Origin {
+    match constant(&formula) {
+        Some(values) => Origin::Fixed(values),
+        None => Origin::Formula(formula),
+    }
 }
 
 /// The complaint about a value that was not in the file.
-fn refused(setting: &Setting, error: &FormulaError) -> CaseError {
+fn refused(setting: &Setting, error: &FormulaError) -> Mistake {
     let constant = "give a constant: 5/4, [1,2,3], [[…],[…],[…]]";
     set_to(setting, error.message(), error.help().unwrap_or(constant))
 }
 
-fn set_to(setting: &Setting, problem: &str, remedy: &str) -> CaseError {
+fn set_to(setting: &Setting, problem: &str, remedy: &str) -> Mistake {
     let message = format!("--set {}={}: {problem}", setting.name, setting.value);
-    CaseError::whole(Problem::Other { message, remedy: remedy.to_string() })
-}
-
-fn declare(parameter: &Parameter, index: usize, vocabulary: &mut Vocabulary) {
-    let meaning = Meaning::Parameter(index);
-    vocabulary.add(&parameter.name, meaning, parameter.kind, Reach::Parameters);
+    Mistake::whole(Problem::Other { message, remedy: remedy.to_string() })
 }
 
 /// The name that a key of the user's is.
-pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, CaseError> {
+pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, Mistake> {
     canonical_name(key.get_ref()).ok_or_else(|| {
-        let reason = "a name is letters, then digits, primes or _".to_string();
-        CaseError::at(key.span(), Problem::BadName { name: key.get_ref().to_string(), reason })
+        let (name, reason) = (key.get_ref().to_string(), NO_NAME.to_string());
+        Mistake::at(key.span(), Problem::BadName { name, reason })
     })
 }
 
-/// Complains about a setting whose name no parameter has.
-pub fn unknown_setting(settings: &[Setting], parameters: &[Parameter]) -> Result<(), CaseError> {
+/// Complains about settings whose names no parameter has.
+pub fn unknown_settings(root: &Section<'_>, settings: &[Setting], parameters: &[Parameter]) {
     let known = |name: &str| parameters.iter().any(|parameter| parameter.name == name);
-    match settings.iter().find(|setting| !known(&setting.name)) {
-        None => Ok(()),
-        Some(setting) => {
-            let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
-            let known =
-                if names.is_empty() { "no parameters".to_string() } else { names.join(", ") };
-            Err(CaseError::whole(Problem::Other {
-                message: format!("there is no parameter `{}` to set", setting.name),
-                remedy: format!("this case has {known}"),
-            }))
-        }
+    for setting in settings.iter().filter(|setting| !known(&setting.name)) {
+        let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
+        let known = if names.is_empty() { "no parameters".to_string() } else { names.join(", ") };
+        root.mistakes().add(Mistake::whole(Problem::Other {
+            message: format!("there is no parameter `{}` to set", setting.name),
+            remedy: format!("this case has {known}"),
+        }));
     }
 }
 
-fn set(setting: &Setting, name: &str) -> Given {
+/// What a setting makes of a parameter: a list stays what the file's value is.
+fn set(setting: &Setting, written: &Given) -> Given {
     let text = setting.value.trim();
     let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
-    if TENSORS.contains(&name)
-        && let Some(list) = list.filter(|list| !list.contains('['))
-    {
-        return Given::Formula(format!("diag({list})"));
+    let Some(list) = list.filter(|list| !list.contains('[')) else {
+        return Given::Formula(text.to_string());
+    };
+    let values: Result<Vec<Rational>, RationalError> =
+        list.split(',').map(|value| value.trim().parse()).collect();
+    match (written, values) {
+        (Given::List(_) | Given::Formula(_), Ok(values)) => Given::List(values),
+        (Given::Fixed(Type::Matrix(..), _), _) => Given::Formula(format!("diag({list})")),
+        (Given::Drawn(recipe), _) if matches!(recipe.kind(), Type::Matrix(..)) => {
+            Given::Formula(format!("diag({list})"))
+        }
+        _ => Given::Formula(text.to_string()),
     }
-    Given::Formula(text.to_string())
 }
 
 /// The components of a formula without names, exactly.
@@ -166,7 +198,7 @@ pub fn coefficients(
     range: &Range,
     settings: &[Setting],
     parameters: &mut Vec<Parameter>,
-) -> Result<(), CaseError> {
+) -> Result<(), Mistake> {
     for [i, j, k] in exponents {
         let name = format!("{prefix}[{i},{j},{k}]");
         let origin = match settings.iter().find(|setting| setting.name == name) {

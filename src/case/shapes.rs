@@ -8,13 +8,12 @@ use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
 use crate::mechanics::{Draw, Range, Recipe};
 use crate::number::rational::{Rational, RationalError};
 
-/// Names that a list of numbers gives a diagonal matrix.
-pub const TENSORS: [&str; 2] = ["I", "B"];
-
 /// What a value says.
 pub enum Given {
     /// Components that are fixed.
     Fixed(Type, Vec<Rational>),
+    /// Numbers that are a vector, or the diagonal of a matrix: its use decides.
+    List(Vec<Rational>),
     /// Components drawn anew for every state.
     Drawn(Recipe),
     /// Anything else: to be read as a formula.
@@ -35,37 +34,28 @@ impl From<String> for Refusal {
     }
 }
 
-impl Given {
-    /// Scalar, vector or matrix, where that is known before formulas are read.
-    pub fn kind(&self) -> Option<Type> {
-        match self {
-            Given::Fixed(kind, _) => Some(*kind),
-            Given::Drawn(recipe) => Some(recipe.kind()),
-            Given::Formula(_) => None,
-        }
+/// A list as a vector, or as a diagonal matrix.
+pub fn list(values: Vec<Rational>, is_diagonal: bool) -> (Type, Vec<Rational>) {
+    let count = values.len();
+    match is_diagonal {
+        false => (Type::Vector(count), values),
+        true => (Type::Matrix(count, count), diagonal(values)),
     }
 }
 
 /// The meaning of a value; sizes are whole numbers in the names of `scope`.
-pub fn given(
-    name: &str,
-    value: &Spanned<DeValue<'_>>,
-    scope: &dyn Scope,
-) -> Result<Given, Refusal> {
+pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, Refusal> {
     match value.get_ref() {
         DeValue::Integer(number) => fixed_scalar(&number.to_string()),
         DeValue::Float(number) => fixed_scalar(&number.to_string()),
         DeValue::Array(array) => {
             if let Some(entries) = numbers(array) {
                 let values = read_all(&entries)?;
-                return match values.len() {
-                    0 => Err("an empty list has no components".to_string().into()),
-                    count if TENSORS.contains(&name) => {
-                        let kind = sized(Type::Matrix(count, count))?;
-                        Ok(Given::Fixed(kind, diagonal(values)))
-                    }
-                    count => Ok(Given::Fixed(sized(Type::Vector(count))?, values)),
-                };
+                if values.is_empty() {
+                    return Err("an empty list has no components".to_string())?;
+                }
+                sized(Type::Vector(values.len()))?;
+                return Ok(Given::List(values));
             }
             let rows: Option<Vec<Vec<String>>> = array
                 .iter()

@@ -81,6 +81,7 @@ pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
+pub(crate) use names::mentions;
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;
 pub use value::{Table, Value};

@@ -81,6 +81,21 @@ pub fn canonical_name(text: &str) -> Option<String> {
     }
 }
 
+/// Does a name, or a component of what it stands for, occur in the text of a formula?
+pub(crate) fn mentions(text: &str, name: &str) -> bool {
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        let length = identifier_length(rest);
+        let found = canonical_name(&rest[..length]).unwrap_or_default();
+        let bare = found.trim_end_matches(|c: char| c.is_ascii_digit());
+        if [found.as_str(), bare, bare.trim_end_matches('_')].contains(&name) {
+            return true;
+        }
+        rest = &rest[length.max(letter.len_utf8())..];
+    }
+    false
+}
+
 /// How many bytes at the start of the text belong to one identifier; 0 if none starts here.
 pub(super) fn identifier_length(text: &str) -> usize {
     let mut primed = false;
@@ -150,6 +165,13 @@ mod tests {
             assert_eq!(canonical_name(text).as_deref(), Some(canonical), "`{text}`");
             assert_eq!(canonical_name(canonical).as_deref(), Some(canonical), "idempotent");
         }
+    }
+
+    #[test]
+    fn names_are_found_whole() {
+        assert!(mentions("2*k + gamma3", "γ") && mentions("k2*y", "k2"), "as they are spelt");
+        assert!(!mentions("k2x*y", "k") && !mentions("xk", "k"), "not inside others");
+        assert!(mentions("k2*y", "k"), "a component may be meant");
     }
 
     #[test]

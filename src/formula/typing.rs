@@ -92,8 +92,8 @@ impl Builder<'_> {
 
     /// Gives sums of no terms among some values the type of the others.
     pub fn fill_empty(&mut self, values: &mut [Operand]) {
-        let kinds = values.iter().map(|value| value.value_type);
-        let Some(kind) = kinds.filter(|kind| *kind != Type::Scalar).next() else { return };
+        let mut kinds = values.iter().map(|value| value.value_type);
+        let Some(kind) = kinds.find(|kind| *kind != Type::Scalar) else { return };
         for value in values {
             if self.is_empty_sum(value) {
                 *value = self.push(Operation::Zero, kind, value.span.clone());

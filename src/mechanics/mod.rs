@@ -87,9 +87,9 @@ impl System {
                 surface.into_iter().chain(typed(&ball.potential)).collect()
             }
             System::Lagrangian(lagrangian) => {
-                let carried = lagrangian.roles.iter().filter_map(|role| match role {
-                    Role::Carried(rate) => Some(rate),
-                    _ => None,
+                let carried = lagrangian.roles.iter().flat_map(|role| match role {
+                    Role::Carried(rate) => rate.as_slice(),
+                    _ => &[],
                 });
                 let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
                 let forces = lagrangian.forces.iter().map(|(_, force)| force);

@@ -89,7 +89,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// State variables in order: the system's own, then those that a case adds.
     pub state: Vec<Variable>,
-    /// The rates of the variables that a case adds to a built-in system.
+    /// The rates of the variables that a case adds to a built-in system, one after the other; that of
+    /// a vector may take several formulas.
     pub extension: Vec<Formula>,
     /// New variables as functions of the state, with a bracket for them.
     pub variables: Option<Box<Variables>>,
@@ -146,6 +147,17 @@ impl Model {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
         let own = self.system.functions().into_iter().chain(&self.extension);
         own.chain(level).chain(images).collect()
+    }
+
+    /// How many state variables are the system's own, before those that a case adds.
+    pub fn own_variables(&self) -> usize {
+        let mut added: usize = self.extension.iter().map(|rate| rate.value_type().size()).sum();
+        let mut count = self.state.len();
+        while added > 0 && count > 0 {
+            count -= 1;
+            added = added.saturating_sub(self.state[count].len());
+        }
+        count
     }
 
     /// The dimension of phase space.

@@ -4,15 +4,23 @@ use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Failure;
-use crate::case::CaseError;
+use crate::case::{CaseError, Mistake};
 
-/// A problem of the file `path` with the text `source`.
-pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Failure {
-    let span = error.span.clone().filter(|span| source.get(span.clone()).is_some());
-    let before = span.as_ref().map(|span| &source[..span.start]);
-    let line = before.map(|before| before.matches('\n').count() + 1);
-    let column = before.map(|before| before.chars().rev().take_while(|c| *c != '\n').count() + 1);
-    let (message, help) = (error.message(), error.help());
+/// The mistakes of the file `path` with the text `source`.
+pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec<Failure> {
+    let told = |mistake: &Mistake| of_mistake(path, source, mistake, colour);
+    error.mistakes().iter().map(told).collect()
+}
+
+/// All of them, as they are shown on a terminal.
+pub fn rendered(failures: &[Failure]) -> String {
+    let texts: Vec<&str> = failures.iter().map(|failure| failure.rendered.as_str()).collect();
+    texts.join("\n\n")
+}
+
+fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> Failure {
+    let span = mistake.span.clone().filter(|span| source.get(span.clone()).is_some());
+    let (message, help) = (mistake.message(), mistake.help());
     let title = Level::ERROR.primary_title(message.as_str());
     let group = match span {
         Some(span) => title.element(
@@ -21,7 +29,7 @@ pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Fai
         None => title.element(Level::NOTE.message(format!("in {path}"))),
     };
     let rendered = render(group, help.as_deref(), colour);
-    Failure { message, help, line, column, rendered }
+    Failure { message, help, line: mistake.line, column: mistake.column, rendered }
 }
 
 /// A problem that concerns a file, or a folder, as a whole.
