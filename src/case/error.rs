@@ -114,7 +114,7 @@ pub enum Problem {
     #[error("{}", .0.message())]
     Formula(FormulaError),
     /// A formula of another kind.
-    #[error("{what} should be a {expected}, but this is a {found}")]
+    #[error("{what} should be a {}, but this is a {}", told(*.expected, *.found), told(*.found, *.expected))]
     WrongKind {
         /// What the formula defines.
         what: String,
@@ -144,6 +144,14 @@ pub enum Problem {
         /// What to do.
         remedy: String,
     },
+}
+
+/// A kind, with its size where that is what differs.
+fn told(kind: Type, other: Type) -> String {
+    match kind.differs_in_size(other) {
+        true => kind.in_full(),
+        false => kind.to_string(),
+    }
 }
 
 impl CaseError {
@@ -213,6 +221,7 @@ impl Mistake {
             | Problem::Incomplete { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
             Problem::Cycle(..) => Some("write one of them out".to_string()),
+            Problem::BadName { .. } => Some("give it another name".to_string()),
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
             Problem::Io(_) | Problem::NotAFile => Some(

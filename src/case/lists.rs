@@ -79,16 +79,14 @@ fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
         list.iter().any(|known| known.span == mistake.span && known.message() == mistake.message())
     };
     let makes_others = other.mistakes.iter().any(|mistake| !is_in(mistake, &best.mistakes));
-    let mended = best
-        .mistakes
-        .iter()
-        .position(|mistake| may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes));
-    if let Some(index) = mended.filter(|_| makes_others) {
-        let (there, here) = match is_diagonal {
-            true => ("a diagonal matrix", "a vector"),
-            false => ("a vector", "a diagonal matrix"),
-        };
-        best.mistakes[index].problem = Problem::Other {
+    let (there, here) = match is_diagonal {
+        true => ("a diagonal matrix", "a vector"),
+        false => ("a vector", "a diagonal matrix"),
+    };
+    let would_be_mended =
+        |mistake: &&mut Mistake| may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes);
+    for mistake in best.mistakes.iter_mut().filter(would_be_mended).filter(|_| makes_others) {
+        mistake.problem = Problem::Other {
             message: format!(
                 "the list `{name}` is {there} in other formulas, and {here} in this one"
             ),

@@ -12,6 +12,8 @@ use crate::formula::canonical_name;
 pub struct Mistakes {
     list: RefCell<Vec<Mistake>>,
     failed: RefCell<FxHashSet<String>>,
+    /// Abbreviations that are not known yet because they contain rates.
+    waiting: RefCell<Vec<String>>,
     /// Are there tables that could not be read, so that any name may be unknown?
     blind: Cell<bool>,
 }
@@ -27,12 +29,33 @@ impl Mistakes {
         if mistake.unknown_name().is_some_and(|name| self.has_failed(name)) {
             return;
         }
+        let mistake = self.explained(mistake);
         let mut list = self.list.borrow_mut();
         let is_known =
             |known: &Mistake| known.span == mistake.span && known.message() == mistake.message();
         if !list.iter().any(is_known) {
             list.push(mistake);
         }
+    }
+
+    /// A name that is not known yet is no unknown one.
+    fn explained(&self, mistake: Mistake) -> Mistake {
+        let written = mistake.unknown_name().unwrap_or_default();
+        let name = canonical_name(written).unwrap_or_default();
+        let waiting = self.waiting.borrow();
+        match bases(&name).find_map(|base| waiting.iter().find(|known| *known == base)) {
+            None => mistake,
+            Some(name) => {
+                let message = format!("`{name}` contains a rate, which [field] defines");
+                let remedy = "write the formula out, without rates".to_string();
+                Mistake::new(mistake.span, Problem::Other { message, remedy })
+            }
+        }
+    }
+
+    /// Notes which abbreviations are not known yet.
+    pub fn wait_for(&self, names: Vec<String>) {
+        *self.waiting.borrow_mut() = names;
     }
 
     /// Notes that a name is declared, but not known for a mistake in its declaration.

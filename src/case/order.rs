@@ -75,6 +75,9 @@ impl Reading<'_, '_> {
                 self.settle_from(start, stage);
             }
         }
+        let waits = |item: &&Item<'_>| stage == Stage::State && item.state == State::Later;
+        let names = self.items.iter().filter(waits).map(|item| item.name.clone());
+        self.mistakes().wait_for(names.collect());
     }
 
     /// Reads a name, and before it those that it uses.
@@ -178,12 +181,5 @@ impl Reading<'_, '_> {
         let names: Vec<&str> = around.map(|item| self.items[*item].name.as_str()).collect();
         let problem = Problem::Cycle(names[0].to_string(), names.join(" → "));
         self.mistakes().add(Mistake::at(self.items[first].key.clone(), problem));
-    }
-
-    /// Is this an abbreviation that uses rates, before those have names?
-    pub(super) fn waits_for_rates(&self, written: &str) -> bool {
-        let name = canonical_name(written).unwrap_or_default();
-        let waits = |item: &Item<'_>| item.state == State::Later;
-        bases(&name).any(|base| self.items.iter().any(|item| item.name == base && waits(item)))
     }
 }

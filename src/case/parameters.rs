@@ -28,8 +28,8 @@ pub const NO_NAME: &str = "a name is letters, then digits, primes or _";
 impl<'r, 's> Reading<'r, 's> {
     /// Reads `[parameters]`; settings replace the file's values.
     pub(super) fn read_parameters(&mut self) {
-        let Some(section) = self.root.table("parameters") else { return };
-        for (key, value) in section.entries() {
+        let section = self.root.table("parameters");
+        for (key, value) in section.map(|section| section.entries()).unwrap_or_default() {
             let Some(name) = self.mistakes().keep(named(key)) else { continue };
             if self.parameters.iter().any(|known| known.name == name) {
                 let reason = "it is declared twice".to_string();
@@ -66,7 +66,7 @@ impl<'r, 's> Reading<'r, 's> {
         let setting = self.settings.iter().find(|setting| setting.name == name);
         let (given, text) = match setting {
             None => (written, text().ok()),
-            Some(setting) => (set(setting, &written), None),
+            Some(setting) => (self.set(setting, &written), None),
         };
         let text = text.unwrap_or_else(|| match &given {
             Given::Formula(formula) => Text::made(formula.clone(), value.span()),
@@ -108,6 +108,25 @@ impl<'r, 's> Reading<'r, 's> {
         }
         self.parameters[index] = Parameter { name, kind, origin };
         Ok(())
+    }
+
+    /// What a setting makes of a parameter: a list stays what the file's value is.
+    fn set(&mut self, setting: &Setting, written: &Given) -> Given {
+        let text = setting.value.trim();
+        let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+        let Some(list) = list.filter(|list| !list.contains('[')) else {
+            return Given::Formula(text.to_string());
+        };
+        let is_matrix = match written {
+            Given::Fixed(kind, _) => matches!(kind, Type::Matrix(..)),
+            Given::Drawn(recipe) => matches!(recipe.kind(), Type::Matrix(..)),
+            Given::List(_) | Given::Formula(_) => {
+                self.lists.push(setting.name.clone());
+                self.assumed.is_diagonal(&setting.name)
+            }
+        };
+        let text = if is_matrix { format!("diag({list})") } else { text.to_string() };
+        Given::Formula(text)
     }
 
     /// The kind of what the file writes, where that is known without reading formulas.
@@ -157,25 +176,6 @@ pub fn unknown_settings(root: &Section<'_>, settings: &[Setting], parameters: &[
             message: format!("there is no parameter `{}` to set", setting.name),
             remedy: format!("this case has {known}"),
         }));
-    }
-}
-
-/// What a setting makes of a parameter: a list stays what the file's value is.
-fn set(setting: &Setting, written: &Given) -> Given {
-    let text = setting.value.trim();
-    let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
-    let Some(list) = list.filter(|list| !list.contains('[')) else {
-        return Given::Formula(text.to_string());
-    };
-    let values: Result<Vec<Rational>, RationalError> =
-        list.split(',').map(|value| value.trim().parse()).collect();
-    match (written, values) {
-        (Given::List(_) | Given::Formula(_), Ok(values)) => Given::List(values),
-        (Given::Fixed(Type::Matrix(..), _), _) => Given::Formula(format!("diag({list})")),
-        (Given::Drawn(recipe), _) if matches!(recipe.kind(), Type::Matrix(..)) => {
-            Given::Formula(format!("diag({list})"))
-        }
-        _ => Given::Formula(text.to_string()),
     }
 }
 

@@ -31,6 +31,8 @@ pub struct Parts {
     pub free_draws: Vec<Draw>,
     /// Names that the file takes from the system or the language.
     pub hidden: Vec<String>,
+    /// What to say of names that look alike.
+    pub alike: Vec<String>,
     /// Was all of it read? Otherwise the equations of motion stand for nothing.
     pub is_whole: bool,
 }
@@ -111,6 +113,7 @@ impl<'r, 's> Reading<'r, 's> {
         let is_whole = read.is_some();
         let (system, chart) = read.unwrap_or((System::Field(Vec::new()), Chart::Free));
         let hidden = shadows::all(&self.vocabulary, self.hidden);
+        let alike = shadows::look_alikes(&self.vocabulary);
         let model = Model {
             system,
             vocabulary: self.vocabulary,
@@ -122,7 +125,7 @@ impl<'r, 's> Reading<'r, 's> {
             level: self.level,
         };
         let free_draws = self.state.draws;
-        Some((text.value, Parts { model, chart, free_draws, hidden, is_whole }))
+        Some((text.value, Parts { model, chart, free_draws, hidden, alike, is_whole }))
     }
 
     fn kind(&self) -> Option<Text> {
@@ -242,10 +245,7 @@ impl<'r, 's> Reading<'r, 's> {
         }
         self.settle(Stage::State);
         let variables = &self.state.variables;
-        let rates = section.and_then(|section| {
-            self.no_waiting(&section);
-            field::rates(&section, variables, &self.vocabulary)
-        });
+        let rates = section.and_then(|section| field::rates(&section, variables, &self.vocabulary));
         let level = self.read_level();
         self.level = level?;
         Some((System::Field(rates?), Chart::Free))
@@ -277,23 +277,6 @@ impl<'r, 's> Reading<'r, 's> {
     fn add_time(&mut self, reach: Reach) {
         if self.assumed.time && self.vocabulary.find(TIME).is_none() {
             self.state.add_time(&mut self.vocabulary, reach);
-        }
-    }
-
-    /// Complains about rates that use abbreviations which contain rates.
-    fn no_waiting(&self, section: &Section<'_>) {
-        for item in self.items.iter().filter(|item| self.waits_for_rates(&item.name)) {
-            let uses = |text: &str| crate::formula::mentions(text, &item.name);
-            for (key, value) in section.entries() {
-                let text = section.as_text(key.get_ref(), value);
-                if text.is_ok_and(|text| uses(&text.value)) {
-                    let message = format!("`{}` contains a rate, which [field] defines", item.name);
-                    let remedy = "write the formula out, without rates".to_string();
-                    let problem = Problem::Other { message, remedy };
-                    self.mistakes().add(Mistake::at(value.span(), problem));
-                    self.mistakes().fail(&item.name);
-                }
-            }
         }
     }
 

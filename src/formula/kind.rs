@@ -41,7 +41,7 @@ impl Type {
     }
 
     /// Both are vectors, or both are matrices, of different sizes.
-    pub(super) fn differs_in_size(self, other: Type) -> bool {
+    pub(crate) fn differs_in_size(self, other: Type) -> bool {
         self != other && std::mem::discriminant(&self) == std::mem::discriminant(&other)
     }
 
@@ -53,6 +53,19 @@ impl Type {
             Type::Vector(_) => format!("{name}{}", place + 1),
             Type::Matrix(_, columns) => {
                 format!("{name}[{},{}]", place / columns + 1, place % columns + 1)
+            }
+        }
+    }
+
+    /// A value with these components in order, between the brackets of lists and rows.
+    pub fn listed(self, components: &[String], [open, between, close]: [&str; 3]) -> String {
+        let list = |parts: &[String]| format!("{open}{}{close}", parts.join(between));
+        match self {
+            Type::Scalar => components.concat(),
+            Type::Vector(_) => list(components),
+            Type::Matrix(_, columns) => {
+                let rows: Vec<String> = components.chunks(columns.max(1)).map(list).collect();
+                list(&rows)
             }
         }
     }
@@ -92,6 +105,10 @@ mod tests {
         assert_eq!(Type::Matrix(2, 3).to_string(), "matrix of size 2×3", "rows, columns");
         assert_eq!(Type::Vector(12).component("x", 11), "x12", "the last");
         assert_eq!(Type::Matrix(2, 3).component("A", 4), "A[2,2]", "row by row");
+        let numbers: Vec<String> = (1..=4).map(|k| k.to_string()).collect();
+        let listed = |kind: Type| kind.listed(&numbers, ["[", ",", "]"]);
+        assert_eq!(listed(Type::Matrix(2, 2)), "[[1,2],[3,4]]", "by rows");
+        assert_eq!(listed(Type::Vector(4)), "[1,2,3,4]", "a list");
         assert_eq!(Type::Matrix(2, 1).indices(), ["[1,1]", "[2,1]"], "as they are written");
         assert_eq!(Type::Matrix(2, 3).size(), 6, "entries");
     }

@@ -81,7 +81,7 @@ pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
-pub(crate) use names::mentions;
+pub(crate) use names::skeleton;
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;
 pub use value::{Table, Value};
@@ -191,4 +191,9 @@ impl Formula {
         // a formula that was read has at least one node
         &self.arena.nodes[self.arena.nodes.len() - 1]
     }
+}
+
+/// Is this the name of a function, or of a form such as `sum`?
+pub(crate) fn is_function(name: &str) -> bool {
+    functions::is_function(name) || binders::is_form(name)
 }

@@ -5,7 +5,7 @@
 //! functions and potentials live. The two are kept apart because a `Phase<T>` differentiates the
 //! body, and so needs `Configuration<Dual<T>>`, but never the reverse.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use num_dual::Dual;
@@ -20,6 +20,29 @@ use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::scalar::Scalar;
 
+/// Beyond so many formulas in formulas, those inside are evaluated first.
+const DEEP: u32 = 64;
+
+/// Evaluates what the formula of `symbol` uses before it, so that long chains of formulas that use
+/// each other take no deep stack. `formula` gives the formula of a symbol that has no value yet.
+fn settle<'f>(
+    symbol: Symbol,
+    formula: impl Fn(Symbol) -> Option<&'f Formula>,
+    evaluate: impl Fn(Symbol),
+) {
+    let mut stack = vec![symbol];
+    while let Some(top) = stack.last().copied() {
+        let inner = formula(top).and_then(|own| own.symbols().find(|s| formula(*s).is_some()));
+        match inner {
+            Some(inner) => stack.push(inner),
+            None => {
+                evaluate(top);
+                stack.pop();
+            }
+        }
+    }
+}
+
 /// A point of configuration space over the scalar T: parameters and γ.
 pub struct Configuration<'m, T> {
     /// The case this belongs to.
@@ -28,11 +51,13 @@ pub struct Configuration<'m, T> {
     state: Vec<Value<T>>,
     axis_cosine: Option<T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    depth: Cell<u32>,
 }
 
 impl<'m, T: Scalar> Configuration<'m, T> {
     fn new(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: Vec<Value<T>>) -> Self {
-        Self { model, parameters, state, axis_cosine: None, known: RefCell::default() }
+        let (known, depth) = (RefCell::default(), Cell::new(0));
+        Self { model, parameters, state, axis_cosine: None, known, depth }
     }
 
     /// The same point with another value of state variable `index`.
@@ -88,14 +113,36 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
             return value.clone();
         }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.value(symbol);
+                    self.depth.set(DEEP);
+                },
+            );
+            return self.value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
         let value = match self.model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(index) => self.parameter(index),
             Meaning::State(index) => self.variable(index),
             Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
             Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
         };
+        self.depth.set(self.depth.get() - 1);
         self.known.borrow_mut().insert(symbol, value.clone());
         value
+    }
+
+    /// The formula behind a symbol that has no value yet.
+    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        if self.known.borrow().contains_key(&symbol) {
+            return None;
+        }
+        formula_of(self.model, symbol)
     }
 
     /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
@@ -132,11 +179,24 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 }
 
+/// The formula of an abbreviation, or of a parameter that has one.
+fn formula_of(model: &Model, symbol: Symbol) -> Option<&Formula> {
+    match model.vocabulary.entry(symbol).meaning {
+        Meaning::Abbreviation(index) => model.abbreviations.get(index),
+        Meaning::Parameter(index) => match &model.parameters[index].origin {
+            Origin::Formula(formula) => Some(formula),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 /// A point of phase space over the scalar T.
 pub struct Phase<'m, T> {
     /// The part without velocities.
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    depth: Cell<u32>,
     motion: OnceCell<Box<Motion<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// The rates of the system's own variables.
@@ -164,6 +224,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self {
             configuration: Configuration::new(model, parameters, state),
             known: RefCell::default(),
+            depth: Cell::new(0),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -196,6 +257,19 @@ impl<'m, T: Scalar> Phase<'m, T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
             return value.clone();
         }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.value(symbol);
+                    self.depth.set(DEEP);
+                },
+            );
+            return self.value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
         let model = self.model();
         let value = match model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(_) | Meaning::State(_) => self.configuration.value(symbol),
@@ -203,8 +277,17 @@ impl<'m, T: Scalar> Phase<'m, T> {
             Meaning::Quantity(Quantity::Rate(index)) => self.rate(index),
             Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
         };
+        self.depth.set(self.depth.get() - 1);
         self.known.borrow_mut().insert(symbol, value.clone());
         value
+    }
+
+    /// The formula behind a symbol that has no value yet.
+    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        if self.known.borrow().contains_key(&symbol) {
+            return None;
+        }
+        formula_of(self.model(), symbol)
     }
 
     /// The rate of state variable `index`.
