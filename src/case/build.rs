@@ -316,7 +316,9 @@ mod tests {
     fn long_chains_of_names_take_no_deep_stack() {
         let links: Vec<String> = (0..5000).map(|k| format!("b{} = 'b{k} + x'\n", k + 1)).collect();
         for order in [links.concat(), links.iter().rev().cloned().collect()] {
-            let text = format!("{FIELD}[[claim]]\nrate = 'b5000'\nequals = 'b5000'\n[let]\nb0 = 'x'\n{order}");
+            let text = format!(
+                "{FIELD}[[claim]]\nrate = 'b5000'\nequals = 'b5000'\n[let]\nb0 = 'x'\n{order}"
+            );
             let judged = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
                 let case = Case::parse(&text, &[]).expect("a case");
                 crate::verdict::judge(&case, &crate::verdict::Options::default()).map(|_| ())

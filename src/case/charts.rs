@@ -5,7 +5,7 @@ use super::formulas::formula;
 use super::section::Section;
 use super::state::{self, State, TIME};
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Chart, Draw, GivenChart, Meaning, Model, Reach, Vocabulary};
+use crate::mechanics::{Chart, Draw, GivenChart, Meaning, Model, Reach, Variable, Vocabulary};
 
 /// Reads it: inputs with ranges, and a formula for each state variable; nothing where there is a
 /// mistake.
@@ -27,6 +27,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
         entry.reach == Reach::Parameters && !is_input
     });
     let mut inputs = state::state(&table, &mut names, Reach::Phase);
+    add_time(section, model, &mut names, &mut inputs, draws);
     let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
     let mut broken = false;
     let mut abbreviations = model.abbreviations.clone();
@@ -62,7 +63,13 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
             }
         }
     }
-    take_inputs(&mut formulas, model, &mut names, &mut inputs, draws);
+    // A state variable of an input's name is that input.
+    for (formula, own) in formulas.iter_mut().zip(&model.state) {
+        let is_input = inputs.variables.iter().any(|v| v.name == own.name && v.kind == own.kind);
+        if formula.is_none() && is_input {
+            *formula = Formula::parse(&own.name, &names).ok();
+        }
+    }
     if broken {
         return None;
     }
@@ -87,28 +94,20 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
     Some(Chart::Given(Box::new(GivenChart { model, draws: inputs.draws, formulas })))
 }
 
-/// A state variable of an input's name is that input; time is one without being named.
-fn take_inputs(
-    formulas: &mut [Option<Formula>],
+/// Time is an input without being named, where the chart gives no formula for it.
+fn add_time(
+    section: &Section<'_>,
     model: &Model,
     names: &mut Vocabulary,
     inputs: &mut State,
     draws: &[Draw],
 ) {
-    let mut first = 0;
-    for (formula, own) in formulas.iter_mut().zip(&model.state) {
-        let range = first..first + own.len();
-        first = range.end;
-        if formula.is_some() {
-            continue;
-        }
-        let is_known = inputs.variables.iter().any(|v| v.name == own.name);
-        if own.name == TIME && own.kind == Type::Scalar && !is_known {
-            let own_draws = draws.get(range).unwrap_or_default().to_vec();
-            inputs.add(TIME, own.kind, own_draws, names, Reach::Phase);
-        }
-        if inputs.variables.iter().any(|v| v.name == own.name && v.kind == own.kind) {
-            *formula = Formula::parse(&own.name, names).ok();
-        }
+    let Some(index) = model.state.iter().position(|own| own.name == TIME) else { return };
+    let own = &model.state[index];
+    let is_given = section.has(TIME) || inputs.variables.iter().any(|v| v.name == TIME);
+    if own.kind == Type::Scalar && !is_given {
+        let first = model.state[..index].iter().map(Variable::len).sum();
+        let draws = draws.get(first..=first).unwrap_or_default().to_vec();
+        inputs.add(TIME, own.kind, draws, names, Reach::Phase);
     }
 }

@@ -91,7 +91,8 @@ impl Key {
         }
         let indices = written.iter().zip(sizes).map(|(text, size)| {
             let bound = |low: i64, high: i64| {
-                let within = 1 <= low && low <= high && high <= size as i64;
+                // a range may be empty, as 2..n−1 is for n = 2
+                let within = 1 <= low && low <= high + 1 && high <= size as i64;
                 within.then(|| (low - 1) as usize..high as usize).ok_or_else(|| {
                     let message = format!("the indices of `{name}` go from 1 to {size} there");
                     wrong(message, FORM)
@@ -164,7 +165,9 @@ impl Rates {
             && let Some((before, after)) = piece.whole_of(variable.kind)
         {
             let ends = (before.as_str(), after);
-            return Ok(vec![inside(&piece.text, ends, names, &what, Some(variable.kind), reach)?]);
+            let read = inside(&piece.text, ends, names, &what, Some(variable.kind), reach);
+            let read = read.map_err(|mistake| at_the_ends(mistake, variable));
+            return Ok(vec![read?]);
         }
         self.by_components(variable, names, &what, reach)
     }
@@ -199,7 +202,8 @@ impl Rates {
             let piece = self.piece_of(variable, &place)?;
             let (before, after) = piece.at(&place);
             let ends = (before.as_str(), after.as_str());
-            formulas.push(inside(&piece.text, ends, names, what, Some(kind), reach)?);
+            let read = inside(&piece.text, ends, names, what, Some(kind), reach);
+            formulas.push(read.map_err(|mistake| at_the_ends(mistake, variable))?);
         }
         Ok(formulas)
     }
@@ -226,6 +230,28 @@ impl Rates {
             let key = self.pieces.first().map_or(0..0, |piece| piece.key.clone());
             Mistake::at(key, Problem::Other { message, remedy })
         })
+    }
+}
+
+/// A family reaches beyond the ends of a chain: what to do about it.
+fn at_the_ends(mistake: Mistake, variable: &Variable) -> Mistake {
+    match &mistake.problem {
+        Problem::Formula(error) if error.is_out_of_range() => {
+            let (name, count) = (
+                &variable.name,
+                match variable.kind {
+                    Type::Matrix(rows, _) => rows,
+                    other => other.size(),
+                },
+            );
+            let remedy = format!(
+                "give \"{name}[1]'\" and \"{name}[{count}]'\" by themselves, or count around: \
+                 {name}[i+1 mod {count}]"
+            );
+            let message = error.message().to_string();
+            Mistake::new(mistake.span, Problem::Other { message, remedy })
+        }
+        _ => mistake,
     }
 }
 

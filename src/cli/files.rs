@@ -137,8 +137,8 @@ fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
             return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
-    let result =
-        judge(&case, options).map_err(|error| vec![plain(path, &error.to_string(), error.help())]);
+    let result = judge(&case, options)
+        .map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())]);
     let heading = Heading {
         title: case.title,
         source: case.source,

@@ -18,11 +18,19 @@ struct Fault {
     span: Span,
     help: Option<String>,
     unknown: Option<String>,
+    /// Is an index too large or too small?
+    out_of_range: bool,
 }
 
 impl FormulaError {
     pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
-        Self(Box::new(Fault { message: message.into(), span, help: None, unknown: None }))
+        Self(Box::new(Fault {
+            message: message.into(),
+            span,
+            help: None,
+            unknown: None,
+            out_of_range: false,
+        }))
     }
 
     pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
@@ -34,6 +42,17 @@ impl FormulaError {
     pub(super) fn with_unknown(mut self, name: &str) -> Self {
         self.0.unknown = Some(name.to_string());
         self
+    }
+
+    /// The same about an index that is too large or too small.
+    pub(super) fn with_index_out_of_range(mut self) -> Self {
+        self.0.out_of_range = true;
+        self
+    }
+
+    /// Is an index too large or too small?
+    pub fn is_out_of_range(&self) -> bool {
+        self.0.out_of_range
     }
 
     /// The name that is not known, as it is written, where that is the trouble.

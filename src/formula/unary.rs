@@ -86,7 +86,7 @@ impl Builder<'_> {
             found.map(|index| index - 1).ok_or_else(|| {
                 let message = format!("there is no {what} {index}");
                 let help = format!("`{}` has the {what}s 1 to {count}", self.written(a));
-                FormulaError::new(place.clone(), message).with_help(help)
+                FormulaError::new(place.clone(), message).with_help(help).with_index_out_of_range()
             })
         };
         match (a.value_type, indices) {
