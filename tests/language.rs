@@ -30,7 +30,7 @@ fn error(text: &str) -> Vec<(usize, String, String)> {
     let error = Case::parse(text, &[]).expect_err("the file has mistakes");
     let told = |mistake: &liouville::case::Mistake| {
         let help = mistake.help().unwrap_or_default();
-        (mistake.line.unwrap_or(0), mistake.message(), help)
+        (mistake.line.unwrap_or(0) as usize, mistake.message(), help)
     };
     error.mistakes().iter().map(told).collect()
 }
@@ -561,6 +561,21 @@ fn first_errors_say_what_to_write() {
     assert_eq!(params[0].2, "did you mean `parameters`?");
     let bare = error("title = 't'\nsystem = 'nonholonomic'\n[state]\nx = '0..1'\n");
     assert_eq!((bare[0].0, bare[0].1.as_str()), (2, "the file has no `lagrangian`"));
+}
+
+#[test]
+fn what_could_harm_a_terminal_or_a_run_is_refused() {
+    let head =
+        |title: &str| format!("title = \"{title}\"\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n");
+    for escape in ["\\u001b[2J", "\\u202e", "\\u009b"] {
+        let told = error(&head(escape));
+        assert!(told[0].1.contains("control character U+"), "{told:?}");
+    }
+    let claim = "[[claim]]\nlimit-cycle = 9223372036854775807\ncrossings = 8\nstart = [1, 0.1]\n";
+    let told = error(&format!("{}{claim}", head("t")));
+    assert!(told[0].1.contains("beyond all that can be followed"), "{told:?}");
+    let told = error(&format!("{}{} = 1\n", head("t"), "k".repeat(100_000)));
+    assert!(told[0].1.len() < 200, "long keys are cut");
 }
 
 #[test]

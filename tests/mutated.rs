@@ -142,7 +142,7 @@ fn changed_files_are_read_or_refused() {
     let catalogue = catalogue();
     let mut runner = proptest::test_runner::TestRunner::new(ProptestConfig {
         failure_persistence: None,
-        ..ProptestConfig::with_cases(1500)
+        ..ProptestConfig::with_cases(5000)
     });
     let strategy = (any::<prop::sample::Index>(), prop::collection::vec(change(), 1..5));
     runner

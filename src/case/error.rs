@@ -31,9 +31,9 @@ pub struct Mistake {
     /// The bytes of the file that it concerns; `None` for the file as a whole.
     pub span: Option<Range<usize>>,
     /// The line on which they begin, from 1.
-    pub line: Option<usize>,
+    pub line: Option<u32>,
     /// The column in which they begin, from 1.
-    pub column: Option<usize>,
+    pub column: Option<u32>,
 }
 
 /// What is wrong with a case file.
@@ -67,9 +67,9 @@ pub enum Problem {
         /// The table it stands in.
         section: String,
         /// The nearest key that is known.
-        nearest: Option<String>,
+        nearest: Option<&'static str>,
         /// All that are known.
-        known: Vec<&'static str>,
+        known: Box<[&'static str]>,
     },
     /// A key that is needed.
     #[error("{section} has no `{key}`")]
@@ -159,9 +159,9 @@ impl CaseError {
     pub(super) fn new(mut mistakes: Vec<Mistake>, text: &str) -> Self {
         for mistake in &mut mistakes {
             let before = mistake.span.as_ref().and_then(|span| text.get(..span.start));
-            mistake.line = before.map(|before| before.matches('\n').count() + 1);
-            mistake.column =
-                before.map(|before| before.chars().rev().take_while(|c| *c != '\n').count() + 1);
+            mistake.line = before.map(|before| before.matches('\n').count() as u32 + 1);
+            mistake.column = before
+                .map(|before| before.chars().rev().take_while(|c| *c != '\n').count() as u32 + 1);
         }
         // what concerns the file as a whole stands first
         mistakes.sort_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));

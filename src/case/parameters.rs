@@ -8,7 +8,7 @@ use super::order::{Item, ItemKind, Stage};
 use super::section::{Section, Text};
 use super::shapes::{self, Given, Refusal};
 use super::systems::Reading;
-use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name};
+use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name, excerpt};
 use crate::graph;
 use crate::mechanics::{Draw, Line, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
 use crate::number::rational::{Rational, RationalError};
@@ -161,7 +161,7 @@ fn set_to(setting: &Setting, problem: &str, remedy: &str) -> Mistake {
 /// The name that a key of the user's is.
 pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, Mistake> {
     canonical_name(key.get_ref()).ok_or_else(|| {
-        let (name, reason) = (key.get_ref().to_string(), NO_NAME.to_string());
+        let (name, reason) = (excerpt(key.get_ref()), NO_NAME.to_string());
         Mistake::at(key.span(), Problem::BadName { name, reason })
     })
 }

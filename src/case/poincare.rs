@@ -10,6 +10,9 @@ use crate::number::rational::Rational;
 /// Images of a line where a case does not say how many: as in the paper's figures.
 const DEFAULT_IMAGES: usize = 10;
 
+/// No picture has room for more orbits, crossings or images.
+const MOST: u32 = 1_000_000;
+
 /// An angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Angle {
@@ -127,9 +130,9 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
             .parse()
             .map_err(|_| wrong(&energy, format!("`{}` is no number", energy.value)))?,
         direction,
-        orbits: section.integer("orbits")?.map(|count| count as usize),
-        crossings: section.integer("crossings")?.map(|count| count as usize),
-        skip: section.integer("skip")?.unwrap_or(0) as usize,
+        orbits: section.count("orbits", MOST)?,
+        crossings: section.count("crossings", MOST)?,
+        skip: section.count("skip", MOST)?.unwrap_or(0),
         starts: starts(section)?,
         colour: section.text("colour")?.map(|text| text.value),
         backwards: section.boolean("backwards")?.unwrap_or(false),
@@ -138,7 +141,7 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
             .iter()
             .map(|text| text.value.parse().map_err(|message| wrong(text, message)))
             .collect::<Result<_, _>>()?,
-        images: section.integer("images")?.map_or(DEFAULT_IMAGES, |count| count as usize),
+        images: section.count("images", MOST)?.unwrap_or(DEFAULT_IMAGES),
     };
     Ok(plan)
 }

@@ -9,7 +9,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use super::error::{Mistake, Problem};
 use super::mistakes::Mistakes;
 use super::synonyms::meant;
-use crate::formula::nearest;
+use crate::formula::{excerpt, nearest};
 
 /// A string of the file with its place.
 #[derive(Clone, Debug)]
@@ -130,7 +130,15 @@ impl<'a> Section<'a> {
     pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, Mistake> {
         let number = |text: String| Ok(Text::made(text, value.span()));
         match value.get_ref() {
-            DeValue::String(text) => Ok(Text::new(text, value.span(), self.source)),
+            DeValue::String(text) => match text.chars().find(|c| is_control(*c)) {
+                None => Ok(Text::new(text, value.span(), self.source)),
+                Some(found) => {
+                    let message =
+                        format!("`{key}` contains the control character U+{:04X}", found as u32);
+                    let remedy = "write text without control characters".to_string();
+                    Err(Mistake::at(value.span(), Problem::Other { message, remedy }))
+                }
+            },
             DeValue::Integer(number_text) if number_text.radix() == 10 => {
                 number(number_text.to_string())
             }
@@ -158,6 +166,18 @@ impl<'a> Section<'a> {
             _ => None,
         }
         .ok_or_else(|| self.wrong_type(key, "a whole number", value.span()))
+    }
+
+    /// A whole number that is not larger than `most`.
+    pub fn count(&self, key: &'static str, most: u32) -> Result<Option<usize>, Mistake> {
+        match self.integer(key)? {
+            Some(found) if found > most => {
+                let expected = format!("a whole number up to {most}");
+                let span = self.value(key).map_or(self.span.clone(), Spanned::span);
+                Err(self.wrong_type(key, &expected, span))
+            }
+            found => Ok(found.map(|found| found as usize)),
+        }
     }
 
     /// A truth value.
@@ -246,15 +266,21 @@ impl<'a> Section<'a> {
             self.mistakes.add(Mistake::at(
                 key.span(),
                 Problem::UnknownKey {
-                    key: name.to_string(),
+                    key: excerpt(name),
                     section: self.name.clone(),
-                    nearest: nearest.or_else(|| meant(name, known)).map(str::to_string),
-                    known: known.to_vec(),
+                    nearest: nearest.or_else(|| meant(name, known)),
+                    known: known.into(),
                 },
             ));
         }
         all
     }
+}
+
+/// Would the character command a terminal, or turn the direction of text?
+fn is_control(c: char) -> bool {
+    let is_space = matches!(c, '\n' | '\t' | '\r');
+    (c.is_control() && !is_space) || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// The numbers of an array of numbers, as they are written.

@@ -331,8 +331,8 @@ impl<'r, 's> Reading<'r, 's> {
         if let Some(section) = self.root.table("state") {
             state::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state);
         }
-        let added = self.state.variables[first..].iter();
-        if let Some(variable) = added.filter(|variable| variable.name != TIME).next()
+        let mut added = self.state.variables[first..].iter();
+        if let Some(variable) = added.find(|variable| variable.name != TIME)
             && self.root.value("field").is_none()
         {
             let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);

@@ -87,7 +87,7 @@ impl fmt::Display for FormulaError {
 impl std::error::Error for FormulaError {}
 
 /// The text shown for a piece of a formula in a message; a long one is cut in the middle.
-pub(super) fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 60;
     const END: usize = 25;
     let count = text.chars().count();
