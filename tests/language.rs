@@ -475,6 +475,26 @@ identity = "x² + y² = square"
 }
 
 #[test]
+fn a_number_that_sizes_are_made_of_does_not_change() {
+    let case = |claim: &str| {
+        format!(
+            "title = 't'\n[parameters]\nn = 3\nk = 2\nS = 'skew(2, -1..1)'\n[let]\nN = 'n − 1'\n[state]\n\
+             x = 'vector(n, 0.5..1)'\n[field]\n\"x[i]'\" = 'k*x[i]^k'\n[[claim]]\n{claim}\n"
+        )
+    };
+    let refused = |claim: &str| {
+        let told = error(&case(claim));
+        assert!(told[0].1.contains("and cannot change"), "{claim}: {told:?}");
+    };
+    refused("limit = 'n*x[1]'\nequals = '0*x[1]'\nparameter = 'n'");
+    refused("limit = 'x[k]'\nequals = 'x[1]'\nparameter = 'k'");
+    refused("limit = 'tr(S^k)'\nequals = '2'\nparameter = 'k'");
+    refused("symmetry = { x = 'sum(i, 1..N, 1)*x', n = 'n' }");
+    settled(&case("limit = 'x[1]^k + k*x[2]'\nequals = '1'\nparameter = 'k'"));
+    settled(&case("symmetry = { x = '−x', k = 'k' }\nexpect = 'fails'"));
+}
+
+#[test]
 fn an_abbreviation_waits_for_rates_by_its_names_alone() {
     settled(
         r#"

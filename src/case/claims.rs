@@ -62,6 +62,12 @@ pub fn read(
         note: section.text("note")?.map(|text| text.value),
         kind,
     };
+    let formulas = claim.kind.formulas();
+    let rigid = |index: &usize| model.is_rigid(*index, &formulas);
+    if let Some(index) = claim.kind.changes().into_iter().find(rigid) {
+        let name = &model.parameters[index].name;
+        return Err(rigid_parameter(section, claim.kind.name(), name));
+    }
     match claim.kind.objection(model).filter(|_| context.is_whole) {
         None => Ok(claim),
         Some(objection) => {
@@ -69,6 +75,15 @@ pub fn read(
             Err(entries.complaint(claim.kind.name(), objection.message, objection.remedy))
         }
     }
+}
+
+/// The complaint that a claim changes a number that sizes and indices are made of.
+fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
+    let span = section.value(key).map_or(section.span.clone(), |value| value.span());
+    let message =
+        format!("`{name}` stands in a size, an index or a power of a matrix, and cannot change");
+    let remedy = "use another parameter in the place of the one".to_string();
+    Mistake::at(span, Problem::Other { message, remedy })
 }
 
 /// Reads one claim about motion.

@@ -5,7 +5,7 @@ use super::family::{Key, Rates, Unreadable};
 use super::formulas::formula;
 use super::section::{Section, Text};
 use super::state::TIME;
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Type, excerpt};
 use crate::mechanics::{LevelEquation, LevelFunction, Reach, Variable, Vocabulary};
 
 /// Reads rates: the formulas of each variable whose rate is given, under its name with or without
@@ -69,7 +69,7 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         Unreadable::Unknown(_) => {
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
-            (format!("`{key}` is the rate of no state variable"), remedy)
+            (format!("`{}` is the rate of no state variable", excerpt(key)), remedy)
         }
     };
     Problem::Other { message, remedy }

@@ -74,7 +74,10 @@ impl<'r, 's> Reading<'r, 's> {
         });
         let (kind, origin) = match given {
             Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
-            Given::Drawn(recipe) => (recipe.kind(), Origin::Free(recipe)),
+            Given::Drawn(recipe) => {
+                self.sizes.push(text.value.clone());
+                (recipe.kind(), Origin::Free(recipe))
+            }
             Given::List(values) => {
                 self.lists.push(name.clone());
                 let (kind, values) = shapes::list(values, self.assumed.is_diagonal(&name));

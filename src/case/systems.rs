@@ -1,6 +1,6 @@
 //! `system = "…"`: which equations of motion, with their names, states and level sets.
 
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 use super::arbitrary::Arbitrary;
 use super::build::Assumed;
@@ -12,7 +12,7 @@ use super::parameters::Setting;
 use super::section::{Section, Text};
 use super::state::{self, State, TIME};
 use super::{ball, body, feedback, lagrangian, shadows};
-use crate::formula::{Formula, Type, canonical_name};
+use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
     Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
@@ -47,6 +47,8 @@ pub(super) struct Reading<'r, 's> {
     pub parameters: Vec<Parameter>,
     /// Parameters that are lists: vectors, or diagonal matrices.
     pub lists: Vec<String>,
+    /// The texts of parameters that are drawn, which may have sizes.
+    pub sizes: Vec<String>,
     pub state: State,
     /// Names of `[parameters]` and `[let]` that are or will be read.
     pub items: Vec<Item<'s>>,
@@ -74,6 +76,7 @@ impl<'r, 's> Reading<'r, 's> {
             vocabulary: Vocabulary::default(),
             parameters: Vec::new(),
             lists: Vec::new(),
+            sizes: Vec::new(),
             state: State { variables: Vec::new(), draws: Vec::new() },
             items: Vec::new(),
             abbreviations: Vec::new(),
@@ -112,6 +115,7 @@ impl<'r, 's> Reading<'r, 's> {
         self.settle(Stage::Rates);
         let is_whole = read.is_some();
         let (system, chart) = read.unwrap_or((System::Field(Vec::new()), Chart::Free));
+        let fixed = self.fixed();
         let hidden = shadows::all(&self.vocabulary, self.hidden);
         let alike = shadows::look_alikes(&self.vocabulary);
         let model = Model {
@@ -123,9 +127,28 @@ impl<'r, 's> Reading<'r, 's> {
             variables: None,
             abbreviations: self.abbreviations,
             level: self.level,
+            fixed,
         };
         let free_draws = self.state.draws;
         Some((text.value, Parts { model, chart, free_draws, hidden, alike, is_whole }))
+    }
+
+    /// The whole numbers that sizes, and keys of `[field]`, are written with.
+    fn fixed(&self) -> Vec<Symbol> {
+        let mut texts = self.sizes.clone();
+        let keys = self.root.table("field").map(|section| section.entries()).unwrap_or_default();
+        texts.extend(keys.into_iter().map(|(key, _)| key.get_ref().to_string()));
+        let ranges = self.root.table("state").map(|section| section.entries()).unwrap_or_default();
+        texts.extend(ranges.into_iter().filter_map(|(_, value)| match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => None,
+        }));
+        let names = texts.iter().flat_map(|text| names_in(text));
+        let whole = |name: String| {
+            let is_whole = self.vocabulary.find(&name)?.whole.is_some();
+            self.vocabulary.lookup(&name).filter(|_| is_whole).map(|(symbol, _)| symbol)
+        };
+        names.filter_map(whole).collect()
     }
 
     fn kind(&self) -> Option<Text> {

@@ -131,6 +131,10 @@ impl Statement for Symmetry {
         self.map.formulas().into_iter().chain(&self.time).collect()
     }
 
+    fn changes(&self) -> Vec<usize> {
+        self.map.parameters.iter().map(|(index, _)| *index).collect()
+    }
+
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let time = self.time.as_ref().map_or_else(T::one, |time| jet.phase.scalar(time));
         let there = self.map.point(&jet.phase);
@@ -151,6 +155,10 @@ impl Statement for Reversor {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.0.formulas()
+    }
+
+    fn changes(&self) -> Vec<usize> {
+        self.0.parameters.iter().map(|(index, _)| *index).collect()
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {

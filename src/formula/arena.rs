@@ -131,6 +131,8 @@ pub(super) struct Arena {
     pub nodes: Vec<Node>,
     /// Each symbol once, in order of first use.
     pub symbols: Vec<(Symbol, Type)>,
+    /// Symbols whose values are written into the formula: those in indices, bounds and sizes.
+    pub fixed: Vec<Symbol>,
     slots: HashMap<Symbol, usize>,
 }
 

@@ -19,9 +19,8 @@ use super::error::{FormulaError, Span};
 use super::kind::Type;
 use super::lexer::Kind;
 use super::names::canonical_name;
-use super::parser::{Parsed, Parser, SUM};
+use super::parser::{Parsed, Parser};
 use super::typing::Operand;
-use crate::number::rational::Rational;
 
 /// How many tokens are read at most while indexed forms are written out.
 const MOST_TOKENS: usize = 1_000_000;
@@ -73,10 +72,10 @@ struct Head {
 }
 
 /// What the values of the body are put together to.
-struct Term {
-    operand: Operand,
+pub(super) struct Term {
+    pub operand: Operand,
     /// Is it the first for a new value of the first index?
-    opens_row: bool,
+    pub opens_row: bool,
 }
 
 impl<'t> Parser<'t> {
@@ -142,7 +141,7 @@ impl<'t> Parser<'t> {
             return Err(self.unclosed(&open));
         }
         let span = span.start..self.advance().end;
-        self.assemble(name, terms, head.indices.len(), span)
+        self.builder.assemble(name, terms, head.indices.len(), span)
     }
 
     /// Reads the indices and passes over conditions, up to the body.
@@ -299,30 +298,6 @@ impl<'t> Parser<'t> {
         Ok(true)
     }
 
-    /// `i ≠ j`, `1 < i ≤ n`, between whole numbers.
-    fn condition(&mut self) -> Result<bool, FormulaError> {
-        let (mut left, start) = self.whole("a side of a condition")?;
-        let mut holds = true;
-        if self.peek() != Kind::Comparison {
-            let error = FormulaError::new(start, "a condition should stand here");
-            return Err(error.with_help("write `i = j`, `i ≠ j`, `i < j` or the like"));
-        }
-        while self.peek() == Kind::Comparison {
-            let sign = self.advance();
-            let (right, _) = self.whole("a side of a condition")?;
-            holds &= match self.text(&sign) {
-                "=" | "==" => left == right,
-                "≠" | "!=" => left != right,
-                "<" => left < right,
-                "≤" | "<=" => left <= right,
-                ">" => left > right,
-                _ => left >= right,
-            };
-            left = right;
-        }
-        Ok(holds)
-    }
-
     /// `if(condition, a, b)`, behind the name.
     fn choice(&mut self, span: Span) -> Parsed {
         let open = self.advance();
@@ -355,129 +330,5 @@ impl<'t> Parser<'t> {
         }
         let error = FormulaError::new(open.clone(), "this has too many terms when written out");
         Err(error.with_help(format!("at most {MOST_TOKENS} numbers, names and signs are read")))
-    }
-
-    fn assemble(&mut self, name: &str, terms: Vec<Term>, indices: usize, span: Span) -> Parsed {
-        let rows = terms.iter().filter(|term| term.opens_row).count();
-        let starts: Vec<bool> = terms.iter().map(|term| term.opens_row).collect();
-        let mut parts: Vec<Operand> = terms.into_iter().map(|term| term.operand).collect();
-        match name {
-            "sum" => self.sum_of(&parts, span),
-            "product" => self.product_of(&parts, span),
-            _ if parts.is_empty() => {
-                Err(FormulaError::new(span, format!("this {name} has no components")))
-            }
-            "vector" if indices == 1 => {
-                self.builder.fill_empty(&mut parts);
-                self.builder.vector(&parts, span)
-            }
-            "matrix" if indices == 1 => {
-                self.builder.fill_empty(&mut parts);
-                self.builder.rows(&parts, span)
-            }
-            "matrix" if indices == 2 => {
-                let mut lines: Vec<Operand> = Vec::with_capacity(rows);
-                let mut rest = &parts[..];
-                while !rest.is_empty() {
-                    let offset = starts.len() - rest.len();
-                    let next = (offset + 1..starts.len()).find(|k| starts[*k]);
-                    let (row, others) = rest.split_at(next.unwrap_or(starts.len()) - offset);
-                    lines.push(self.builder.vector(row, span.clone())?);
-                    rest = others;
-                }
-                self.builder.rows(&lines, span)
-            }
-            _ => {
-                let message = format!("a {name} has {indices} indices here, which is too many");
-                Err(FormulaError::new(span, message).with_help(usage(name)))
-            }
-        }
-    }
-
-    fn sum_of(&mut self, terms: &[Operand], span: Span) -> Parsed {
-        let is_empty = |term: &&Operand| self.builder.is_empty_sum(term);
-        let kept: Vec<&Operand> = terms.iter().filter(|term| !is_empty(term)).collect();
-        let Some(first) = kept.first() else {
-            return Ok(self.builder.push(Operation::Zero, Type::Scalar, span));
-        };
-        if let Some(wrong) = kept.iter().find(|term| term.value_type != first.value_type) {
-            let (first, own) = (first.value_type.in_full(), wrong.value_type.in_full());
-            let message = format!("the terms of a sum are of one kind, not a {first} and a {own}");
-            return Err(FormulaError::new(wrong.span.clone(), message));
-        }
-        let nodes: Vec<usize> = kept.iter().map(|term| term.node).collect();
-        if first.value_type != Type::Scalar {
-            let operation = Operation::Sum(nodes.into());
-            return Ok(self.builder.push(operation, first.value_type, span));
-        }
-        let fold = |numbers: &[&Rational]| {
-            Some(numbers.iter().fold(Rational::from(0), |sum, number| &sum + number))
-        };
-        Ok(self.builder.push_folded(Operation::Sum(nodes.clone().into()), &nodes, span, fold))
-    }
-
-    fn product_of(&mut self, factors: &[Operand], span: Span) -> Parsed {
-        if let Some(wrong) = factors.iter().find(|factor| factor.value_type != Type::Scalar) {
-            let message = format!("`product` takes scalars, this is a {}", wrong.value_type);
-            return Err(FormulaError::new(wrong.span.clone(), message));
-        }
-        if factors.is_empty() {
-            let one = Operation::Number(Rational::from(1));
-            return Ok(self.builder.push(one, Type::Scalar, span));
-        }
-        let nodes: Vec<usize> = factors.iter().map(|factor| factor.node).collect();
-        let fold = |numbers: &[&Rational]| {
-            Some(numbers.iter().fold(Rational::from(1), |product, number| &product * number))
-        };
-        Ok(self.builder.push_folded(Operation::Product(nodes.clone().into()), &nodes, span, fold))
-    }
-
-    /// A whole number that the file fixes: an index, a bound or a size.
-    pub(super) fn whole(&mut self, what: &str) -> Result<(i64, Span), FormulaError> {
-        let outer = std::mem::replace(&mut self.whole_numbers, true);
-        let result = self.whole_inside(what);
-        self.whole_numbers = outer;
-        result
-    }
-
-    fn whole_inside(&mut self, what: &str) -> Result<(i64, Span), FormulaError> {
-        let value = self.expression(SUM)?;
-        let (number, span) = self.taken(&value, what)?;
-        if !self.is_modulo() {
-            return Ok((number, span));
-        }
-        self.advance();
-        let modulus = self.expression(SUM)?;
-        let (modulus, place) = self.taken(&modulus, what)?;
-        if modulus < 1 {
-            let message = format!("`mod` counts around a positive number, not {modulus}");
-            return Err(FormulaError::new(place, message));
-        }
-        Ok(((number - 1).rem_euclid(modulus) + 1, span.start..place.end))
-    }
-
-    /// Does `mod` stand here, in an index?
-    pub(super) fn is_modulo(&self) -> bool {
-        self.whole_numbers && self.peek() == Kind::Name && self.text(&self.token().span) == "mod"
-    }
-
-    fn taken(&mut self, operand: &Operand, what: &str) -> Result<(i64, Span), FormulaError> {
-        let value = self.builder.arena.take_constant(operand.node);
-        let limit = 1 << 31;
-        let whole = value.and_then(|value| value.to_integer()).filter(|n| n.abs() < limit);
-        whole.map(|whole| (whole, operand.span.clone())).ok_or_else(|| {
-            let message = format!("{what} is a whole number that the file fixes");
-            FormulaError::new(operand.span.clone(), message)
-                .with_help("use numbers, indices, and parameters such as n = 4")
-        })
-    }
-
-    /// The value of an index of a form around this place.
-    pub(super) fn bound(&self, name: &str) -> Option<i64> {
-        if self.bindings.is_empty() {
-            return None;
-        }
-        let canonical = canonical_name(name)?;
-        self.bindings.iter().rev().find(|(known, _)| *known == canonical).map(|(_, value)| *value)
     }
 }

@@ -41,6 +41,7 @@
 
 mod algebra;
 mod arena;
+mod assemble;
 mod binders;
 mod diagnosis;
 mod elementary;
@@ -66,6 +67,7 @@ mod unary;
 mod unknown;
 mod value;
 mod weights;
+mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -82,7 +84,7 @@ pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
-pub(crate) use names::skeleton;
+pub(crate) use names::{names_in, skeleton};
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;
 pub use value::{Table, Value};
@@ -123,6 +125,12 @@ impl Formula {
     /// The symbols used, each once, in the order they are first written.
     pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
         self.arena.symbols.iter().map(|(symbol, _)| *symbol)
+    }
+
+    /// The symbols whose values are written into the formula: the whole numbers in its indices, bounds,
+    /// sizes and powers of matrices.
+    pub fn fixed_symbols(&self) -> &[Symbol] {
+        &self.arena.fixed
     }
 
     /// The number the formula is, such as `3/7` or `-0.5`; `None` if it contains anything else.

@@ -140,6 +140,18 @@ pub fn canonical_name(text: &str) -> Option<String> {
     }
 }
 
+/// The canonical names that occur in a text.
+pub(crate) fn names_in(text: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        let length = identifier_length(rest);
+        names.extend(canonical_name(&rest[..length]));
+        rest = &rest[length.max(letter.len_utf8())..];
+    }
+    names
+}
+
 /// The name with look-alike letters of other alphabets replaced: two names that look alike have one.
 pub(crate) fn skeleton(name: &str) -> String {
     let is_usual = |c: char| c.is_ascii() || ('α'..='ω').contains(&c);

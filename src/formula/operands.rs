@@ -76,13 +76,17 @@ impl Parser<'_> {
 
     /// A name in an index, a bound or a size.
     fn known_number(&mut self, name: &str, span: Span) -> Parsed {
-        let known = |name: &str| self.scope.whole_number(name);
-        let value = known(name).or_else(|| known(&canonical_name(name)?));
-        let Some(value) = value else {
+        let known = |name: &str| Some((self.scope.lookup(name)?.0, self.scope.whole_number(name)?));
+        let found = known(name).or_else(|| known(&canonical_name(name)?));
+        let Some((symbol, value)) = found else {
             let message = format!("`{name}` is not a whole number that the file fixes");
             let help = "use numbers, indices, and parameters such as n = 4";
             return Err(FormulaError::new(span, message).with_help(help));
         };
+        let fixed = &mut self.builder.arena.fixed;
+        if !fixed.contains(&symbol) {
+            fixed.push(symbol);
+        }
         let number = Operation::Number(Rational::from(value));
         Ok(self.builder.push(number, Type::Scalar, span))
     }

@@ -31,6 +31,8 @@ pub(super) struct Parser<'t> {
     inside_bars: bool,
     /// The indices of the forms around this place, with their values.
     pub(super) bindings: Vec<(String, i64)>,
+    /// How often an index of such a form was read.
+    pub(super) indices_read: usize,
     /// Are names read as the whole numbers they stand for, as in indices?
     pub(super) whole_numbers: bool,
     /// Tokens read while indexed forms are written out.
@@ -72,6 +74,7 @@ impl<'t> Parser<'t> {
             innermost: None,
             inside_bars: false,
             bindings: Vec::new(),
+            indices_read: 0,
             whole_numbers: false,
             written_out: 0,
         };
@@ -167,9 +170,12 @@ impl<'t> Parser<'t> {
             return Ok(base);
         }
         let caret = self.advance();
-        let start = self.position;
+        let (start, indices) = (self.position, self.indices_read);
         let mut exponent = self.nested(&caret, Self::prefix)?;
+        // a power of a scalar keeps the names in it, unless an index stands beside them
+        let is_numbered = base.value_type != Type::Scalar || self.indices_read > indices;
         if self.builder.arena.constant(exponent.node).is_none()
+            && is_numbered
             && let Some(number) = self.whole_again(start, &exponent)
         {
             exponent = number;
@@ -183,6 +189,7 @@ impl<'t> Parser<'t> {
             return None;
         }
         let (end, nodes) = (self.position, self.builder.arena.nodes.len());
+        let fixed = self.builder.arena.fixed.len();
         self.position = start;
         let outer = std::mem::replace(&mut self.whole_numbers, true);
         let again = self.prefix();
@@ -191,6 +198,7 @@ impl<'t> Parser<'t> {
         let number = again.ok().filter(|again| self.builder.arena.constant(again.node).is_some());
         if number.is_none() {
             self.builder.arena.nodes.truncate(nodes);
+            self.builder.arena.fixed.truncate(fixed);
         }
         number
     }

@@ -6,7 +6,7 @@ use super::System;
 use super::recipe::{Draw, Recipe};
 use super::variables::Variables;
 use super::vocabulary::{Meaning, Reach, Vocabulary};
-use crate::formula::{Formula, Scope, Type, Value};
+use crate::formula::{Formula, Scope, Symbol, Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -98,6 +98,8 @@ pub struct Model {
     pub abbreviations: Vec<Formula>,
     /// The equations of the level set.
     pub level: Vec<LevelEquation>,
+    /// Names whose values are written into the case outside formulas: in sizes, and in keys.
+    pub fixed: Vec<Symbol>,
 }
 
 impl Model {
@@ -113,6 +115,7 @@ impl Model {
             variables: None,
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
+            fixed: self.fixed.clone(),
         };
         for (symbol, entry) in self.vocabulary.iter() {
             let Meaning::Abbreviation(index) = entry.meaning else { continue };
@@ -135,6 +138,36 @@ impl Model {
     pub fn has_antiderivative(&self, formula: &Formula) -> bool {
         let all = self.vocabulary.with_abbreviations(formula, &self.abbreviations);
         all.into_iter().any(Formula::has_antiderivative)
+    }
+
+    /// Is the value of a parameter written into the case, or into one of these formulas, as a size or an
+    /// index? Then the parameter cannot change.
+    pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
+        let given = self.parameters.iter().filter_map(|parameter| match &parameter.origin {
+            Origin::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let own = self.functions().into_iter().chain(&self.abbreviations).chain(given);
+        let all = own.chain(formulas.iter().copied());
+        let symbols = all.flat_map(Formula::fixed_symbols).chain(&self.fixed).copied();
+        let mut reached: Vec<Symbol> = symbols.collect();
+        let mut next = 0;
+        while let Some(symbol) = reached.get(next).copied() {
+            next += 1;
+            let formula = match self.vocabulary.entry(symbol).meaning {
+                Meaning::Parameter(index) if index == parameter => return true,
+                Meaning::Parameter(index) => match &self.parameters[index].origin {
+                    Origin::Formula(formula) => Some(formula),
+                    _ => None,
+                },
+                Meaning::Abbreviation(index) => self.abbreviations.get(index),
+                _ => None,
+            };
+            let inner = formula.into_iter().flat_map(Formula::symbols);
+            let new: Vec<Symbol> = inner.filter(|symbol| !reached.contains(symbol)).collect();
+            reached.extend(new);
+        }
+        false
     }
 
     /// The formulas that are functions of the state before anything is claimed: the equations of

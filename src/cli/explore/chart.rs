@@ -124,6 +124,12 @@ fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, 
         let what = format!("`{name}` is computed from other parameters");
         return Err(wrong(&what, "vary those that it is computed from"));
     }
+    if let Coordinate::Parameter { index, .. } = coordinate
+        && case.model.is_rigid(index, &[])
+    {
+        let what = format!("`{name}` is a size, or stands in an index");
+        return Err(wrong(&what, "vary another parameter"));
+    }
     Ok((name, Axis { coordinate, from, to, count }))
 }
 
