@@ -405,6 +405,15 @@ identity = "(J, [1,1,1]) = 33"
     assert_eq!(told.len(), 1, "{told:?}");
     let message = "the list `A` is a vector in other formulas, and a diagonal matrix in this one";
     assert_eq!((told[0].0, told[0].1.as_str()), (9, message));
+    let late = "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n\
+                [body]\nshape = 'ball'\n[let]\nX = 'I*ω'\n[[claim]]\nintegral = '(X,γ) + foo'\n[[claim]]\n\
+                integral = '(X,X) + bar'\n[[claim]]\nintegral = '(γ,γ) + ω3'\n";
+    let told = error(late);
+    let lines: Vec<usize> = told.iter().map(|(line, _, _)| *line).collect();
+    assert_eq!(lines, [12, 14, 16], "other mistakes do not mislead: {told:?}");
+    assert!(told[2].1.contains("unequal weight"), "{told:?}");
+    let unequal = error(&late.replace(" + foo", "").replace(" + bar", ""));
+    assert!(unequal[0].1.contains("unequal weight"), "{unequal:?}");
     let set = |value: &str| {
         let setting = liouville::case::Setting { name: "I".into(), value: value.into() };
         let text = "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\n\

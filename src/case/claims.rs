@@ -72,7 +72,8 @@ pub fn read(
         None => Ok(claim),
         Some(objection) => {
             let entries = Entries { section, model };
-            Err(entries.complaint(claim.kind.name(), objection.message, objection.remedy))
+            let name = claim.kind.name();
+            Err(entries.complaint(name, objection.message, objection.remedy).late())
         }
     }
 }
@@ -103,10 +104,12 @@ pub fn read_motion(
     };
     let starts_on_section = matches!(kind.beginning(), Beginning::Section(_));
     if context.plan.is_none() && starts_on_section && context.is_whole {
-        return Err(section.complaint(Problem::Other {
-            message: "the motion starts on a section, and the case has none".to_string(),
-            remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
-        }));
+        return Err(section
+            .complaint(Problem::Other {
+                message: "the motion starts on a section, and the case has none".to_string(),
+                remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
+            })
+            .late());
     }
     Ok(MotionClaim {
         name: name(section, kind.text(), taken)?,

@@ -34,6 +34,8 @@ pub struct Mistake {
     pub line: Option<u32>,
     /// The column in which they begin, from 1.
     pub column: Option<u32>,
+    /// Is it looked for only where all is of the right kind?
+    pub(super) is_late: bool,
 }
 
 /// What is wrong with a case file.
@@ -192,7 +194,12 @@ impl Mistake {
 
     /// A problem at a place, where that is known.
     pub(super) fn new(span: Option<Range<usize>>, problem: Problem) -> Self {
-        Self { problem, span, line: None, column: None }
+        Self { problem, span, line: None, column: None, is_late: false }
+    }
+
+    /// The same, looked for only where all is of the right kind.
+    pub(super) fn late(self) -> Self {
+        Self { is_late: true, ..self }
     }
 
     /// The name that is not known, where that is the trouble.

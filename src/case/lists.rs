@@ -16,7 +16,7 @@ const MOST_TRIED: usize = 6;
 pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     let mut best = read(&BTreeSet::new());
     let mut chosen = BTreeSet::new();
-    if !best.mistakes.iter().any(may_be_of_kind) {
+    if of_kind(&best) == 0 {
         return best;
     }
     // tensors of inertia and of shape are likelier than others
@@ -25,10 +25,10 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     lists.dedup();
     for subset in subsets(&lists) {
         let attempt = read(&subset);
-        if attempt.mistakes.len() < best.mistakes.len() {
+        if of_kind(&attempt) < of_kind(&best) {
             (best, chosen) = (attempt, subset);
         }
-        if best.mistakes.is_empty() {
+        if of_kind(&best) == 0 {
             return best;
         }
     }
@@ -42,9 +42,15 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     best
 }
 
+/// How many mistakes there are that a list of the wrong kind may make.
+fn of_kind(attempt: &Attempt) -> usize {
+    attempt.mistakes.iter().filter(|mistake| may_be_of_kind(mistake)).count()
+}
+
 /// Could the mistake come from the kind of a name?
 fn may_be_of_kind(mistake: &Mistake) -> bool {
     match &mistake.problem {
+        _ if mistake.is_late => false,
         Problem::Formula(error) => error.unknown_name().is_none(),
         Problem::UnknownKey { .. }
         | Problem::BadName { .. }
@@ -78,7 +84,8 @@ fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
     let is_in = |mistake: &Mistake, list: &[Mistake]| {
         list.iter().any(|known| known.span == mistake.span && known.message() == mistake.message())
     };
-    let makes_others = other.mistakes.iter().any(|mistake| !is_in(mistake, &best.mistakes));
+    let is_new = |mistake: &&Mistake| may_be_of_kind(mistake) && !is_in(mistake, &best.mistakes);
+    let makes_others = other.mistakes.iter().any(|mistake| is_new(&mistake));
     let (there, here) = match is_diagonal {
         true => ("a diagonal matrix", "a vector"),
         false => ("a vector", "a diagonal matrix"),

@@ -20,7 +20,7 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> 
         let remedy = "the equations of motion hold for x' = Σ wᵢ Xᵢ(x): take other quasi-velocities, \
                       or give all rates in [field] of a system of your own";
         let problem = Problem::Other { message, remedy: remedy.to_string() };
-        return Err(Mistake::new(place_of_rate(root, name), problem));
+        return Err(Mistake::new(place_of_rate(root, name), problem).late());
     }
     let warning = |index: &usize| {
         format!(

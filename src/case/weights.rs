@@ -78,7 +78,7 @@ fn checked(
             let text = formula.text().get(span.clone())?;
             root.find(text).map(|start| start..start + text.len())
         };
-        Mistake::new(whole.or_else(part), problem)
+        Mistake::new(whole.or_else(part), problem).late()
     })
 }
 
