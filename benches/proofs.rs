@@ -8,7 +8,7 @@ use liouville::claim::Place;
 use liouville::graph::{Expr, Graph, record};
 use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::Jet;
-use liouville::proof::{Outcome, Prover};
+use liouville::proof::{Group, Outcome, Prover};
 use liouville::verdict::Sampler;
 
 const CLAIM: &str = "[body]\nshape = 'ball'\n[[claim]]\nname = 'F2'\n\
@@ -32,7 +32,7 @@ fn residual(case: &Case) -> (Graph, Vec<Expr>) {
 /// Puts the chart in and tests the identity.
 fn prove(sampler: &Sampler, graph: &Graph, residual: &[Expr]) -> Outcome {
     let fixed = vec![None; sampler.recipes().len()];
-    let composed = sampler.compose(graph, &[residual.to_vec()], &fixed);
+    let composed = sampler.compose_groups(graph, &[Group::of(residual.to_vec())], &fixed);
     let (graph, groups) = composed.expect("composes");
     let extents = sampler.extents();
     let prover = Prover { sources: &[], extents: &extents, seed: 1 };

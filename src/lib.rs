@@ -77,6 +77,7 @@ pub mod engine;
 pub mod flow;
 pub mod formula;
 pub mod graph;
+pub mod level;
 pub mod mechanics;
 pub mod number;
 #[cfg(feature = "explore")]

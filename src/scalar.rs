@@ -42,6 +42,12 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// Only the derivative is used: dΛ = integrand · d variable. The value itself is a free symbol
     /// when recorded, and NaN at f64.
     fn antiderivative(integrand: Self, variable: Self) -> Self;
+
+    /// Runs `build` so that what it computes has a value exactly where every operation in it has
+    /// one; a recorded scalar otherwise folds √x·√x to x.
+    fn literally<R>(build: impl FnOnce() -> R) -> R {
+        build()
+    }
 }
 
 impl Scalar for f64 {
@@ -104,6 +110,10 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn antiderivative(integrand: Self, variable: Self) -> Self {
         Dual::new(T::antiderivative(integrand.re, variable.re), integrand.re * variable.eps)
+    }
+
+    fn literally<R>(build: impl FnOnce() -> R) -> R {
+        T::literally(build)
     }
 }
 

@@ -36,7 +36,7 @@ fn main() -> ExitCode {
         }
     }
     let enough = move || match claims {
-        0..2900 => Err(Failed::from(format!("the catalogue shrank to {claims} claims"))),
+        0..5000 => Err(Failed::from(format!("the catalogue shrank to {claims} claims"))),
         _ => Ok(()),
     };
     trials.push(Trial::test("the catalogue is whole", enough));

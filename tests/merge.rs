@@ -11,7 +11,7 @@ use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::Jet;
 use liouville::number::float::Float;
-use liouville::proof::{Outcome, Prover};
+use liouville::proof::{Group, Outcome, Prover};
 use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 use num_dual::DualNum;
@@ -138,8 +138,8 @@ fn short_formulas_are_proved_equal_to_the_definitions() {
         })
         .expect("records");
         let fixed = vec![None; sampler.recipes().len()];
-        let groups: Vec<Vec<Expr>> = differences.iter().map(|value| vec![*value]).collect();
-        let (graph, groups) = sampler.compose(&graph, &groups, &fixed).expect("composes");
+        let groups: Vec<Group> = differences.iter().map(|value| Group::of(vec![*value])).collect();
+        let (graph, groups) = sampler.compose_groups(&graph, &groups, &fixed).expect("composes");
         let extents = sampler.extents();
         let prover = Prover { sources: &[], extents: &extents, seed: 1 };
         for (index, outcome) in prover.prove(&graph, &groups).expect("proves").iter().enumerate() {

@@ -12,8 +12,8 @@ use super::section::Section;
 use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
-    Case, Claim, Column, MotionClaim, TABLE_ROWS, branches, charts, homogeneous, lists, one_sided,
-    poincare, shadows, solvable, toml_errors, variables, velocities, weights,
+    Case, Claim, Column, MotionClaim, TABLE_ROWS, charts, homogeneous, lists, one_sided, poincare,
+    shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -141,7 +141,7 @@ fn read(
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
     }
-    read_chart(root, &mut parts, is_whole);
+    read_chart(root, &mut parts);
     let section = poincare::read(root);
     let plan_is_whole = section.is_some() || root.value("section").is_none();
     let context = Context {
@@ -235,15 +235,11 @@ fn extend_support(parts: &mut Parts) {
 }
 
 /// The chart of a level set of the user's own: given, solved for, or none.
-fn read_chart(root: &Section<'_>, parts: &mut Parts, is_whole: bool) {
-    let solved = |parts: &Parts| match is_whole {
-        true => solvable::steps(&parts.model).map_or(Chart::Numerical, Chart::Solved),
-        false => Chart::Free,
-    };
+fn read_chart(root: &Section<'_>, parts: &mut Parts) {
     let is_lagrangian = matches!(parts.model.system, System::Lagrangian(_));
     let Some(section) = root.table("level") else {
         if is_lagrangian && !parts.model.level.is_empty() {
-            parts.chart = solved(parts);
+            parts.chart = Chart::Equations;
         }
         return;
     };
@@ -264,29 +260,17 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts, is_whole: bool) {
                 parts.chart = chart;
             }
         }
-        None => parts.chart = solved(parts),
+        None => parts.chart = Chart::Equations,
     }
     section.finish();
 }
 
 /// Which part of the level set a chart makes, where that may not be all of it.
 fn of_chart(parts: &Parts) -> Vec<String> {
-    let model = &parts.model;
     match &parts.chart {
         Chart::Given(_) => {
             vec!["verdicts on the level speak of the image of [level.chart]".to_string()]
         }
-        Chart::Solved(steps) => branches::left_out(model, &parts.free_draws, steps)
-            .into_iter()
-            .map(|step| {
-                format!(
-                    "the level falls apart: `{}` is solved for `{}`, and verdicts on the level speak of \
-                     the branch where it can be",
-                    model.level[step.equation].text,
-                    model.component_name(step.component)
-                )
-            })
-            .collect(),
         _ => Vec::new(),
     }
 }

@@ -6,7 +6,7 @@ use super::formulas::formula;
 use super::section::{Section, Text};
 use super::state::TIME;
 use crate::formula::{Formula, Type, excerpt};
-use crate::mechanics::{LevelEquation, LevelFunction, Reach, Variable, Vocabulary};
+use crate::mechanics::{LevelEquation, LevelFunction, Reach, RootEquation, Variable, Vocabulary};
 
 /// Reads rates: the formulas of each variable whose rate is given, under its name with or without
 /// a prime; nothing where a mistake was made.
@@ -115,9 +115,22 @@ fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
 /// Reads `equations = ["(γ,γ) = 1", …]`; nothing for those that are wrong.
 pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
     let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
-    let equation =
-        |(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) };
-    Some(read.map(equation).collect())
+    Some(read.map(|(text, function)| level_equation(text, function, vocabulary)).collect())
+}
+
+/// An equation of the level, with its sides where one of them is a root.
+pub fn level_equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
+    let root = sides(&text).and_then(|(left, right, _)| {
+        let left = Formula::parse(left, vocabulary).ok()?;
+        let right = Formula::parse(right, vocabulary).ok()?;
+        let ((radicand, is_modulus), other_side) = match (left.radicand(), right.radicand()) {
+            (Some(root), _) => (root, right),
+            (None, Some(root)) => (root, left),
+            (None, None) => return None,
+        };
+        Some(RootEquation { radicand, is_modulus, other_side })
+    });
+    LevelEquation { text, function: LevelFunction::Formula(function), root }
 }
 
 /// Reads a list of equations: the text, and the difference of both sides, which may depend on no

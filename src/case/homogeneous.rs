@@ -7,7 +7,7 @@ use crate::mechanics::calculus::{Jet, dot};
 use crate::mechanics::{Chart, Draws, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;
-use crate::proof::{Outcome, Prover};
+use crate::proof::{Group, Outcome, Prover};
 
 /// States at which Euler's relation is looked at.
 const STATES: u64 = 4;
@@ -46,6 +46,9 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     // What is off by less than rounding is seen in a prime field.
     let prover = Prover { sources: &[], extents: &[], seed: 0 };
     let homogeneous = homogeneous
-        && !matches!(prover.prove(&graph, &[defects.to_vec()]).as_deref(), Ok([Outcome::NonZero]));
+        && !matches!(
+            prover.prove(&graph, &[Group::of(defects.to_vec())]).as_deref(),
+            Ok([Outcome::NonZero(_)])
+        );
     (!homogeneous).then(|| Shape::SupportOnSphere(formula.clone()))
 }

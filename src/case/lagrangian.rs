@@ -7,9 +7,7 @@ use super::section::{Section, Text};
 use super::state::TIME;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{
-    Algebra, Lagrangian, LevelEquation, LevelFunction, Reach, Role, System, Variable, Vocabulary,
-};
+use crate::mechanics::{Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary};
 
 fn other(text: &Text, message: String, remedy: &str) -> Mistake {
     Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
@@ -53,7 +51,7 @@ pub fn read(
     }));
     reading.level = level
         .into_iter()
-        .map(|(text, function)| LevelEquation { text, function: LevelFunction::Formula(function) })
+        .map(|(text, function)| field::level_equation(text, function, &reading.vocabulary))
         .collect();
     Some(system)
 }

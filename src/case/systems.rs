@@ -60,7 +60,7 @@ pub(super) struct Reading<'r, 's> {
 }
 
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
-    LevelEquation { text: text.to_string(), function }
+    LevelEquation { text: text.to_string(), function, root: None }
 }
 
 type Read = Option<(System, Chart)>;

@@ -12,7 +12,7 @@ use super::{Context, Objection, Reader, Statement};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
-use crate::proof::{Outcome, Prover};
+use crate::proof::{Group, Outcome, Prover};
 use crate::scalar::Scalar;
 
 /// A density that is positive and analytic near ω = 0 exists.
@@ -137,7 +137,7 @@ fn is_surface(model: &Model) -> bool {
         Ok((_, None)) => true,
         Ok((graph, Some(twist))) => {
             let prover = Prover { sources: &[], extents: &[], seed: 1 };
-            let outcomes = prover.prove(&graph, &[vec![twist]]).unwrap_or_default();
+            let outcomes = prover.prove(&graph, &[Group::of(vec![twist])]).unwrap_or_default();
             matches!(outcomes.as_slice(), [Outcome::Zero(_)])
         }
         Err(_) => false,

@@ -99,9 +99,22 @@ pub(super) fn values<T: Scalar>(
         value
     };
     let symbols: Vec<Value<T>> = arena.symbols.iter().map(symbol_value).collect();
+    steps(arena, &symbols)
+}
+
+/// The same, with a value exactly where every operation that is written has one.
+pub(super) fn literal_values<T: Scalar>(
+    arena: &Arena,
+    lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+) -> Vec<Value<T>> {
+    let symbols: Vec<Value<T>> = arena.symbols.iter().map(|(symbol, _)| lookup(*symbol)).collect();
+    T::literally(|| steps(arena, &symbols))
+}
+
+fn steps<T: Scalar>(arena: &Arena, symbols: &[Value<T>]) -> Vec<Value<T>> {
     let mut values = Values(Vec::with_capacity(arena.nodes.len()));
     for node in &arena.nodes {
-        let value = step(&node.operation, node.value_type, &values, &symbols);
+        let value = step(&node.operation, node.value_type, &values, symbols);
         values.0.push(value);
     }
     values.0
@@ -139,7 +152,6 @@ fn step<T: Scalar>(
         Operation::Power(a, exponent) => {
             let x = v.scalar(*a);
             Scalar(match exponent.to_integer() {
-                Some(0) => T::one(),
                 Some(1) => x,
                 Some(2) => x * x,
                 Some(3) => x * x * x,

@@ -148,6 +148,16 @@ impl Formula {
         values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
     }
 
+    /// The value, with one exactly where every operation that is written has one: a recorded
+    /// scalar folds √x·√x to x otherwise.
+    pub fn evaluate_literally<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+    ) -> Value<T> {
+        let mut values = evaluate::literal_values(&self.arena, lookup);
+        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
+    }
+
     /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
     ///
     /// Taken factor by factor, so that roots, powers and exponentials of factors drop out. Zero if
@@ -160,6 +170,19 @@ impl Formula {
         lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
     ) -> T {
         logarithm::logarithmic_derivative(&self.arena, lookup)
+    }
+
+    /// A where the whole formula is √A or the norm of a vector, x where it is |x|, and whether it is
+    /// the latter.
+    pub fn radicand(&self) -> Option<(Formula, bool)> {
+        let (argument, is_modulus) = match self.root().operation {
+            Operation::Function(arena::Function::Sqrt, a) => (a, false),
+            Operation::Function(arena::Function::Modulus, a) => (a, true),
+            _ => return None,
+        };
+        let mut arena = self.arena.clone();
+        arena.nodes.truncate(argument + 1);
+        Some((Formula { text: self.text.clone(), arena }, is_modulus))
     }
 
     /// Does the formula contain an `∫`?

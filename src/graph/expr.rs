@@ -1,6 +1,7 @@
 //! [`Expr`], the recording scalar: a handle into the graph that is being recorded.
 
 use std::fmt;
+use std::hash::{Hash, Hasher};
 use std::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
@@ -24,6 +25,11 @@ impl Expr {
     /// The node, or `None` for a handle that was never part of a recording.
     pub(super) fn id(self) -> Option<NodeId> {
         (self.session != 0).then_some(self.node)
+    }
+
+    /// The handle of a node.
+    pub(super) fn of(session: u32, node: NodeId) -> Self {
+        Self { session, node }
     }
 
     /// A further free input of the recording under way.
@@ -126,6 +132,10 @@ impl Scalar for Expr {
             graph.antiderivative(integrand, variable)
         })
     }
+
+    fn literally<R>(build: impl FnOnce() -> R) -> R {
+        super::literally(build)
+    }
 }
 
 impl From<f64> for Expr {
@@ -156,6 +166,14 @@ impl fmt::Display for Expr {
 impl PartialEq for Expr {
     fn eq(&self, other: &Self) -> bool {
         self.session == other.session && self.node == other.node
+    }
+}
+
+impl Eq for Expr {}
+
+impl Hash for Expr {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.session, self.node).hash(state);
     }
 }
 

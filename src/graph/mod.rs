@@ -65,6 +65,17 @@ pub enum Fault {
     ForeignValue,
 }
 
+/// Where a node has a value, as far as its form tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Defined {
+    /// Wherever the inputs have one.
+    Always,
+    /// Not everywhere, or that is not known.
+    Partly,
+    /// Nowhere: 1/0 and what follows from it.
+    Never,
+}
+
 /// The constant 0, the first node of every graph.
 const ZERO: NodeId = NodeId(0);
 /// The constant 1, the second.
@@ -75,8 +86,10 @@ const ONE: NodeId = NodeId(1);
 pub struct Graph {
     session: u32,
     nodes: Vec<Node>,
-    /// Which nodes have no value, whatever the inputs: 1/0 and what follows from it.
-    undefined: Vec<bool>,
+    /// Where each node has a value.
+    domains: Vec<Defined>,
+    /// Whether nothing is folded that would extend the domain of a formula.
+    literal: bool,
     constants: Vec<Rational>,
     index: Index,
     constant_ids: FxHashMap<Rational, u32>,
@@ -91,7 +104,8 @@ impl Graph {
         let mut graph = Self {
             session,
             nodes: Vec::new(),
-            undefined: Vec::new(),
+            domains: Vec::new(),
+            literal: false,
             constants: Vec::new(),
             index: Index::new(),
             constant_ids: FxHashMap::default(),
@@ -123,6 +137,12 @@ impl Graph {
     /// The exact constant that an expression was folded to, if it was.
     pub fn constant_value(&self, expr: Expr) -> Option<&Rational> {
         self.constant_at(expr.id()?)
+    }
+
+    /// Whether an expression has a value for no inputs at all, as its form tells: 1/0 and what
+    /// contains it.
+    pub fn is_nowhere_defined(&self, expr: Expr) -> bool {
+        expr.id().is_some_and(|id| self.is_undefined(id))
     }
 
     /// Does this expression depend on input `input`? (Linear in the size of the graph.)
@@ -166,34 +186,57 @@ impl Graph {
             return id;
         }
         let id = NodeId(self.nodes.len() as u32);
-        self.undefined.push(self.has_no_value(node));
+        self.domains.push(self.domain_of(node));
         self.nodes.push(node);
         id
     }
 
     #[inline]
     fn is_undefined(&self, id: NodeId) -> bool {
-        self.undefined[id.0 as usize]
+        self.domains[id.0 as usize] == Defined::Never
     }
 
-    /// Is this undefined, because of its arguments or of its own: 1/0, √-1, ln 0, 0^-1?
-    fn has_no_value(&self, node: Node) -> bool {
+    /// Whether a value may be dropped: it has one everywhere, or domains are not kept.
+    #[inline]
+    fn may_drop(&self, id: NodeId) -> bool {
+        match self.domains[id.0 as usize] {
+            Defined::Always => true,
+            Defined::Partly => !self.literal,
+            Defined::Never => false,
+        }
+    }
+
+    /// Where a node has a value, from its arguments and its own operation: 1/0, √-1, ln 0 and 0^-1
+    /// have none.
+    #[inline]
+    fn domain_of(&self, node: Node) -> Defined {
+        let of = |id: NodeId| self.domains[id.0 as usize];
         let negative = |a| self.constant_at(a).is_some_and(Rational::is_negative);
+        let partly = |argument: Defined, never: bool| match (argument, never) {
+            (Defined::Never, _) | (_, true) => Defined::Never,
+            _ => Defined::Partly,
+        };
         match node {
-            Node::Constant(_) | Node::Input(_) => false,
-            Node::Unary(function, a) => {
-                self.is_undefined(a)
-                    || match function {
-                        Function::Recip => a == ZERO,
-                        Function::Sqrt => negative(a),
-                        Function::Ln => a == ZERO || negative(a),
-                        _ => false,
-                    }
+            Node::Constant(_) | Node::Input(_) => Defined::Always,
+            Node::Unary(function, a) => match function {
+                Function::Recip => partly(of(a), a == ZERO),
+                Function::Sqrt if self.constant_at(a).is_some() && !negative(a) => Defined::Always,
+                Function::Sqrt => partly(of(a), negative(a)),
+                Function::Ln => partly(of(a), a == ZERO || negative(a)),
+                _ => of(a),
+            },
+            Node::Binary(Operation::Pow, a, b) => {
+                let never = a == ZERO || negative(a) || of(b) == Defined::Never;
+                partly(of(a), never)
             }
-            Node::Binary(_, a, b) => self.is_undefined(a) || self.is_undefined(b),
+            Node::Binary(_, a, b) => match (of(a), of(b)) {
+                (Defined::Always, Defined::Always) => Defined::Always,
+                (Defined::Never, _) | (_, Defined::Never) => Defined::Never,
+                _ => Defined::Partly,
+            },
             Node::Power(a, exponent) => {
                 let below = self.constants[exponent as usize].is_negative();
-                self.is_undefined(a) || negative(a) || (a == ZERO && below)
+                partly(of(a), negative(a) || (a == ZERO && below))
             }
         }
     }
@@ -236,6 +279,21 @@ pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Gra
         Some(fault) => Err(fault),
         None => Ok((graph, result)),
     }
+}
+
+/// Runs `build` so that no operation on recorded values is folded away that may have no value:
+/// what comes out has a value exactly where the formula as it is written has one.
+///
+/// Elsewhere √x·√x becomes x and 0·√x becomes 0, which have a value for x < 0 too.
+pub fn literally<R>(build: impl FnOnce() -> R) -> R {
+    struct Restore(bool);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            with_graph(|graph| graph.literal = self.0);
+        }
+    }
+    let _restore = Restore(with_graph(|graph| std::mem::replace(&mut graph.literal, true)));
+    build()
 }
 
 /// Puts the outer recording back, also when the closure unwinds.

@@ -1,9 +1,10 @@
 //! How nodes are made: equal ones once, and with simplifications that change no value.
 //!
 //! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` are one node),
-//! `x - x`, `x · 1/x`, `√x · √x`, `exp(ln x)`; never 0 · (1/0), which stays undefined. Where both
-//! sides have a value it is the same; the simpler side may have one at more points (`x · 1/x` at 0).
-//! Not rewritten, because it would change the real meaning: `√(x²)`, `(xᵃ)ᵇ`.
+//! `x - x`, `x · 1/x`, `√x · √x`, `exp(ln x)`. Where both sides have a value it is the same; the
+//! simpler side may have one at more points (`x · 1/x` at 0), unless it is recorded
+//! [`literally`](super::literally). What has a value nowhere (1/0) keeps none: nothing is folded
+//! that contains it. Not rewritten, because it would change the real meaning: `√(x²)`, `(xᵃ)ᵇ`.
 
 use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::exact::square_root;
@@ -92,8 +93,8 @@ impl Graph {
     }
 
     pub(super) fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        if a == b {
-            return if self.is_undefined(a) { a } else { ZERO };
+        if a == b && self.may_drop(a) {
+            return ZERO;
         }
         if a == ZERO {
             return self.unary(Function::Neg, b);
@@ -121,7 +122,10 @@ impl Graph {
     pub(super) fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
         for (zero, other) in [(a, b), (b, a)] {
             if zero == ZERO {
-                return if self.is_undefined(other) { other } else { ZERO };
+                if self.may_drop(other) {
+                    return ZERO;
+                }
+                return self.commutative(Operation::Mul, a, b);
             }
         }
         if a == ONE {
@@ -144,7 +148,7 @@ impl Graph {
                 return self.scaled(&value, constant, other);
             }
         }
-        if self.is_undefined(a) || self.is_undefined(b) {
+        if self.literal || self.is_undefined(a) || self.is_undefined(b) {
             return self.commutative(Operation::Mul, a, b);
         }
         if a == b
@@ -187,15 +191,22 @@ impl Graph {
         {
             return self.constant(folded);
         }
+        if self.is_undefined(a) {
+            return self.intern(Node::Unary(function, a));
+        }
         let inner = match self.node(a) {
             Node::Unary(inner, x) => Some((inner, x)),
             _ => None,
         };
         match (function, inner) {
             (Function::Neg, Some((Function::Neg, x)))
-            | (Function::Recip, Some((Function::Recip, x)))
-            | (Function::Ln, Some((Function::Exp, x)))
-            | (Function::Exp, Some((Function::Ln, x))) => x,
+            | (Function::Ln, Some((Function::Exp, x))) => x,
+            (Function::Recip, Some((Function::Recip, x)))
+            | (Function::Exp, Some((Function::Ln, x)))
+                if !self.literal =>
+            {
+                x
+            }
             (Function::Recip | Function::Sin | Function::Atan, Some((Function::Neg, x))) => {
                 let positive = self.unary(function, x);
                 self.unary(Function::Neg, positive)
@@ -209,7 +220,7 @@ impl Graph {
     pub(super) fn pow(&mut self, base: NodeId, exponent: NodeId) -> NodeId {
         match self.constant_at(exponent).cloned() {
             Some(exponent) => self.power(base, &exponent),
-            None if base == ONE => base,
+            None if base == ONE && self.may_drop(exponent) => base,
             None => self.intern(Node::Binary(Operation::Pow, base, exponent)),
         }
     }
@@ -241,8 +252,13 @@ impl Graph {
 
     fn unrolled(&mut self, base: NodeId, exponent: u32) -> NodeId {
         match exponent {
-            0 if !self.is_undefined(base) => ONE,
-            0 | 1 => base,
+            0 if self.may_drop(base) => ONE,
+            0 => {
+                // 1, where the base has a value.
+                let nothing = self.mul(ZERO, base);
+                self.add(ONE, nothing)
+            }
+            1 => base,
             n => {
                 let half = self.unrolled(base, n / 2);
                 let square = self.mul(half, half);

@@ -75,6 +75,11 @@ impl Graph {
         expr.id().map_or(0, |id| id.0 as usize)
     }
 
+    /// The value that the step at a place makes.
+    pub fn at(&self, place: usize) -> Expr {
+        Expr::of(self.session, super::NodeId(place as u32))
+    }
+
     /// Which steps the outputs need.
     pub fn reached(&self, outputs: impl IntoIterator<Item = Expr>) -> Vec<bool> {
         let places: Vec<usize> = outputs.into_iter().map(|output| self.place(output)).collect();

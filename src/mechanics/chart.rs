@@ -23,10 +23,8 @@ pub enum Chart {
     Free,
     /// The user's parametrisation.
     Given(Box<GivenChart>),
-    /// Level equations solved one after the other, each for a variable that enters it linearly.
-    Solved(Vec<Step>),
-    /// No parametrisation is known: states are found by Newton's method in f64.
-    Numerical,
+    /// The level's own equations, to be solved.
+    Equations,
 }
 
 /// A parametrisation typed by the user.
@@ -38,15 +36,6 @@ pub struct GivenChart {
     pub draws: Vec<Draw>,
     /// One formula a state variable.
     pub formulas: Vec<Formula>,
-}
-
-/// One level equation and the component of the state it is solved for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
-    /// An index into the model's level equations.
-    pub equation: usize,
-    /// A component of the state.
-    pub component: usize,
 }
 
 impl Chart {
@@ -73,7 +62,7 @@ impl Chart {
     /// The state made from draws; `parameters` are the components of the free parameters.
     pub fn point<T: Scalar>(
         &self,
-        model: &Model,
+        _: &Model,
         kept: &[bool],
         parameters: &[T],
         draws: &[T],
@@ -83,9 +72,9 @@ impl Chart {
             Chart::Rolling | Chart::Sphere => on_sphere(self, kept, draws),
             Chart::Given(chart) if on_level => {
                 let phase = Phase::new(&chart.model, parameters, draws);
-                chart.formulas.iter().flat_map(|f| phase.evaluate(f).components()).collect()
+                let value = |f| phase.evaluate_literally(f).components();
+                chart.formulas.iter().flat_map(value).collect()
             }
-            Chart::Solved(steps) if on_level => solve(model, steps, parameters, draws.to_vec()),
             _ => draws.to_vec(),
         }
     }
@@ -116,25 +105,4 @@ fn on_sphere<T: Scalar>(chart: &Chart, kept: &[bool], draws: &[T]) -> Vec<T> {
         _ => gamma.cross(&free) + gamma * spin,
     };
     first.iter().chain(gamma.iter()).chain(others).copied().collect()
-}
-
-/// Fills in the components that the equations determine; the later equations' variables first,
-/// because an earlier solution may contain them.
-pub(super) fn solve<T: Scalar>(
-    model: &Model,
-    steps: &[Step],
-    parameters: &[T],
-    mut state: Vec<T>,
-) -> Vec<T> {
-    let Some((last, earlier)) = steps.split_last() else { return state };
-    let function = &model.level[last.equation].function;
-    let mut at = |value: T| {
-        state[last.component] = value;
-        let completed = solve(model, earlier, parameters, state.clone());
-        Phase::new(model, parameters, &completed).level_function(function)
-    };
-    // F is linear in this component: F(x) = F(0) + x (F(1) - F(0)).
-    let (constant, at_one) = (at(T::zero()), at(T::one()));
-    state[last.component] = -(constant / (at_one - constant));
-    solve(model, earlier, parameters, state)
 }

@@ -1,12 +1,18 @@
 //! Addressable randomness: state number i depends on the seed and on i alone.
+//!
+//! The first states are short decimals, so that they can be read; the others have all digits of f64,
+//! lest a formula that repeats itself on decimals is taken for a true one.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
-use super::recipe::Draw;
+use super::recipe::{Draw, Range};
 use crate::number::rational::Rational;
 
-/// Random numbers for states: short decimals strictly inside their ranges, never 0.
+/// States with short decimals.
+const SHORT: u64 = 64;
+
+/// Random numbers for states, strictly inside their ranges, never 0.
 ///
 /// The same seed and index give the same numbers, whatever else is drawn, on every machine.
 #[derive(Clone, Debug)]
@@ -18,19 +24,23 @@ pub struct Draws {
 #[derive(Clone, Debug)]
 enum Source {
     List(Vec<Rational>),
+    /// 1 or −1
+    Sign,
+    Range {
+        /// Short decimals.
+        grid: Grid,
+        /// The ends, rounded inwards.
+        ends: [f64; 2],
+    },
+}
+
+/// Equidistant decimals inside a range.
+#[derive(Clone, Debug)]
+enum Grid {
     /// `low + n step` for n in 1..=count
-    Grid {
-        low: Rational,
-        step: Rational,
-        count: u64,
-    },
+    Any { low: Rational, step: Rational, count: u64 },
     /// The same over one denominator, where all parts are small: `(low + n step)/denominator`.
-    SmallGrid {
-        low: i64,
-        step: i64,
-        denominator: i64,
-        count: u64,
-    },
+    Small { low: i64, step: i64, denominator: i64, count: u64 },
 }
 
 impl Draws {
@@ -51,18 +61,40 @@ impl Draws {
 
     /// The numbers of state `index`.
     pub fn state(&self, seed: u64, index: u64) -> Vec<Rational> {
-        self.picked(seed, index, Source::pick)
+        self.attempt(seed, index, 0)
+    }
+
+    /// Other numbers for state `index`, for an attempt after others that did not lead to a state.
+    pub fn attempt(&self, seed: u64, index: u64, attempt: u32) -> Vec<Rational> {
+        self.picked(seed, index, attempt, Source::pick)
+    }
+
+    /// Numbers for a state near the ends of ranges and near 0, where what is small elsewhere may have
+    /// another sign.
+    pub fn edge(&self, seed: u64, index: u64) -> Vec<Rational> {
+        self.picked(seed, index, 0, Source::edge)
     }
 
     /// The f64 nearest to each of them, and whether it is that number.
-    pub fn nearest(&self, seed: u64, index: u64) -> Vec<(f64, bool)> {
-        self.picked(seed, index, Source::nearest)
+    pub fn nearest(&self, seed: u64, index: u64, attempt: u32) -> Vec<(f64, bool)> {
+        self.picked(seed, index, attempt, Source::nearest)
     }
 
-    fn picked<T>(&self, seed: u64, index: u64, pick: impl Fn(&Source, u64) -> T) -> Vec<T> {
+    fn picked<T>(
+        &self,
+        seed: u64,
+        index: u64,
+        attempt: u32,
+        pick: impl Fn(&Source, u64, bool) -> T,
+    ) -> Vec<T> {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(index);
-        self.sources.iter().map(|source| pick(source, stream.next_u64())).collect()
+        if attempt > 0 {
+            // A number takes two words; each attempt goes on where the one before ended.
+            stream.set_word_pos(u128::from(attempt) * 2 * self.sources.len() as u128);
+        }
+        let is_short = index < SHORT;
+        self.sources.iter().map(|source| pick(source, stream.next_u64(), is_short)).collect()
     }
 }
 
@@ -70,19 +102,94 @@ impl Source {
     fn new(draw: &Draw) -> Self {
         match draw {
             Draw::OneOf(values) => Source::List(values.clone()),
+            Draw::Sign => Source::Sign,
             Draw::Within(range) | Draw::Of(_, range) => {
-                let width = &range.high - &range.low;
-                let (step, count) = grid(&width);
-                let low = range.low.clone();
-                small_grid(&low, &step, count).unwrap_or(Source::Grid { low, step, count })
+                let inwards = |end: &Rational, other: &Rational| {
+                    let (nearest, is_exact) = end.to_f64();
+                    match (is_exact, end < other) {
+                        (true, _) => nearest,
+                        (false, true) => nearest.next_up(),
+                        (false, false) => nearest.next_down(),
+                    }
+                };
+                let ends = [inwards(&range.low, &range.high), inwards(&range.high, &range.low)];
+                Source::Range { grid: Grid::of(range), ends }
             }
         }
     }
 
     /// What `pick` gives, in f64, without making a rational number of it where parts are small.
+    fn nearest(&self, bits: u64, is_short: bool) -> (f64, bool) {
+        match self {
+            Source::Sign => (sign(bits) as f64, true),
+            Source::Range { grid, .. } if is_short => grid.nearest(bits),
+            Source::Range { ends, grid } => match between(*ends, bits) {
+                Some(value) => (value, true),
+                None => grid.nearest(bits),
+            },
+            Source::List(_) => self.pick(bits, is_short).to_f64(),
+        }
+    }
+
+    fn pick(&self, bits: u64, is_short: bool) -> Rational {
+        match self {
+            Source::List(values) => {
+                let index = scale(bits, values.len() as u64) as usize;
+                values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
+            }
+            Source::Sign => Rational::from(sign(bits)),
+            Source::Range { grid, .. } if is_short => grid.pick(bits),
+            Source::Range { ends, grid } => {
+                between(*ends, bits).and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits))
+            }
+        }
+    }
+}
+
+impl Source {
+    /// One of both ends, 0, or any number, up to a thousandth of the range.
+    fn edge(&self, bits: u64, is_short: bool) -> Rational {
+        const NEAR: f64 = 1.0 / 1024.0;
+        let (place, bits) = (bits % 4, bits >> 2 << 2);
+        let near = match self {
+            Source::Range { ends: [low, high], .. } => {
+                let width = NEAR * (high - low);
+                match place {
+                    0 => between([*low, low + width], bits),
+                    1 => between([high - width, *high], bits),
+                    2 if *low < 0.0 && *high > 0.0 => between([-width, width], bits),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
+    }
+}
+
+fn sign(bits: u64) -> i64 {
+    if bits >> 63 == 0 { 1 } else { -1 }
+}
+
+/// A number strictly between two ends and not 0, if there is one in f64.
+fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
+    // 53 bits, and a half so that neither end is met.
+    let share = ((bits >> 11) as f64 + 0.5) * (-53f64).exp2();
+    let value = low + (high - low) * share;
+    (low < value && value < high && value != 0.0).then_some(value)
+}
+
+impl Grid {
+    fn of(range: &Range) -> Self {
+        let width = &range.high - &range.low;
+        let (step, count) = grid(&width);
+        let low = range.low.clone();
+        small_grid(&low, &step, count).unwrap_or(Grid::Any { low, step, count })
+    }
+
     fn nearest(&self, bits: u64) -> (f64, bool) {
         const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
-        if let Source::SmallGrid { low, step, denominator, count } = self {
+        if let Grid::Small { low, step, denominator, count } = self {
             let value = numerator(bits, *low, *step, *count);
             if value.unsigned_abs() <= EXACT {
                 // Both are f64s, and division rounds correctly; a power of two divides exactly.
@@ -95,14 +202,10 @@ impl Source {
 
     fn pick(&self, bits: u64) -> Rational {
         match self {
-            Source::List(values) => {
-                let index = scale(bits, values.len() as u64) as usize;
-                values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
-            }
-            Source::SmallGrid { low, step, denominator, count } => {
+            Grid::Small { low, step, denominator, count } => {
                 Rational::new(numerator(bits, *low, *step, *count), *denominator)
             }
-            Source::Grid { low, step, count } => {
+            Grid::Any { low, step, count } => {
                 let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
                 // Formulas that are wrong in general hold on coordinate planes.
                 if value.is_zero() { &value + step } else { value }
@@ -118,7 +221,7 @@ fn numerator(bits: u64, low: i64, step: i64, count: u64) -> i64 {
 }
 
 /// Both numbers over one denominator, if a grid of them cannot overflow.
-fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Source> {
+fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Grid> {
     const SMALL: i64 = 1 << 31;
     let (_, below) = low.parts();
     let (_, beside) = step.parts();
@@ -126,7 +229,7 @@ fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Source> {
     let over = |x: &Rational| (x * &Rational::from(denominator)).to_integer();
     let (low, step) = (over(low)?, over(step)?);
     let room = low.abs() < SMALL && step < SMALL && count < SMALL as u64;
-    room.then_some(Source::SmallGrid { low, step, denominator, count })
+    room.then_some(Grid::Small { low, step, denominator, count })
 }
 
 /// A step of the form 10^k and how many points lie strictly inside `width`: about a thousand.
@@ -146,7 +249,6 @@ fn scale(bits: u64, count: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::recipe::Range;
     use super::*;
 
     #[test]
@@ -168,7 +270,7 @@ mod tests {
         let draws = Draws::new(&[&ranges[..], &[list]].concat());
         for index in 0..2000 {
             let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
-            assert_eq!(draws.nearest(5, index), exact, "state {index}");
+            assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
         }
     }
 
@@ -182,6 +284,32 @@ mod tests {
         let narrow = Draw::Within(Range::between((1, 1_000_000), (2, 1_000_000)));
         let value = Draws::new(&[narrow]).state(1, 0)[0].clone();
         assert!(value > Rational::new(1, 1_000_000) && value < Rational::new(2, 1_000_000));
+    }
+
+    #[test]
+    fn later_states_have_all_digits() {
+        let range = Range::between((-2, 1), (2, 1));
+        let draws = Draws::new(&[Draw::Within(range.clone()), Draw::Sign]);
+        let lengths = |indices: std::ops::Range<u64>| {
+            indices.map(|index| draws.state(1, index)[0].bits()).max().unwrap_or(0)
+        };
+        assert!(lengths(0..64) < 30, "the first are short");
+        assert!(lengths(64..128) > 50, "the others are not");
+        let sign = |index| draws.state(1, index)[1].clone();
+        assert!((0..64).any(|k| sign(k) == Rational::from(1)), "some signs are positive");
+        assert!((0..64).any(|k| sign(k) == Rational::from(-1)), "some are not");
+        assert_ne!(draws.attempt(1, 3, 1), draws.state(1, 3), "another attempt");
+        assert_eq!(draws.attempt(1, 3, 0), draws.state(1, 3), "the first attempt");
+    }
+
+    #[test]
+    fn edges_are_near_the_ends_and_near_zero() {
+        let draws = Draws::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
+        let found: Vec<f64> = (0..64).map(|k| draws.edge(1, k)[0].to_f64().0).collect();
+        assert!(found.iter().all(|x| *x > -1.0 && *x < 1000.0), "inside: {found:?}");
+        assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
+        assert!(found.iter().any(|x| *x > 999.0), "near the upper end");
+        assert!(found.iter().any(|x| (2.0..998.0).contains(x)), "anywhere");
     }
 
     #[test]

@@ -23,11 +23,13 @@ mod vocabulary;
 
 pub use ball::{BallOnSurface, Surface};
 pub use body::{Polynomial, Shape};
-pub use chart::{Chart, GivenChart, Step};
+pub use chart::{Chart, GivenChart};
 pub use draws::Draws;
 pub use flat_base::FlatBase;
 pub use lagrangian::{Algebra, Lagrangian, Role};
-pub use model::{LevelEquation, LevelFunction, Model, Origin, Parameter, Variable, components};
+pub use model::{
+    LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
+};
 pub use phase::{Configuration, Phase};
 pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
 pub use recipe::{Draw, Line, Range, Recipe};

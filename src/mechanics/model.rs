@@ -65,6 +65,19 @@ pub struct LevelEquation {
     pub text: String,
     /// F, a scalar.
     pub function: LevelFunction,
+    /// Its sides, where one of them is a root: A = e² is solved in place of √A = e.
+    pub root: Option<RootEquation>,
+}
+
+/// √A = e, or |x| = e.
+#[derive(Clone, Debug)]
+pub struct RootEquation {
+    /// A or x.
+    pub radicand: Formula,
+    /// Whether it is x.
+    pub is_modulus: bool,
+    /// e, which is not negative on the level.
+    pub other_side: Formula,
 }
 
 /// The function whose zeros a level equation means.
@@ -171,15 +184,19 @@ impl Model {
     }
 
     /// The formulas that are functions of the state before anything is claimed: the equations of
-    /// motion, the level, and the new variables.
+    /// motion, the new variables, and the level.
     pub fn functions(&self) -> Vec<&Formula> {
         let level = self.level.iter().filter_map(|equation| match &equation.function {
             LevelFunction::Formula(formula) => Some(formula),
             _ => None,
         });
+        self.dynamics().into_iter().chain(level).collect()
+    }
+
+    /// The formulas of the equations of motion and of the new variables.
+    pub fn dynamics(&self) -> Vec<&Formula> {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
-        let own = self.system.functions().into_iter().chain(&self.extension);
-        own.chain(level).chain(images).collect()
+        self.system.functions().into_iter().chain(&self.extension).chain(images).collect()
     }
 
     /// How many state variables are the system's own, before those that a case adds.
@@ -238,6 +255,20 @@ impl Model {
     /// The draws that make the free parameters, in order.
     pub fn parameter_draws(&self) -> Vec<Draw> {
         self.recipes().flat_map(Recipe::draws).collect()
+    }
+
+    /// The draw of a component of the free parameters that is one number drawn by itself.
+    pub fn draw_of_component(&self, component: usize) -> Option<usize> {
+        let (mut first, mut draw) = (0, 0);
+        for parameter in self.free_parameters() {
+            let Origin::Free(recipe) = &parameter.origin else { continue };
+            if first == component && matches!(recipe, Recipe::Scalar(_)) {
+                return Some(draw);
+            }
+            first += components(parameter.kind);
+            draw += recipe.draws().len();
+        }
+        None
     }
 
     /// The components of the free parameters, made from as many of the draws as they need, and

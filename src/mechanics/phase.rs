@@ -197,6 +197,8 @@ pub struct Phase<'m, T> {
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
     depth: Cell<u32>,
+    /// Values that keep the domain of what is written.
+    literal: RefCell<FxHashMap<Symbol, Value<T>>>,
     motion: OnceCell<Box<Motion<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// The rates of the system's own variables.
@@ -225,6 +227,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
             configuration: Configuration::new(model, parameters, state),
             known: RefCell::default(),
             depth: Cell::new(0),
+            literal: RefCell::default(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -245,6 +248,48 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The value of a formula.
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
+    }
+
+    /// The value of a formula, with one exactly where every operation has one that is written in it,
+    /// in the abbreviations or in the parameters it uses.
+    pub fn evaluate_literally(&self, formula: &Formula) -> Value<T> {
+        formula.evaluate_literally(&mut |symbol| self.literal_value(symbol))
+    }
+
+    fn literal_value(&self, symbol: Symbol) -> Value<T> {
+        if let Some(value) = self.literal.borrow().get(&symbol) {
+            return value.clone();
+        }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.literal_formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.literal_value(symbol);
+                    self.depth.set(DEEP);
+                },
+            );
+            return self.literal_value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
+        let value = match self.literal_formula(symbol) {
+            Some(formula) => self.evaluate_literally(formula),
+            None => self.value(symbol),
+        };
+        self.depth.set(self.depth.get() - 1);
+        self.literal.borrow_mut().insert(symbol, value.clone());
+        value
+    }
+
+    /// The formula behind a symbol that has no literal value yet.
+    fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        match self.model().vocabulary.entry(symbol).meaning {
+            _ if self.literal.borrow().contains_key(&symbol) => None,
+            // the value of a changed parameter is not that of its formula
+            Meaning::Parameter(index) if self.configuration.parameters[index].is_some() => None,
+            _ => formula_of(self.model(), symbol),
+        }
     }
 
     /// The value of a scalar formula.

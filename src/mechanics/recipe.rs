@@ -36,6 +36,21 @@ pub enum Draw {
     OneOf(Vec<Rational>),
     /// From the inside of a range that stands for more: nobody asked for this one.
     Of(Line, Range),
+    /// 1 or −1.
+    Sign,
+}
+
+impl Draw {
+    /// The only number there is, if there is no other.
+    pub fn only(&self) -> Option<Rational> {
+        match self {
+            Draw::OneOf(values) => match values.as_slice() {
+                [value] => Some(value.clone()),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
 }
 
 /// What a range stands for.

@@ -71,7 +71,7 @@ pub fn square_root(x: &Rational) -> Option<Rational> {
         (&root * &root == *n).then_some(root)
     };
     let (above, below) = (root(&numerator)?, root(&denominator)?);
-    format!("{above}/{below}").parse().ok()
+    Some(Rational::from_parts(above, below))
 }
 
 fn power(x: &Rational, exponent: &Rational) -> Option<Rational> {

@@ -8,9 +8,11 @@ pub mod ball;
 pub mod complex;
 pub mod exact;
 pub mod float;
+pub mod mixed;
 pub mod pair;
 pub mod precise;
 pub mod prime;
+pub mod quadratic;
 pub mod rational;
 pub mod twofold;
 

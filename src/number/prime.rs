@@ -162,13 +162,13 @@ impl Modulus {
         self.power(x, (self.prime - 1) / 2) == self.one
     }
 
-    /// x^(a/b) for a square x and b prime to (p-1)/2, the order of the group of squares.
-    fn rational_power(&self, x: u64, exponent: &Rational) -> Option<u64> {
+    /// x^(a/b) for x ≠ 0 and b prime to p - 1, so odd: the root is unique.
+    pub fn odd_power(&self, x: u64, exponent: &Rational) -> Option<u64> {
         let (above, below) = exponent.parts();
-        let order = BigInt::from((self.prime - 1) / 2);
+        let order = BigInt::from(self.prime - 1);
         let inverse = below.modinv(&order)?;
         let exponent = (above * inverse).mod_floor(&order).to_u64()?;
-        self.is_square(x).then(|| self.power(x, exponent))
+        (x != 0).then(|| self.power(x, exponent))
     }
 
     fn integer_power(&self, x: u64, exponent: i64) -> Option<u64> {
@@ -287,7 +287,7 @@ impl<const N: usize> Domain for Prime<N> {
     fn power(&self, x: &[u64; N], exponent: &Rational, out: &mut [u64; N]) {
         match exponent.to_integer() {
             Some(n) => self.map(x, out, |m, x| m.integer_power(x, n)),
-            None => self.map(x, out, |m, x| m.rational_power(x, exponent)),
+            None => self.map(x, out, |m, x| m.odd_power(x, exponent)),
         }
     }
 }
@@ -389,15 +389,17 @@ mod tests {
     }
 
     #[test]
-    fn roots_of_higher_index_need_a_suitable_prime() {
-        // (2^61 - 2)/2 is divisible by 3, so cube roots are not unique there.
+    fn roots_of_odd_index_need_a_suitable_prime() {
+        // 2^61 - 2 is divisible by 3, so cube roots are not unique there.
         let x = Modulus::new(MERSENNE).integer(4);
-        assert_eq!(Modulus::new(MERSENNE).rational_power(x, &Rational::new(1, 3)), None);
+        assert_eq!(Modulus::new(MERSENNE).odd_power(x, &Rational::new(1, 3)), None);
         let prime = (1u64 << 60..).find(|p| p % 12 == 11 && is_prime(*p)).expect("there is one");
         let m = Modulus::new(prime);
-        let root = m.rational_power(m.integer(4), &Rational::new(2, 3)).expect("4 is a square");
-        assert_eq!(m.power(root, 3), m.integer(16), "(4^(2/3))³ = 16");
-        let half = m.rational_power(m.integer(4), &Rational::new(1, 2));
-        assert_eq!(half, m.root(m.integer(4)), "x^(1/2) is √x");
+        for n in 1..50 {
+            let root = m.odd_power(m.integer(n), &Rational::new(2, 3)).expect("it is not 0");
+            assert_eq!(m.power(root, 3), m.integer(n * n), "({n}^(2/3))³ = {n}²");
+        }
+        let half = m.odd_power(m.integer(4), &Rational::new(1, 2));
+        assert_eq!(half, None, "the root of even index has two signs");
     }
 }

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, Signed, ToPrimitive};
@@ -68,6 +68,12 @@ impl Rational {
             (Ok(n), Ok(d)) => Self(Form::Small(n, d)),
             _ => Self(Form::Big(Box::new(BigRational::new(n.into(), d.into())))),
         }
+    }
+
+    /// The fraction of two integers of any size; the denominator must not be zero.
+    pub fn from_parts(numerator: BigInt, denominator: BigInt) -> Self {
+        assert!(denominator.sign() != Sign::NoSign, "a fraction needs a non-zero denominator");
+        Self::from_big(BigRational::new(numerator, denominator))
     }
 
     fn from_big(value: BigRational) -> Self {

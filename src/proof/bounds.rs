@@ -16,10 +16,8 @@ use crate::number::{Function, Operation};
 /// What an input may be, for the bounds of the values that contain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
-    /// Any element, with equal probability: degree 1.
+    /// Any element of the prime field, with equal probability: degree 1.
     Uniform,
-    /// The square of such an element, for what is positive: degree 2.
-    Square,
     /// 1 or -1.
     Sign,
 }
@@ -70,6 +68,28 @@ impl Bounds {
         self.bounds[place].as_ref()
     }
 
+    /// A bound on the degrees of the numerator and of the denominator of the value at a place, all
+    /// factors multiplied out.
+    pub fn expanded_degree(&self, place: usize) -> Option<f64> {
+        let bound = self.at(place)?;
+        let factors = bound.factors.iter();
+        let degrees = factors.map(|(f, e)| e.abs() * self.factors[*f as usize].degree);
+        Some(bound.degree + degrees.sum::<f64>())
+    }
+
+    /// Bounds on degree and height of the numerator of the difference of any two values.
+    pub fn of_differences(&self) -> (f64, f64) {
+        let expanded = |bound: &Bound| {
+            bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
+                let Factor { degree: d, height: h } = self.factors[*f as usize];
+                (degree + e.abs() * d, height + e.abs() * h)
+            })
+        };
+        let all = self.bounds.iter().flatten().map(expanded);
+        let largest = all.fold((0f64, 0f64), |(d, h), (e, i)| (d.max(e), h.max(i)));
+        (2.0 * largest.0, 2.0 * largest.1 + 1.0)
+    }
+
     fn step(&mut self, step: Step<'_>, sources: &[Source]) -> Option<Bound> {
         let plain = |degree: f64, height: f64| Bound { degree, height, factors: Rc::new([]) };
         Some(match step {
@@ -85,7 +105,6 @@ impl Bounds {
             }
             Step::Input(input) => match sources.get(input)? {
                 Source::Uniform => plain(1.0, 0.0),
-                Source::Square => plain(2.0, 0.0),
                 Source::Sign => plain(0.0, 0.0),
             },
             Step::Unary(Function::Neg | Function::Abs, a) => self.at(a)?.clone(),

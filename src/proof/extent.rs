@@ -1,18 +1,14 @@
-//! The signs of values over all real inputs of given extents, by interval arithmetic.
+//! Intervals that hold all values of a quantity over some real inputs.
 //!
 //! An [`Extent`] is a closed interval with f64 ends, or infinite ones. Every operation returns one
 //! that contains all results: ends are computed in f64 and moved outwards by one step (elementary
 //! functions of `libm`, whose error is below one unit in the last place, by two). A product of a
 //! value with itself is a square. Where no input gives a result the extent is *empty*.
-//!
-//! A value that is unknown over the whole box is looked at on parts of it.
 
-use crate::graph::{Graph, Step};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use crate::number::Function;
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
-
-/// Parts of the box on which one value is looked at.
-const MOST_PARTS: usize = 64;
 
 /// All numbers between two ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +22,12 @@ impl Extent {
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
     /// All numbers that are not negative.
     pub const POSITIVE: Self = Self { low: 0.0, high: f64::INFINITY };
-    /// What has no value.
-    const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+    /// 0 alone.
+    pub const ZERO: Self = Self { low: 0.0, high: 0.0 };
+    /// 1 and -1, and what lies between.
+    pub const SIGN: Self = Self { low: -1.0, high: 1.0 };
+    /// No number.
+    pub const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 
     /// The numbers from `low` to `high`.
     pub fn between(low: &Rational, high: &Rational) -> Self {
@@ -35,7 +35,7 @@ impl Extent {
     }
 
     /// One number.
-    fn at(value: &Rational) -> Self {
+    pub fn at(value: &Rational) -> Self {
         match value.to_f64() {
             (nearest, true) => Self { low: nearest, high: nearest },
             (nearest, false) => Self::outward(nearest, nearest),
@@ -50,12 +50,74 @@ impl Extent {
         Self { low: low.next_down(), high: high.next_up() }
     }
 
-    fn is_empty(self) -> bool {
+    /// Whether no number is in it.
+    pub fn is_empty(self) -> bool {
         self.low > self.high
     }
 
+    /// The numbers of both.
+    pub fn common(self, other: Self) -> Self {
+        let both = Self { low: self.low.max(other.low), high: self.high.min(other.high) };
+        if both.is_empty() { Self::EMPTY } else { both }
+    }
+
+    /// Whether 0 is none of its numbers.
+    pub fn excludes_zero(self) -> bool {
+        self.low > 0.0 || self.high < 0.0
+    }
+
+    /// Whether some number of it is positive.
+    pub fn reaches_above_zero(self) -> bool {
+        self.high > 0.0
+    }
+
+    /// Both halves, and the number between them; `None` where it cannot be cut.
+    pub fn halves(self) -> Option<(Self, Self)> {
+        let middle = self.middle()?;
+        Some((Self { high: middle, ..self }, Self { low: middle, ..self }))
+    }
+
+    /// A number inside.
+    pub fn middle(self) -> Option<f64> {
+        let Self { low, high } = self;
+        let middle = match (low.is_finite(), high.is_finite()) {
+            (true, true) => low + (high - low) / 2.0,
+            (true, false) => 2.0 * low.max(0.0) + 1.0,
+            (false, true) => 2.0 * high.min(0.0) - 1.0,
+            (false, false) => 0.0,
+        };
+        (low < middle && middle < high).then_some(middle)
+    }
+
+    /// It and its opposite, with what lies between.
+    pub fn hull_with_opposite(self) -> Self {
+        let size = self.high.max(-self.low);
+        if self.is_empty() { self } else { Self { low: -size, high: size } }
+    }
+
+    /// One of its numbers, inside and off the middle where there is an inside: formulas that are
+    /// wrong in general hold in the middle of symmetric ranges.
+    pub fn inside(self) -> Option<f64> {
+        const SHARE: f64 = 0.381_966;
+        let Self { low, high } = self;
+        let inside = match (low.is_finite(), high.is_finite()) {
+            (true, true) => low + SHARE * (high - low),
+            (true, false) => 2.0 * low.max(0.0) + SHARE,
+            (false, true) => 2.0 * high.min(0.0) - SHARE,
+            (false, false) => SHARE,
+        };
+        let single = (low == high && low.is_finite()).then_some(low);
+        single.or_else(|| (low < inside && inside < high).then_some(inside))
+    }
+
+    /// The roots of all numbers of it that have one, of either sign.
+    pub fn roots(self) -> Self {
+        let root = self.unary(Function::Sqrt);
+        if root.is_empty() { root } else { Self { low: -root.high, high: root.high } }
+    }
+
     /// The sign of all numbers in it, if they have one; 0 goes with either.
-    fn sign(self) -> Option<bool> {
+    pub fn sign(self) -> Option<bool> {
         match (self.low >= 0.0, self.high <= 0.0) {
             (true, _) => Some(true),
             (_, true) => Some(false),
@@ -63,11 +125,13 @@ impl Extent {
         }
     }
 
-    fn negated(self) -> Self {
+    /// -x
+    pub fn negated(self) -> Self {
         Self { low: -self.high, high: -self.low }
     }
 
-    fn modulus(self) -> Self {
+    /// |x|
+    pub fn modulus(self) -> Self {
         match self.sign() {
             Some(true) => self,
             Some(false) => self.negated(),
@@ -75,22 +139,26 @@ impl Extent {
         }
     }
 
-    fn plus(self, other: Self) -> Self {
-        Self::outward(self.low + other.low, self.high + other.high)
+    /// x + y
+    pub fn plus(self, other: Self) -> Self {
+        let (low, high) = (sum(self.low, other.low), sum(self.high, other.high));
+        if low.0.is_nan() || high.0.is_nan() {
+            return Self::ALL;
+        }
+        Self { low: down(low), high: up(high) }
     }
 
-    fn times(self, other: Self) -> Self {
-        // 0 · ∞ is 0: the end ∞ is not a number of the interval.
-        let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+    /// x y
+    pub fn times(self, other: Self) -> Self {
         let corners = [
             product(self.low, other.low),
             product(self.low, other.high),
             product(self.high, other.low),
             product(self.high, other.high),
         ];
-        let low = corners.into_iter().fold(f64::INFINITY, f64::min);
-        let high = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let wide = Self::outward(low, high);
+        let low = corners.into_iter().map(down).fold(f64::INFINITY, f64::min);
+        let high = corners.into_iter().map(up).fold(f64::NEG_INFINITY, f64::max);
+        let wide = Self { low, high };
         match (self.sign(), other.sign()) {
             (Some(a), Some(b)) => wide.within(a == b),
             _ => wide,
@@ -98,7 +166,7 @@ impl Extent {
     }
 
     /// That part of it which has this sign.
-    fn within(self, positive: bool) -> Self {
+    pub fn within(self, positive: bool) -> Self {
         match positive {
             _ if self.is_empty() => self,
             true => Self { low: self.low.max(0.0), ..self },
@@ -106,12 +174,17 @@ impl Extent {
         }
     }
 
-    fn square(self) -> Self {
+    /// x²
+    pub fn square(self) -> Self {
         let Self { low, high } = self.modulus();
-        Self::outward(low * low, high * high).within(true)
+        if self.is_empty() {
+            return self;
+        }
+        Self { low: down(product(low, low)), high: up(product(high, high)) }.within(true)
     }
 
-    fn reciprocal(self) -> Self {
+    /// 1/x
+    pub fn reciprocal(self) -> Self {
         match self.sign() {
             _ if self == (Self { low: 0.0, high: 0.0 }) => Self::EMPTY,
             None => Self::ALL,
@@ -134,8 +207,8 @@ impl Extent {
         Self::outward(once.low, once.high)
     }
 
-    fn unary(self, function: Function) -> Self {
-        let ball = |size: f64| Self { low: -size, high: size };
+    /// f(x)
+    pub fn unary(self, function: Function) -> Self {
         match function {
             Function::Neg => self.negated(),
             Function::Abs => self.modulus(),
@@ -143,227 +216,196 @@ impl Extent {
             Function::Sqrt => self.rising(0.0, f64::sqrt).within(true),
             Function::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
             Function::Ln => self.rising(0.0, libm::log),
-            Function::Sin | Function::Cos => ball(1.0),
-            Function::Atan => ball(2.0),
+            Function::Sin => self.sine(),
+            Function::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
+            Function::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
         }
     }
 
-    fn power(self, exponent: &Rational) -> Self {
+    /// sin x
+    fn sine(self) -> Self {
+        /// Arguments beyond this are not brought back to one turn.
+        const FAR: f64 = 1e6;
+        /// More than what the turns of an argument below that are rounded by.
+        const SLACK: f64 = 1e-8;
+        let Self { low, high } = self;
+        if self.is_empty() {
+            return self;
+        }
+        if !(low >= -FAR && high <= FAR) {
+            return Self::SIGN;
+        }
+        let ends = [libm::sin(low), libm::sin(high)];
+        let once = Self::outward(ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let mut found = Self::outward(once.low, once.high);
+        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the trough.
+        let passes = |quarter: f64| {
+            let turns = |x: f64| (x - quarter * FRAC_PI_2) / TAU;
+            turns(low - SLACK).ceil() <= turns(high + SLACK).floor()
+        };
+        if passes(1.0) {
+            found.high = 1.0;
+        }
+        if passes(3.0) {
+            found.low = -1.0;
+        }
+        found.common(Self::SIGN)
+    }
+
+    /// x^q
+    pub fn power(self, exponent: &Rational) -> Self {
+        /// Higher powers are not multiplied out.
+        const MOST: u64 = 64;
         match exponent.to_integer() {
             // Roots and powers of what is positive are positive.
             None if self.high < 0.0 => Self::EMPTY,
             None => Self::POSITIVE,
+            Some(n) if n.unsigned_abs() <= MOST => {
+                let power = self.whole_power(n.unsigned_abs());
+                if n < 0 { power.reciprocal() } else { power }
+            }
             Some(n) if n % 2 == 0 => Self::POSITIVE,
             Some(_) => self.sign().map_or(Self::ALL, |positive| Self::ALL.within(positive)),
         }
     }
-}
 
-/// Where inputs can be, and which values are known not to be negative because a root of them is taken.
-#[derive(Clone, Copy)]
-pub struct Setting<'s> {
-    /// The inputs in order; those beyond are any numbers.
-    pub inputs: &'s [Extent],
-    /// Places of values that are positive wherever all is real.
-    pub positive: &'s [usize],
-}
-
-impl Setting<'_> {
-    /// The sign that the value at a place has wherever it has one, but for states at which a
-    /// positive value is 0; `None` where that is not known.
-    pub fn sign(&self, graph: &Graph, place: usize) -> Option<bool> {
-        let mut places = self.positive.to_vec();
-        places.push(place);
-        let reached = graph.reached_from(&places);
-        let used: Vec<usize> = graph
-            .steps()
-            .zip(graph.reached_from(&[place]))
-            .filter_map(|(step, reached)| match step {
-                Step::Input(input) if reached => Some(input),
-                _ => None,
-            })
-            .collect();
-        let mut known: Option<bool> = None;
-        let mut parts = vec![(self.whole(graph), 0)];
-        let mut looked = 0;
-        while let Some((part, depth)) = parts.pop() {
-            looked += 1;
-            let Some(extents) = self.extents(graph, &reached, &part) else { continue };
-            match (extents[place].sign(), known) {
-                _ if extents[place].is_empty() => {}
-                (Some(sign), Some(before)) if sign != before => return None,
-                (Some(sign), _) => known = Some(sign),
-                (None, _) => {
-                    if looked + parts.len() + 2 > MOST_PARTS || used.is_empty() {
-                        return None;
-                    }
-                    let input = used[depth % used.len()];
-                    let middle = middle(part[input])?;
-                    let (mut lower, mut upper) = (part.clone(), part);
-                    lower[input].high = middle;
-                    upper[input].low = middle;
-                    parts.push((upper, depth + 1));
-                    parts.push((lower, depth + 1));
-                }
+    /// x^n
+    fn whole_power(self, n: u64) -> Self {
+        match n {
+            _ if self.is_empty() => self,
+            0 => Self { low: 1.0, high: 1.0 },
+            n if n % 2 == 0 => self.square().whole_power(n / 2),
+            // An odd power increases.
+            n => {
+                let (low, high) =
+                    (Self { high: self.low, ..self }, Self { low: self.high, ..self });
+                let end = |x: Self| x.square().whole_power(n / 2).times(x);
+                Self { low: end(low).low, high: end(high).high }
             }
         }
-        known
     }
 
-    /// At which of the reached places the sign is known at first sight.
-    pub fn at_sight(&self, graph: &Graph, reached: &[bool]) -> Vec<bool> {
-        let extents = self.extents(graph, reached, &self.whole(graph)).unwrap_or_default();
-        let known = |(extent, reached): (&Extent, &bool)| *reached && extent.sign().is_some();
-        extents.iter().zip(reached).map(known).collect()
-    }
-
-    fn whole(&self, graph: &Graph) -> Vec<Extent> {
-        let mut whole = self.inputs.to_vec();
-        whole.resize(graph.inputs().max(self.inputs.len()), Extent::ALL);
-        whole
-    }
-
-    /// What the values can be, by place; `None` where a positive one would be negative.
-    fn extents(&self, graph: &Graph, reached: &[bool], inputs: &[Extent]) -> Option<Vec<Extent>> {
-        let mut allowed: Vec<Option<bool>> = vec![None; reached.len()];
-        let extents = forward(graph, reached, inputs, &allowed);
-        if self.positive.is_empty() {
-            return Some(extents);
-        }
-        self.positive.iter().for_each(|place| allowed[*place] = Some(true));
-        backward(graph, reached, &extents, &mut allowed);
-        let extents = forward(graph, reached, inputs, &allowed);
-        self.positive.iter().all(|place| !extents[*place].is_empty()).then_some(extents)
-    }
-}
-
-/// Where to cut.
-fn middle(extent: Extent) -> Option<f64> {
-    let Extent { low, high } = extent;
-    let middle = match (low.is_finite(), high.is_finite()) {
-        (true, true) => low + (high - low) / 2.0,
-        (true, false) => 2.0 * low.max(0.0) + 1.0,
-        (false, true) => 2.0 * high.min(0.0) - 1.0,
-        (false, false) => 0.0,
-    };
-    (low < middle && middle < high).then_some(middle)
-}
-
-/// What the values can be, from the inputs on, those of an allowed sign having no other.
-fn forward(
-    graph: &Graph,
-    reached: &[bool],
-    inputs: &[Extent],
-    allowed: &[Option<bool>],
-) -> Vec<Extent> {
-    let mut extents: Vec<Extent> = Vec::with_capacity(reached.len());
-    for (place, step) in graph.steps().enumerate() {
-        let of = |step: Step<'_>| {
-            if step.arguments().any(|argument| extents[argument].is_empty()) {
-                return Extent::EMPTY;
-            }
-            match step {
-                Step::Constant(value) => Extent::at(value),
-                Step::Input(input) => inputs[input],
-                Step::Unary(function, a) => extents[a].unary(function),
-                Step::Power(a, exponent) => extents[a].power(exponent),
-                Step::Binary(Operation::Add, a, b) => extents[a].plus(extents[b]),
-                Step::Binary(Operation::Sub, a, b) => extents[a].plus(extents[b].negated()),
-                Step::Binary(Operation::Mul, a, b) if a == b => extents[a].square(),
-                Step::Binary(Operation::Mul, a, b) => extents[a].times(extents[b]),
-                Step::Binary(Operation::Pow, a, _) if extents[a].high < 0.0 => Extent::EMPTY,
-                Step::Binary(Operation::Pow, ..) => Extent::POSITIVE,
-            }
-        };
-        let extent = if reached[place] { of(step) } else { Extent::ALL };
-        extents.push(allowed[place].map_or(extent, |positive| extent.within(positive)));
-    }
-    extents
-}
-
-/// Signs of arguments from signs of results: of -x, 1/x, and xy where the sign of one is known.
-fn backward(graph: &Graph, reached: &[bool], extents: &[Extent], allowed: &mut [Option<bool>]) {
-    for (place, step) in graph.steps().enumerate().rev() {
-        let (Some(sign), true) = (allowed[place], reached[place]) else { continue };
-        let of = |place: usize| allowed[place].or(extents[place].sign());
-        let told = match step {
-            Step::Unary(Function::Neg, a) => [Some((a, !sign)), None],
-            Step::Unary(Function::Recip, a) => [Some((a, sign)), None],
-            Step::Binary(Operation::Mul, a, b) if a != b => {
-                [of(b).map(|other| (a, sign == other)), of(a).map(|other| (b, sign == other))]
-            }
-            _ => [None, None],
-        };
-        for (argument, sign) in told.into_iter().flatten() {
-            allowed[argument].get_or_insert(sign);
+    /// How much there is to gain from cutting it.
+    pub fn spread(self) -> f64 {
+        let least = if self.excludes_zero() { self.low.abs().min(self.high.abs()) } else { 0.0 };
+        match (self.high - self.low, least) {
+            (width, 0.0) if width > 0.0 => f64::MAX.min(1e9 * width),
+            (width, least) => width / least,
         }
     }
+}
+
+/// a + b rounded, and the sign of what is missing.
+fn sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    if !sum.is_finite() {
+        // Beyond all numbers nothing is known of the error; an infinite end is one.
+        let is_end = a.is_infinite() || b.is_infinite();
+        return (sum, if is_end { 0.0 } else { f64::NAN });
+    }
+    // Knuth's exact error of a sum.
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// a b rounded, and the sign of what is missing; 0 · ∞ is 0, since ∞ is not a number of an interval.
+fn product(a: f64, b: f64) -> (f64, f64) {
+    if a == 0.0 || b == 0.0 {
+        return (0.0, 0.0);
+    }
+    let product = a * b;
+    if product.is_infinite() && (a.is_infinite() || b.is_infinite()) {
+        return (product, 0.0);
+    }
+    // The error is exact unless it underflows.
+    let is_exact = product.is_finite() && product.abs() > f64::MIN_POSITIVE / f64::EPSILON;
+    (product, if is_exact { libm::fma(a, b, -product) } else { f64::NAN })
+}
+
+/// The largest f64 known not to be above a rounded number with this missing.
+fn down((rounded, missing): (f64, f64)) -> f64 {
+    if missing >= 0.0 { rounded } else { rounded.next_down() }
+}
+
+/// The smallest f64 known not to be below a rounded number with this missing.
+fn up((rounded, missing): (f64, f64)) -> f64 {
+    if missing <= 0.0 { rounded } else { rounded.next_up() }
 }
 
 #[cfg(test)]
 mod tests {
-    use num_dual::DualNum;
-
     use super::*;
-    use crate::graph::{Expr, record};
-    use crate::scalar::Scalar;
 
-    /// The sign over all inputs between these ends.
-    fn sign_of(ends: &[(i64, i64)], build: impl FnOnce(&[Expr]) -> Expr) -> Option<bool> {
-        let (graph, value) = record(ends.len(), build).expect("records");
-        let end = |n: i64| Rational::from(n);
-        let inputs: Vec<Extent> =
-            ends.iter().map(|(low, high)| Extent::between(&end(*low), &end(*high))).collect();
-        Setting { inputs: &inputs, positive: &[] }.sign(&graph, graph.place(value))
-    }
-
-    fn number(text: &str) -> Expr {
-        Expr::rational(&text.parse().expect("a number"))
+    #[test]
+    fn ends_are_rounded_outwards_and_only_where_they_are_rounded() {
+        let between = |low: f64, high: f64| Extent { low, high };
+        let two = between(2.0, 2.0);
+        assert_eq!(two.plus(between(-2.0, 2.0)), between(0.0, 4.0), "exact ends stay");
+        let third = Extent::at(&Rational::new(1, 3));
+        assert!(third.low < third.high, "1/3 is no f64");
+        let one = third.times(between(3.0, 3.0));
+        assert!(one.low <= 1.0 && one.high >= 1.0 && one.low < one.high, "{one:?}");
+        let tiny = between(1e-300, 1e-300);
+        assert!(tiny.times(tiny).sign() == Some(true) && tiny.square().high > 0.0, "underflow");
+        assert_eq!(between(1e300, 1e300).square().high, f64::INFINITY, "overflow");
+        assert!(between(1e300, 1e300).square().low < f64::INFINITY, "to both sides");
     }
 
     #[test]
-    fn a_sign_is_known_over_the_whole_box() {
-        assert_eq!(sign_of(&[(1, 2)], |x| x[0]), Some(true));
-        assert_eq!(sign_of(&[(-2, -1)], |x| x[0]), Some(false));
-        assert_eq!(sign_of(&[(-2, 2)], |x| x[0] - number("1.9999999999")), None, "at the end");
-        assert_eq!(sign_of(&[(0, 2)], |x| x[0]), Some(true), "0 goes with either sign");
-        assert_eq!(sign_of(&[(1, 2), (3, 4)], |x| x[0] - x[1]), Some(false));
+    fn sines_and_powers_hold_their_values() {
+        let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+        let mut chance = crate::proof::chance::Chance::new(6, 0);
+        let mut share = || (chance.element(&modulus) >> 9) as f64 / (1u64 << 52) as f64;
+        for round in 0..4000 {
+            let low = 40.0 * share() - 20.0;
+            let high = low + share() * if round % 2 == 0 { 0.5 } else { 8.0 };
+            let extent = Extent { low, high };
+            let at = low + share() * (high - low);
+            let inside = |extent: Extent, value: f64| {
+                extent.low <= value + 1e-12 * value.abs()
+                    && value <= extent.high + 1e-12 * value.abs()
+            };
+            assert!(inside(extent.unary(Function::Sin), at.sin()), "sin {at} in {extent:?}");
+            assert!(inside(extent.unary(Function::Cos), at.cos()), "cos {at} in {extent:?}");
+            assert!(inside(extent.unary(Function::Atan), at.atan()), "atan {at} in {extent:?}");
+            for n in [-3, -2, -1, 0, 1, 2, 3, 5, 8, 13] {
+                let power = extent.power(&Rational::from(n));
+                assert!(inside(power, at.powi(n as i32)), "{at}^{n} in {extent:?}: {power:?}");
+            }
+        }
+        let narrow = Extent { low: 0.3, high: 1.0 };
+        assert!(narrow.unary(Function::Cos).low > 0.54, "cos is positive from 0.3 to 1");
+        let odd = Extent { low: -2.0, high: 3.0 }.power(&Rational::from(3));
+        assert!(odd.low >= -8.0 - 1e-12 && odd.high <= 27.0 + 1e-12, "{odd:?}");
     }
 
     #[test]
-    fn squares_and_roots_are_positive() {
-        assert_eq!(sign_of(&[], |_| Expr::input() * number("2")), None, "any number");
-        assert_eq!(sign_of(&[(-2, 2)], |x| x[0] * x[0]), Some(true));
-        assert_eq!(sign_of(&[(-2, 2)], |x| (x[0] * x[0] + 1.0).recip()), Some(true));
-        assert_eq!(sign_of(&[(-2, 2)], |x| x[0].exp() * x[0].sqrt()), Some(true));
-        assert_eq!(sign_of(&[(-2, 2)], |x| -x[0].modulus()), Some(false));
-        assert_eq!(sign_of(&[(-2, -1)], |x| x[0].sqrt()), None, "there is no such value");
-    }
-
-    #[test]
-    fn parts_tell_what_the_whole_hides() {
-        let parabola = |x: &[Expr]| x[0] * x[0] - x[0] + 1.0;
-        assert_eq!(sign_of(&[(-2, 2)], parabola), Some(true), "x² − x + 1 > 0");
-        let touching = |x: &[Expr]| x[0] * x[0] - x[0] + number("0.24");
-        assert_eq!(sign_of(&[(-2, 2)], touching), None, "x² − x + 0.24 has two zeros");
-    }
-
-    #[test]
-    fn what_is_under_a_root_is_positive() {
-        let (graph, [radicand, factor]) =
-            record(2, |x| [-(x[0] * x[1].recip()), x[1]]).expect("records");
-        let inputs = [Extent::between(&Rational::from(-2), &Rational::from(-1))];
-        let positive = [graph.place(radicand)];
-        let sign =
-            |positive| Setting { inputs: &inputs, positive }.sign(&graph, graph.place(factor));
-        assert_eq!(sign(&[]), None, "any number");
-        assert_eq!(sign(&positive), Some(true), "−x/y > 0 for x < 0");
-    }
-
-    #[test]
-    fn numbers_beyond_f64_have_no_sign_by_accident() {
-        let power = |x: &[Expr]| -(x[0].powi(1_000_000) - 1.0);
-        assert_eq!(sign_of(&[(0, 2)], power), None, "1 − x^1000000 has both signs");
-        assert_eq!(sign_of(&[(2, 3)], power), Some(false));
+    fn random_results_lie_inside() {
+        use crate::number::exact::square_root;
+        let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+        let mut chance = crate::proof::chance::Chance::new(5, 0);
+        let mut number = || {
+            let drawn = modulus.to_integer(chance.element(&modulus));
+            let (mantissa, exponent) = ((drawn >> 8) as i64 - (1 << 52), (drawn & 63) as i32 - 40);
+            libm::scalbn(mantissa as f64, exponent)
+        };
+        let exact = |x: f64| Rational::from_f64(x).expect("finite");
+        for _ in 0..5000 {
+            let (x, y) = (number(), number());
+            let (a, b) = (Extent { low: x, high: x }, Extent { low: y, high: y });
+            let inside = |extent: Extent, value: Rational| {
+                exact(extent.low) <= value && value <= exact(extent.high)
+            };
+            assert!(inside(a.plus(b), &exact(x) + &exact(y)), "{x} + {y}");
+            assert!(inside(a.times(b), &exact(x) * &exact(y)), "{x} · {y}");
+            assert!(inside(a.square(), &exact(x) * &exact(x)), "{x}²");
+            if let Some(inverse) = exact(x).recip() {
+                assert!(inside(a.reciprocal(), inverse), "1/{x}");
+            }
+            let square = &exact(x) * &exact(x);
+            let (root, (near, _)) = (square_root(&square), square.to_f64());
+            let of = Extent { low: near.next_down(), high: near.next_up() };
+            assert!(inside(of.unary(Function::Sqrt), root.expect("a square")), "√{x}²");
+        }
     }
 }

@@ -6,54 +6,69 @@
 //!
 //! | | |
 //! |---|---|
-//! | `algebraic` | functions that no field has are replaced by signs and symbols |
+//! | `lower`, `numbers` | functions that no field has are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
 //! | `bounds` | degree and height on the graph, denominators kept in factors |
 //! | `chance`, `digest` | random primes and points, drawn from the seed and what is to be proved |
-//! | `identity` | Theorem 1: the test itself |
-//! | `elimination`, `rank` | linear algebra modulo a prime |
-//! | `standing` | independent roots certified |
-//! | `squares`, `roots` | dependent roots found out and eliminated |
-//! | `extent` | signs of values wherever the inputs can be |
+//! | `trial` | Theorem 1: the test itself |
+//! | `tower`, `characters` | independent roots certified |
+//! | `roots`, `squares`, `nested`, `polynomial` | dependent roots, and what they are |
+//! | `explore`, `cells`, `rewrite` | the cells of signs, and proofs on each |
+//! | `domain`, `classes`, `extent` | signs of values wherever the inputs can be |
+//! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
-mod algebraic;
 mod bounds;
+mod cells;
 mod chance;
+mod characters;
+mod classes;
+mod coprime;
 mod digest;
+mod domain;
 mod elimination;
+mod explore;
 mod extent;
-mod identity;
+mod lower;
+mod nested;
+mod numbers;
+mod polynomial;
 mod rank;
+mod reconstruct;
 mod relations;
+mod rewrite;
 mod roots;
 mod squares;
-mod standing;
 mod symbols;
+mod tower;
+mod trial;
 
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 pub use bounds::Source;
 pub(crate) use chance::Chance;
+pub use coprime::{are_coprime, are_polynomials};
+pub use domain::{Fact, is_nowhere_zero, sign};
 pub(crate) use elimination::reduce;
 pub use extent::Extent;
-pub use identity::{Certificate, Outcome};
-pub(crate) use relations::reconstruct;
+pub(crate) use reconstruct::reconstruct;
+pub(crate) use rewrite::conditions;
+pub use trial::Certificate;
 
-use crate::graph::{Expr, Fault, Graph};
+use crate::graph::{Expr, Fault, Graph, Step};
+use crate::number::{Function, Operation};
 
-use algebraic::Algebraic;
+use cells::{Cell, Leaf};
 use digest::Digest;
-use identity::Trial;
+use explore::{Explored, Explorer, Question};
+use lower::Algebraic;
 use relations::Relations;
-use roots::{Eliminated, Lowered};
-use standing::{Standing, standing};
 use symbols::Symbols;
+use trial::{Finding, Roots, Trial};
 
-/// Sign choices are tried for at most this many dependent roots.
-const MOST_CHOICES: usize = 4;
-
-/// What is to be proved about a graph.
+/// A question about values of a graph.
 pub struct Prover<'a> {
     /// The inputs of the graph in order; those beyond are uniform.
     pub sources: &'a [Source],
@@ -63,57 +78,176 @@ pub struct Prover<'a> {
     pub seed: u64,
 }
 
+/// Values that are asked about together.
+#[derive(Clone, Debug, Default)]
+pub struct Group {
+    /// Whether all of them are identically zero is asked.
+    pub outputs: Vec<Expr>,
+    /// What has a value wherever they matter.
+    pub required: Vec<Expr>,
+}
+
+impl Group {
+    /// Values that matter wherever they exist.
+    pub fn of(outputs: Vec<Expr>) -> Self {
+        Self { outputs, required: Vec::new() }
+    }
+}
+
+/// The answer about a group.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// All of its values are zero wherever they exist.
+    Zero(Certificate),
+    /// One of its values is not identically zero, on the parts of the real inputs that are given:
+    /// that is so at some real inputs if one of the parts holds any.
+    NonZero(Parts),
+    /// Neither, and the reason.
+    Silent(String),
+    /// They are zero wherever they exist, and have no value on a part of the inputs at which what is
+    /// required has one.
+    Partial,
+    /// They have a value for no real inputs.
+    Void,
+}
+
+/// Parts of the real inputs.
+#[derive(Clone, Debug, Default)]
+pub struct Parts(Option<Vec<Arc<Part>>>);
+
+/// A part of the real inputs: some inputs have these signs, and some values are positive.
+pub struct Part {
+    /// The computation of the values.
+    pub graph: Graph,
+    /// What is positive.
+    pub positive: Vec<Expr>,
+    /// Inputs that are signs.
+    pub signs: Vec<(usize, bool)>,
+}
+
+impl std::fmt::Debug for Part {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{} signs, {} of inputs", self.positive.len(), self.signs.len())
+    }
+}
+
+impl Part {
+    /// A point of it inside the extents of the inputs, if one is found.
+    pub fn point(&self, extents: &[Extent]) -> Option<Vec<f64>> {
+        let mut inputs = extents.to_vec();
+        for (input, positive) in &self.signs {
+            if let Some(extent) = inputs.get_mut(*input) {
+                *extent = extent.within(*positive);
+            }
+        }
+        let positive: Vec<usize> =
+            self.positive.iter().map(|value| self.graph.place(*value)).collect();
+        domain::point(&self.graph, &inputs, &positive)
+    }
+}
+
+impl Parts {
+    /// The parts; `None` where they are all real inputs.
+    pub fn proper(&self) -> Option<&[Arc<Part>]> {
+        self.0.as_deref()
+    }
+}
+
+impl Outcome {
+    /// Whether it says that all values are zero.
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Outcome::Zero(_))
+    }
+
+    /// Whether it says that one value is not identically zero.
+    pub fn is_nonzero(&self) -> bool {
+        matches!(self, Outcome::NonZero(_))
+    }
+}
+
 impl Prover<'_> {
     /// For each group of outputs: are all of them identically zero?
-    pub fn prove(&self, graph: &Graph, groups: &[Vec<Expr>]) -> Result<Vec<Outcome>, Fault> {
-        let sources = self.sources_of(graph);
+    pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<Outcome>, Fault> {
+        let outputs: Vec<Vec<Expr>> = groups.iter().map(|group| group.outputs.clone()).collect();
+        let digest = Digest::of(self.seed, graph, &outputs);
+        let question = Asked { graph, sources: self.sources_of(graph), digest };
         let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
-        let mut open: Vec<usize> = (0..groups.len()).collect();
-        let digest = Digest::of(self.seed, graph, groups);
-        let mut work = Work { digest, replaced: None, groups: groups.to_vec(), certificate: None };
-        let mut fresh = true;
-        while let Some(first) = open.first().copied() {
-            // Once some roots are gone, many groups have none left.
-            if std::mem::take(&mut fresh) {
-                self.prove_without_roots(work.graph(graph), &work, &mut open, &mut outcomes)?;
-                if !open.contains(&first) {
-                    continue;
-                }
-            }
-            match self.prove_with_roots(graph, &mut work, first, &open, &sources)? {
-                None => fresh = true,
-                Some(outcome) => {
-                    outcomes[first] = Some(outcome);
-                    open.retain(|group| *group != first);
-                }
+        for bucket in buckets(graph, groups, &question.sources) {
+            let members = &bucket.members;
+            let asked: Vec<&[Expr]> =
+                members.iter().map(|index| groups[*index].outputs.as_slice()).collect();
+            let found = match bucket.special.is_empty() {
+                true => self.prove_plain(&question, &asked),
+                false => combined(self.explore(&question, &asked, &bucket)?, members.len()),
+            };
+            for (index, (outcome, is_partial)) in members.iter().zip(found) {
+                outcomes[*index] = Some(match (is_partial, &outcome) {
+                    (true, Outcome::Zero(_) | Outcome::Void) => {
+                        self.on_all_parts(&question, &groups[*index], outcome)?
+                    }
+                    _ => outcome,
+                });
             }
         }
         Ok(outcomes.into_iter().flatten().collect())
     }
 
-    /// Settles the open groups that contain no root.
-    fn prove_without_roots(
+    fn explore(
         &self,
-        graph: &Graph,
-        work: &Work,
-        open: &mut Vec<usize>,
-        outcomes: &mut [Option<Outcome>],
-    ) -> Result<(), Fault> {
-        let all: Vec<Expr> = open.iter().flat_map(|group| work.groups[*group].clone()).collect();
-        let algebraic = self.lower(graph, &all, &self.sources_of(graph), work.digest)?;
-        let trial = Trial::new(&algebraic, work.digest);
-        open.retain(|group| {
-            let outputs =
-                work.groups[*group].iter().map(|output| algebraic.values[graph.place(*output)]);
-            let outcome = match outputs.collect::<Option<Vec<Expr>>>() {
-                None => no_value(),
-                Some(outputs) if algebraic.roots_of(&outputs).next().is_some() => return true,
-                Some(outputs) => judged(&algebraic, &outputs, trial.test(&outputs, &[], &[])),
-            };
-            outcomes[*group] = Some(work.with_eliminations(outcome));
-            false
-        });
-        Ok(())
+        question: &Asked<'_>,
+        groups: &[&[Expr]],
+        bucket: &Bucket,
+    ) -> Result<Explored, Fault> {
+        let Asked { graph, sources, digest } = question;
+        let cell = Cell::whole(graph, &bucket.special, &bucket.facts)?;
+        let question = &Question { graph, groups: groups.to_vec(), special: &bucket.special };
+        Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
+    }
+
+    /// An outcome for values that have none on a part of the inputs, as a derivative has none where
+    /// the radicand of a root vanishes: it stands if what is required has none there either.
+    fn on_all_parts(
+        &self,
+        question: &Asked<'_>,
+        group: &Group,
+        outcome: Outcome,
+    ) -> Result<Outcome, Fault> {
+        let Asked { graph, sources, .. } = question;
+        if group.required.is_empty() {
+            return Ok(outcome);
+        }
+        let both = [&group.outputs[..], &group.required[..]].concat();
+        let wide = Group { outputs: both, required: group.required.clone() };
+        let leaves = match buckets(graph, &[wide], sources).pop() {
+            Some(bucket) => {
+                self.explore(question, &[&group.outputs, &group.required], &bucket)?.leaves
+            }
+            None => Vec::new(),
+        };
+        let is_missing = |leaf: &Leaf| matches!(&leaf.findings[..], [None, Some(_)]);
+        Ok(match leaves.iter().any(is_missing) {
+            true => Outcome::Partial,
+            false => outcome,
+        })
+    }
+
+    /// Groups of rational functions.
+    fn prove_plain(&self, question: &Asked<'_>, groups: &[&[Expr]]) -> Vec<(Outcome, bool)> {
+        let Asked { graph, sources, digest } = question;
+        let algebraic = Algebraic::plain(graph, sources);
+        let trial = Trial::new(&algebraic, *digest);
+        let is_void = |group: &&[Expr]| group.iter().any(|x| graph.is_nowhere_defined(*x));
+        let findings = trial.test(groups, Roots::default());
+        groups
+            .iter()
+            .zip(findings)
+            .map(|(group, finding)| match finding {
+                _ if is_void(group) => (Outcome::Void, true),
+                Finding::Zero(certificate) => (Outcome::Zero(certificate), false),
+                Finding::NonZero => (Outcome::NonZero(Parts::default()), false),
+                Finding::Silent(reason) => (Outcome::Silent(reason), false),
+            })
+            .collect()
     }
 
     fn sources_of(&self, graph: &Graph) -> Vec<Source> {
@@ -122,163 +256,132 @@ impl Prover<'_> {
         sources
     }
 
+    /// Replaces what no field computes in the steps that some outputs need.
     fn lower(
         &self,
         graph: &Graph,
         outputs: &[Expr],
         sources: &[Source],
         digest: Digest,
-    ) -> Result<Algebraic, Fault> {
+    ) -> Result<Algebraic<'static>, Fault> {
         let reached = graph.reached(outputs.iter().copied());
         let opaque = Symbols::opaque(graph, &reached);
-        let algebraic = Algebraic::of(graph, &reached, sources, &opaque)?;
         if !symbols::any(graph, &reached) {
-            return Ok(algebraic);
+            return Algebraic::of(graph, &reached, sources, &opaque);
         }
-        let mut relations = Relations::new(graph, sources, algebraic, digest);
+        let formal = Algebraic::formal(graph, &reached, sources, &opaque)?;
+        let mut relations = Relations::new(graph, sources, formal, digest);
         let symbols = Symbols::by_basis(graph, &reached, &mut relations);
         Algebraic::of(graph, &reached, sources, &symbols)
     }
-
-    /// One group by itself, with its roots certified, or tried with all signs. Where some of its
-    /// roots can be eliminated, that is done for all open groups, and there is no outcome yet.
-    fn prove_with_roots(
-        &self,
-        original: &Graph,
-        work: &mut Work,
-        group: usize,
-        open: &[usize],
-        sources: &[Source],
-    ) -> Result<Option<Outcome>, Fault> {
-        let graph = work.graph(original);
-        let group = &work.groups[group];
-        let digest = work.digest;
-        let algebraic = self.lower(graph, group, sources, digest)?;
-        let outputs = group.iter().map(|output| algebraic.values[graph.place(*output)]);
-        let Some(outputs) = outputs.collect::<Option<Vec<Expr>>>() else {
-            return Ok(Some(no_value()));
-        };
-        let trial = Trial::new(&algebraic, digest);
-        let roots: Vec<_> = algebraic.roots_of(&outputs).collect();
-        let standing = standing(&trial, &algebraic, &roots, digest);
-        let roots: Vec<_> = roots.into_iter().zip(standing).collect();
-        if roots.iter().any(|(_, s)| *s == Standing::Dependent) {
-            let lowered = Lowered { algebraic: &algebraic, trial: &trial, roots: &roots };
-            let all: Vec<&[Expr]> = open.iter().map(|group| &*work.groups[*group]).collect();
-            let found = roots::eliminate(graph, group, &all, &lowered, self.extents, digest)?;
-            if let Some(found) = found {
-                work.replace(found, open);
-                return Ok(None);
-            }
-        }
-        let outcome = self.decide(&algebraic, &trial, &outputs, &roots);
-        Ok(Some(work.with_eliminations(outcome)))
-    }
-
-    /// All sign choices of the roots that are left dependent.
-    fn decide(
-        &self,
-        algebraic: &Algebraic,
-        trial: &Trial<'_>,
-        outputs: &[Expr],
-        roots: &[(algebraic::Root, Standing)],
-    ) -> Outcome {
-        let of = |wanted: Standing| -> Vec<algebraic::Root> {
-            roots.iter().filter(|(_, s)| *s == wanted).map(|(root, _)| *root).collect()
-        };
-        let (independent, choices) = (of(Standing::Independent), of(Standing::Dependent));
-        if !of(Standing::Unknown).is_empty() {
-            let reason = "a root never exists at random points, or is reached too rarely";
-            return Outcome::Silent(reason.to_string());
-        }
-        if choices.len() > MOST_CHOICES {
-            let reason = format!("{} roots or moduli depend on each other", choices.len());
-            return Outcome::Silent(reason);
-        }
-        let mut certificate: Option<Certificate> = None;
-        let (mut zero, mut other) = (0, 0);
-        let signs: Vec<Vec<(usize, bool)>> = (0u32..1 << choices.len())
-            .map(|choice| {
-                let sign = |(k, root): (usize, &algebraic::Root)| (root.sign, choice >> k & 1 == 0);
-                choices.iter().enumerate().map(sign).collect()
-            })
-            .collect();
-        for signs in &signs {
-            match trial.test(outputs, &independent, signs) {
-                Outcome::Zero(found) => {
-                    zero += 1;
-                    certificate = both(certificate, Some(found));
-                }
-                Outcome::NonZero => other += 1,
-                silent => return silent,
-            }
-        }
-        match (certificate, other) {
-            (Some(certificate), 0) => Outcome::Zero(certificate),
-            _ if trial.is_nonzero_for_all(outputs, &signs) => {
-                judged(algebraic, outputs, Outcome::NonZero)
-            }
-            _ => Outcome::Silent(format!(
-                "it vanishes for {zero} of {} choices of signs of dependent roots or moduli",
-                zero + other
-            )),
-        }
-    }
 }
 
-/// What is left to prove, after some roots have been eliminated.
-struct Work {
-    /// Of what was to be proved at first.
+/// What all groups of a question share.
+struct Asked<'q> {
+    graph: &'q Graph,
+    sources: Vec<Source>,
     digest: Digest,
-    /// The graph without them, if there were any.
-    replaced: Option<Graph>,
-    groups: Vec<Vec<Expr>>,
-    /// How sure it is that what replaced the roots are their values.
-    certificate: Option<Certificate>,
 }
 
-impl Work {
-    fn graph<'g>(&'g self, original: &'g Graph) -> &'g Graph {
-        self.replaced.as_ref().unwrap_or(original)
-    }
+/// Groups that are proved together.
+struct Bucket {
+    /// The places of the steps that they need and no field computes as they stand.
+    special: Vec<usize>,
+    /// What is known of values wherever they matter.
+    facts: Vec<(Expr, Fact)>,
+    /// The groups, by their numbers.
+    members: Vec<usize>,
+}
 
-    /// Goes on with a graph that has fewer roots, and the outputs of the open groups in it.
-    fn replace(&mut self, found: Eliminated, open: &[usize]) {
-        let mut outputs = found.outputs.into_iter();
-        for group in open {
-            let count = self.groups[*group].len();
-            self.groups[*group] = outputs.by_ref().take(count).collect();
+/// Groups by the steps that they need and no field computes as they stand, and by what is known; in
+/// the order of the first of each.
+fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
+    let is_special = |step: Step<'_>| match step {
+        Step::Constant(_) => false,
+        Step::Input(input) => sources.get(input) == Some(&Source::Sign),
+        Step::Unary(function, _) => !matches!(function, Function::Neg | Function::Recip),
+        Step::Binary(operation, ..) => operation == Operation::Pow,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+    };
+    let special: Vec<usize> =
+        (0..graph.len()).filter(|place| is_special(graph.step(*place))).collect();
+    let mut buckets: Vec<Bucket> = Vec::new();
+    for (index, group) in groups.iter().enumerate() {
+        let own: Vec<usize> = match special.is_empty() {
+            true => Vec::new(),
+            false => {
+                let reached = graph.reached(group.outputs.iter().copied());
+                special.iter().copied().filter(|place| reached[*place]).collect()
+            }
+        };
+        let is_same = |bucket: &&mut Bucket| {
+            let required = |index: &usize| &groups[*index].required;
+            bucket.special == own
+                && (own.is_empty() || required(&bucket.members[0]) == &group.required)
+        };
+        match buckets.iter_mut().find(is_same) {
+            Some(bucket) => bucket.members.push(index),
+            None => {
+                let facts = match own.is_empty() {
+                    true => Vec::new(),
+                    false => {
+                        let reached = graph.reached(group.required.iter().copied());
+                        let facts = conditions(graph, &reached).into_iter();
+                        facts.map(|(place, fact)| (graph.at(place), fact)).collect()
+                    }
+                };
+                buckets.push(Bucket { special: own, facts, members: vec![index] });
+            }
         }
-        self.replaced = Some(found.graph);
-        self.certificate = both(self.certificate, found.certificate);
     }
+    buckets
+}
 
-    fn with_eliminations(&self, outcome: Outcome) -> Outcome {
-        match (outcome, self.certificate) {
-            (Outcome::Zero(last), Some(before)) => Outcome::Zero(last.and(before)),
-            (outcome, _) => outcome,
+/// What holds on all cells together, for each group, and whether it has no value on some of them.
+fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
+    let Explored { leaves, certificate } = explored;
+    let of_group = |index: usize| {
+        let findings = || leaves.iter().filter_map(move |leaf| leaf.findings[index].as_ref());
+        let is_nonzero = |finding: &Option<Finding>| matches!(finding, Some(Finding::NonZero));
+        if leaves.iter().any(|leaf| is_nonzero(&leaf.findings[index])) {
+            return Outcome::NonZero(Parts::default());
+        }
+        let mut all: Option<Certificate> = None;
+        for finding in findings() {
+            match finding {
+                Finding::Zero(certificate) => all = trial::both(all, Some(*certificate)),
+                Finding::Silent(reason) => return Outcome::Silent(reason.clone()),
+                Finding::NonZero => {}
+            }
+        }
+        match all {
+            Some(all) => Outcome::Zero(certificate.map_or(all, |dropped| all.and(dropped))),
+            None => Outcome::Void,
+        }
+    };
+    let mut outcomes: Vec<Outcome> = (0..count).map(of_group).collect();
+    // A group that is not zero on the whole needs no parts; others keep those where they are not.
+    let is_nonzero = |leaf: &Leaf, index: usize| {
+        leaf.cell.is_part() && matches!(leaf.findings[index], Some(Finding::NonZero))
+    };
+    let of_group = |index: usize| {
+        let numbers = (0..leaves.len()).filter(|number| is_nonzero(&leaves[*number], index));
+        numbers.collect::<Vec<usize>>()
+    };
+    let parts: Vec<Vec<usize>> = (0..count).map(of_group).collect();
+    let is_partial: Vec<bool> =
+        (0..count).map(|index| leaves.iter().any(|leaf| leaf.findings[index].is_none())).collect();
+    let shared: Vec<Arc<Part>> = leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
+    for (outcome, own) in outcomes.iter_mut().zip(parts) {
+        if outcome.is_nonzero() && !own.is_empty() {
+            let parts = own.into_iter().map(|number| Arc::clone(&shared[number])).collect();
+            *outcome = Outcome::NonZero(Parts(Some(parts)));
         }
     }
+    outcomes.into_iter().zip(is_partial).collect()
 }
 
-fn both(a: Option<Certificate>, b: Option<Certificate>) -> Option<Certificate> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.and(b)),
-        (a, b) => a.or(b),
-    }
-}
-
-/// A value away from zero refutes only where no symbol stands for a function.
-fn judged(algebraic: &Algebraic, outputs: &[Expr], outcome: Outcome) -> Outcome {
-    match outcome {
-        Outcome::NonZero if algebraic.has_symbols(outputs) => Outcome::Silent(
-            "it does not vanish for independent symbols in the place of transcendental functions"
-                .to_string(),
-        ),
-        outcome => outcome,
-    }
-}
-
-fn no_value() -> Outcome {
-    Outcome::Silent("a function has no value in a prime field".to_string())
+fn part(cell: Cell) -> Part {
+    let positive = cell.signs().map(|place| cell.graph.at(place)).collect();
+    Part { positive, signs: cell.fixed, graph: cell.graph }
 }

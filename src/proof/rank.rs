@@ -4,12 +4,12 @@ use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
 
 use super::Prover;
-use super::algebraic::Algebraic;
-use super::chance::Chance;
+use super::chance::{Chance, Stream};
 use super::digest::Digest;
 use super::elimination::reduce;
-use super::identity::{LANES, Trial, points};
+use super::lower::Algebraic;
 use super::symbols::Symbols;
+use super::trial::{LANES, Trial};
 
 /// Blocks of points that are tried until one has values for all entries.
 const MOST_BLOCKS: usize = 1 << 12;
@@ -37,11 +37,11 @@ impl Prover<'_> {
         let trial = Trial::new(&algebraic, digest);
         let tape = Tape::new(&algebraic.graph, &outputs);
         let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::of(digest, 5);
+        let mut chance = Chance::of(digest, Stream::Ranks);
         let width = rows.first().map_or(0, Vec::len);
         let mut ranks: Option<Vec<usize>> = None;
         for _ in 0..MOST_BLOCKS {
-            evaluator.run(&points(trial.moduli(), &algebraic.sources, &[], &mut chance));
+            evaluator.run(&trial.points(&[], &mut chance));
             for lane in 0..LANES {
                 let values: Vec<u64> = evaluator.outputs().map(|block| block[lane]).collect();
                 if values.contains(&UNDEFINED) {

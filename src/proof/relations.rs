@@ -1,25 +1,25 @@
 //! Linear relations with rational coefficients between values of a graph.
 
 use crate::graph::{Evaluator, Expr, Graph, Tape, record};
-use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::number::prime::{Modulus, UNDEFINED};
+use crate::number::quadratic::Quadratic;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::algebraic::{Algebraic, Root};
 use super::bounds::Source;
-use super::chance::Chance;
+use super::chance::{Chance, Stream, Wanted};
 use super::digest::Digest;
 use super::elimination::reduce;
-use super::identity::{LANES, Outcome, Trial, points};
-use super::standing::{Standing, standing};
+use super::lower::Algebraic;
+use super::reconstruct::reconstruct;
 use super::symbols::Symbols;
+use super::tower::Tower;
+use super::trial::{Finding, LANES, Residues, Roots, Trial, points};
 
 /// More values than this are not related to each other: the effort grows with the cube.
 const MOST: usize = 40;
 /// Rows beyond the number of columns.
 const SPARE: usize = 4;
-/// Numerators and denominators of coefficients are looked for up to here.
-const LARGEST: i128 = 1 << 20;
 
 /// What must vanish, from the values at some places; nothing if one of them is missing.
 type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
@@ -37,7 +37,7 @@ pub struct Combination {
 pub struct Relations<'g> {
     graph: &'g Graph,
     sources: &'g [Source],
-    algebraic: Algebraic,
+    algebraic: Algebraic<'static>,
     digest: Digest,
 }
 
@@ -46,7 +46,7 @@ impl<'g> Relations<'g> {
     pub fn new(
         graph: &'g Graph,
         sources: &'g [Source],
-        algebraic: Algebraic,
+        algebraic: Algebraic<'static>,
         digest: Digest,
     ) -> Self {
         Self { graph, sources, algebraic, digest }
@@ -58,8 +58,8 @@ impl<'g> Relations<'g> {
         if places.is_empty() || places.len() > MOST {
             return None;
         }
-        let mut chance = Chance::of(self.digest, 2);
-        let modulus = chance.prime(&self.algebraic.odd_indices(), &self.algebraic.squares);
+        let mut chance = Chance::of(self.digest, Stream::Relations);
+        let modulus = self.prime(&mut chance);
         let columns = places.len() + usize::from(with_one);
         let rows = self.rows(places, with_one, columns + SPARE, &modulus, &mut chance)?;
         let (pivots, rows) = reduce(rows, columns, &modulus);
@@ -87,23 +87,27 @@ impl<'g> Relations<'g> {
 
     /// Are two values reciprocal (`true`), or equal (`false`)? `None` where neither is proved.
     pub fn is_reciprocal(&mut self, a: usize, b: usize) -> Option<bool> {
-        let mut chance = Chance::of(self.digest, 6);
-        let modulus = chance.prime(&self.algebraic.odd_indices(), &self.algebraic.squares);
-        let rows = self.rows(&[a, b], false, 2, &modulus, &mut chance)?;
-        let one = modulus.one();
-        let equal = rows.iter().all(|row| row[0] == row[1]);
-        let reciprocal = rows.iter().all(|row| modulus.mul(row[0], row[1]) == one);
-        if !equal && !reciprocal {
-            return None;
-        }
-        let defect = |values: &[Option<Expr>]| -> Option<Vec<Expr>> {
-            let (a, b) = (values[a]?, values[b]?);
-            Some(vec![if equal { a - b } else { a * b - Expr::rational(&Rational::from(1)) }])
+        let defect = |reciprocal: bool| {
+            move |values: &[Option<Expr>]| -> Option<Vec<Expr>> {
+                let (a, b) = (values[a]?, values[b]?);
+                let one = Expr::rational(&Rational::from(1));
+                Some(vec![if reciprocal { a * b - one } else { a - b }])
+            }
         };
-        self.vanish(&[a, b], &defect).then_some(!equal)
+        let holds = |reciprocal: &bool| self.vanish(&[a, b], &defect(*reciprocal));
+        [false, true].into_iter().find(holds)
     }
 
-    /// Values at random points modulo one prime, one row a point.
+    fn prime(&self, chance: &mut Chance) -> Modulus {
+        chance.prime_with_roots(&Wanted {
+            odd: self.algebraic.odd_indices(),
+            squares: self.algebraic.squares(),
+            depth: self.algebraic.depth(),
+        })
+    }
+
+    /// Values at random points over one prime, two rows a point: an element of the quadratic
+    /// extension is two of the field.
     fn rows(
         &self,
         places: &[usize],
@@ -116,18 +120,24 @@ impl<'g> Relations<'g> {
             places.iter().map(|place| self.algebraic.values[*place]).collect();
         let tape = Tape::new(&self.algebraic.graph, &outputs?);
         let moduli = [*modulus; LANES];
-        let mut evaluator = Evaluator::new(&tape, Prime::new(moduli));
+        let mut evaluator = Evaluator::new(&tape, Quadratic::new(moduli));
         let mut rows = Vec::new();
         for _ in 0..64 * count {
-            evaluator.run(&points(&moduli, &self.algebraic.sources, &[], chance));
+            let block = points(&moduli, &self.algebraic.sources, &[], chance);
+            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
             for lane in 0..LANES {
-                let row: Vec<u64> = evaluator.outputs().map(|block| block[lane]).collect();
-                if row.iter().all(|value| *value != UNDEFINED) {
-                    let one = with_one.then(|| modulus.one());
-                    rows.push(one.into_iter().chain(row).collect());
+                let values: Vec<[u64; 2]> = evaluator.outputs().map(|block| block[lane]).collect();
+                if values.iter().any(|value| value[0] == UNDEFINED) {
+                    continue;
+                }
+                for (part, one) in [modulus.one(), 0].into_iter().enumerate() {
+                    let one = with_one.then_some(one);
+                    let row: Vec<u64> =
+                        one.into_iter().chain(values.iter().map(|value| value[part])).collect();
+                    rows.push(row);
                 }
             }
-            if rows.len() >= count {
+            if rows.len() >= 2 * count {
                 return Some(rows);
             }
         }
@@ -167,38 +177,13 @@ impl<'g> Relations<'g> {
             defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
         let Some(lowered_defects) = lowered_defects else { return false };
         let trial = Trial::new(&lowered, self.digest);
-        let roots: Vec<Root> = lowered.roots_of(&lowered_defects).collect();
-        let standing = standing(&trial, &lowered, &roots, self.digest);
-        standing.iter().all(|standing| *standing == Standing::Independent)
-            && matches!(trial.test(&lowered_defects, &roots, &[]), Outcome::Zero(_))
-    }
-}
-
-/// The fraction of small parts with this image, if there is one; it is then the only one.
-pub fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
-    // Half of Euclid's algorithm: r_i = t_i x mod p at every step.
-    let (mut previous, mut current) =
-        ((i128::from(modulus.prime()), 0i128), (i128::from(modulus.to_integer(image)), 1i128));
-    while current.0 > LARGEST {
-        let quotient = previous.0 / current.0;
-        let next = (previous.0 - quotient * current.0, previous.1 - quotient * current.1);
-        (previous, current) = (current, next);
-    }
-    let (above, below) = current;
-    (below != 0 && below.abs() <= LARGEST).then(|| Rational::new(above as i64, below as i64))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fractions_are_found_from_their_images() {
-        let modulus = Chance::new(3, 0).prime(&[], &[]);
-        for (n, d) in [(0, 1), (1, 1), (-1, 2), (22, 7), (-104_729, 1_048_573)] {
-            let value = Rational::new(n, d);
-            let image = modulus.rational(&value).expect("p does not divide d");
-            assert_eq!(reconstruct(image, &modulus), Some(value), "{n}/{d}");
-        }
+        let tower = Tower::of(&graph, &lowered, &trial, self.digest);
+        let is_clean = |defect: &Expr| tower.is_clean(&lowered, *defect);
+        lowered.has_few_signs()
+            && lowered_defects.iter().all(is_clean)
+            && matches!(
+                trial.test(&[&lowered_defects], Roots { nested: tower.nested, fixed: &[] }).pop(),
+                Some(Finding::Zero(_))
+            )
     }
 }

@@ -1,253 +1,176 @@
-//! Dependent roots and moduli are replaced by what they are.
-//!
-//! A root that is no square in the field of those before it is independent (see `standing`). Otherwise
-//! A = b² for some b there, and √A = |b|, which is ±b where b has one sign (see `extent`). Such a b
-//! is looked for among the values computed before (see `squares`), and the identity is proved.
+//! Roots that depend on others, and what they are.
 
-use crate::graph::{Expr, Fault, Graph, Step, record};
-use crate::number::Function;
-use crate::number::exact::square_root;
+use crate::graph::{Expr, Fault, Graph};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::algebraic::{Algebraic, Root};
 use super::digest::Digest;
-use super::extent::{Extent, Setting};
-use super::identity::{Certificate, Outcome, Trial};
-use super::squares::{Base, Samples};
-use super::standing::Standing;
+use super::domain::Region;
+use super::lower::Algebraic;
+use super::nested::{Written, written};
+use super::rewrite::{Rewrite, Root};
+use super::squares::{Samples, Square};
+use super::tower::{Standing, Tower};
+use super::trial::{Certificate, Finding, Roots, Trial};
 
-/// A root's new value: c |b| / Π √A_i.
-struct Replacement {
-    place: usize,
-    base: Base,
-    /// c
-    factor: Rational,
-    /// The sign of b wherever the inputs can be, if it is known.
-    sign: Option<bool>,
-    /// The same where all roots of the group are real.
-    sign_where_real: Option<bool>,
-    /// The places of the roots √A_i.
-    over: Vec<usize>,
-    /// Is it |X| that is replaced?
-    is_modulus: bool,
+/// Products of a nested radicand with at most this many others are tried.
+const MOST_FACTORS: usize = 4;
+
+/// What became of the root of a base.
+pub enum Search {
+    /// It is independent of those before it.
+    Independent,
+    /// It is something else, up to the probability that is bounded.
+    Rewrite(Rewrite, Option<Certificate>),
+    /// There are no real inputs at which it exists together with those before it, up to the
+    /// probability that is bounded.
+    NeverReal(Option<Certificate>),
+    /// It may depend on others, and it was not found how.
+    Unknown,
 }
 
-impl Replacement {
-    /// The new value, where the values at places are known; `None` where the old one has to stay.
-    fn value(&self, where_real: bool, values: &[Option<Expr>]) -> Option<Expr> {
-        if !where_real && !self.over.is_empty() {
-            return None;
-        }
-        let sign = if where_real { self.sign_where_real } else { self.sign };
-        let base = self.base.from(|at| values[at])?;
-        let size = match sign {
-            Some(true) => base,
-            Some(false) => -base,
-            None if self.is_modulus => return None,
-            None => base.modulus(),
-        };
-        let mut value = size * Expr::rational(&self.factor);
-        for root in &self.over {
-            value /= values[*root]?;
-        }
-        Some(value)
-    }
-}
-
-/// A graph without some of its roots.
-pub struct Eliminated {
-    /// The graph.
-    pub graph: Graph,
-    /// The outputs in it.
-    pub outputs: Vec<Expr>,
-    /// How sure it is that what replaced the roots are their values, if anything did.
-    pub certificate: Option<Certificate>,
-}
-
-/// A group as the fields see it.
-pub struct Lowered<'l> {
-    /// Made from the group's part of the graph.
-    pub algebraic: &'l Algebraic,
+/// A graph with its roots, and what is known of them.
+pub struct RootFinder<'f> {
+    /// The computation.
+    pub graph: &'f Graph,
+    /// The same, lowered.
+    pub algebraic: &'f Algebraic<'f>,
     /// Its test.
-    pub trial: &'l Trial<'l>,
-    /// The roots it contains.
-    pub roots: &'l [(Root, Standing)],
+    pub trial: &'f Trial<'f>,
+    /// Its roots.
+    pub tower: &'f Tower,
+    /// Its real inputs.
+    pub region: &'f Region<'f>,
+    /// Of what is to be proved.
+    pub digest: Digest,
+    /// Values at random points, once they are needed.
+    pub samples: Option<Option<Samples>>,
 }
 
-/// The original graph with those of a group's dependent roots and moduli replaced that could be, if
-/// any; in the other groups too, as far as that is right for them.
-///
-/// Where the other roots of the group are real decides signs, and √(xy) = √x √y needs x > 0. A group
-/// that lacks one of these roots has a value at other states too, and keeps its own.
-pub fn eliminate(
-    graph: &Graph,
-    group: &[Expr],
-    groups: &[&[Expr]],
-    lowered: &Lowered<'_>,
-    extents: &[Extent],
-    digest: Digest,
-) -> Result<Option<Eliminated>, Fault> {
-    let Lowered { algebraic, trial, roots } = *lowered;
-    let reached = graph.reached(group.iter().copied());
-    let (real, positive) = radicands(graph, &reached);
-    let anywhere = Setting { inputs: extents, positive: &[] };
-    let where_real = Setting { inputs: extents, positive: &positive };
-    let signs = |base: Base| {
-        // An even number of negative factors.
-        let sign = |setting: Setting<'_>| {
-            base.places().try_fold(true, |sign, place| Some(sign == setting.sign(graph, place)?))
-        };
-        let sign_anywhere = sign(anywhere);
-        (sign_anywhere, sign_anywhere.or_else(|| sign(where_real)))
-    };
-    let mut replacements = moduli(graph, roots, signs);
-    let is_dependent =
-        |(root, standing): &(Root, Standing)| *standing == Standing::Dependent && !root.is_modulus;
-    let samples = match roots.iter().any(is_dependent) {
-        true => Samples::of(algebraic, trial, roots, digest),
-        false => None,
-    };
-    let known = where_real.at_sight(graph, &reached);
-    let mut found_certificate = None;
-    for (index, (root, standing)) in roots.iter().enumerate() {
-        let (Some(place), Standing::Dependent, false) = (root.place, standing, root.is_modulus)
-        else {
-            continue;
-        };
-        let earlier: Vec<&Root> = roots[..index]
-            .iter()
-            .filter(|(root, standing)| *standing == Standing::Independent && root.place.is_some())
-            .map(|(root, _)| root)
-            .collect();
-        let found = samples.as_ref().and_then(|s| s.square(place, root, &earlier, &known));
-        let Some((base, square, over)) = found else { continue };
-        let proved = square_is(algebraic, root, base, &square, &over, roots, digest)?;
-        if let (Some(factor), Some(certificate)) = (square_root(&square), proved) {
-            found_certificate =
-                Some(found_certificate.map_or(certificate, |c: Certificate| c.and(certificate)));
-            let (sign, sign_where_real) = signs(base);
-            let is_modulus = false;
-            replacements.push(Replacement {
-                place,
-                base,
-                factor,
-                sign,
-                sign_where_real,
-                over,
-                is_modulus,
-            });
+impl RootFinder<'_> {
+    /// What the root of a base is.
+    pub fn search(&mut self, base: usize) -> Result<Search, Fault> {
+        let arguments = || self.algebraic.bases[base].arguments.clone();
+        match &self.tower.standings[base] {
+            Standing::Independent => Ok(Search::Independent),
+            Standing::Split => Ok(Search::Rewrite(Rewrite::Split { arguments: arguments() }, None)),
+            Standing::Zero => {
+                let radicand = self.algebraic.bases[base].radicand;
+                let roots = Roots { nested: self.tower.nested, fixed: &[] };
+                Ok(match self.trial.test(&[&[radicand]], roots).pop() {
+                    Some(Finding::Zero(certificate)) => {
+                        let rewrite = Rewrite::Zero { arguments: arguments() };
+                        Search::Rewrite(rewrite, Some(certificate))
+                    }
+                    _ => Search::Unknown,
+                })
+            }
+            Standing::Dependent(others) => self.dependent(base, others.clone()),
+            Standing::Deferred | Standing::Unreached => Ok(Search::Unknown),
         }
     }
-    if replacements.is_empty() {
-        return Ok(None);
-    }
-    let (replaced, outputs) = record(graph.inputs(), |inputs| {
-        let replayed = |where_real: bool, group: &[Expr]| {
-            let reached = graph.reached(group.iter().copied());
-            graph.replay(&reached, inputs, |place, _, values| {
-                replacements.iter().find(|r| r.place == place)?.value(where_real, values)
-            })
-        };
-        let is_as_real = |group: &&&[Expr]| {
-            let reached = graph.reached(group.iter().copied());
-            real.iter().all(|place| reached[*place])
-        };
-        let (alike, others): (Vec<&&[Expr]>, Vec<&&[Expr]>) = groups.iter().partition(is_as_real);
-        let alike: Vec<Expr> = alike.into_iter().flat_map(|group| group.iter().copied()).collect();
-        let others: Vec<Expr> =
-            others.into_iter().flat_map(|group| group.iter().copied()).collect();
-        let (in_alike, in_others) = (replayed(true, &alike), replayed(false, &others));
-        groups
-            .iter()
-            .flat_map(|group| {
-                let values = if is_as_real(&group) { &in_alike } else { &in_others };
-                group.iter().map(|output| values[graph.place(*output)])
-            })
-            .collect::<Option<Vec<Expr>>>()
-    })?;
-    Ok(outputs.map(|outputs| Eliminated {
-        graph: replaced,
-        outputs,
-        certificate: found_certificate,
-    }))
-}
 
-/// The places of the roots among the reached steps, and of what they are taken of.
-fn radicands(graph: &Graph, reached: &[bool]) -> (Vec<usize>, Vec<usize>) {
-    graph
-        .steps()
-        .enumerate()
-        .filter_map(|(place, step)| match step {
-            Step::Unary(Function::Sqrt, a) if reached[place] => Some((place, a)),
+    fn dependent(&mut self, base: usize, others: Vec<usize>) -> Result<Search, Fault> {
+        let is_nested = self.algebraic.mask(self.algebraic.bases[base].radicand) != 0;
+        let groups = if is_nested { self.nested_before(base) } else { vec![others] };
+        for others in groups {
+            if let Some(found) = self.product(base, &others)? {
+                return Ok(found);
+            }
+        }
+        Ok(Search::Unknown)
+    }
+
+    /// Sets of independent roots before a nested one, none first.
+    fn nested_before(&self, base: usize) -> Vec<Vec<usize>> {
+        let is_candidate = |index: &usize| {
+            let other = &self.algebraic.bases[*index];
+            self.tower.standings[*index] == Standing::Independent
+                && self.algebraic.mask(other.radicand) != 0
+        };
+        let candidates: Vec<usize> = (0..base).filter(is_candidate).take(MOST_FACTORS).collect();
+        let chosen = |subset: u32| {
+            let members = candidates.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1);
+            members.map(|(_, index)| *index).collect()
+        };
+        (0u32..1 << candidates.len()).map(chosen).collect()
+    }
+
+    /// √(A Π A_i), if it is known what that is.
+    fn product(&mut self, base: usize, others: &[usize]) -> Result<Option<Search>, Fault> {
+        let own = &self.algebraic.bases[base];
+        let first = |index: &usize| self.algebraic.bases[*index].arguments.first().copied();
+        let Some(over) = others.iter().map(first).collect::<Option<Vec<usize>>>() else {
+            return Ok(None);
+        };
+        let rewrite = |root: Root| Rewrite::Root {
+            arguments: own.arguments.clone(),
+            root,
+            over: over.clone(),
+        };
+        let before = own.first;
+        if let Some((scale, square)) =
+            self.samples().and_then(|samples| samples.square(base, others, before))
+            && let Some(certificate) = self.is_square(base, others, &scale, square)?
+        {
+            return Ok(Some(match scale.is_negative() {
+                true => Search::NeverReal(Some(certificate)),
+                false => Search::Rewrite(rewrite(Root::Found(scale, square)), Some(certificate)),
+            }));
+        }
+        let own = own.arguments.first().copied();
+        let places: Vec<usize> = own.into_iter().chain(over.iter().copied()).collect();
+        Ok(written(self.graph, &places).map(|written| match &written {
+            Written::Square(scale, _) if scale.is_negative() => Search::NeverReal(None),
+            _ => Search::Rewrite(rewrite(Root::Written(written)), None),
+        }))
+    }
+
+    fn samples(&mut self) -> Option<&Samples> {
+        if self.samples.is_none() {
+            let outputs: Vec<usize> = (0..self.graph.len())
+                .filter(|place| self.algebraic.values[*place].is_some())
+                .collect();
+            let known = self.region.at_sight(&outputs);
+            let bases = 0..self.algebraic.bases.len();
+            let is_needed = |index: &usize| {
+                matches!(
+                    self.tower.standings[*index],
+                    Standing::Independent | Standing::Dependent(_)
+                )
+            };
+            let needed: Vec<usize> = bases.filter(is_needed).collect();
+            self.samples = Some(Samples::of(self.algebraic, &needed, &known, self.digest));
+        }
+        self.samples.as_ref()?.as_ref()
+    }
+
+    /// Proves A Π A_i = c b².
+    fn is_square(
+        &self,
+        base: usize,
+        others: &[usize],
+        scale: &Rational,
+        square: Square,
+    ) -> Result<Option<Certificate>, Fault> {
+        let bases = &self.algebraic.bases;
+        let extended = self.algebraic.with(|_, at| {
+            let mut product = at(bases[base].radicand)?;
+            for other in others {
+                product *= at(bases[*other].radicand)?;
+            }
+            let b = square.value(|place| at(self.algebraic.values[place]?))?;
+            Some(vec![product - b * b * Expr::rational(scale)])
+        })?;
+        let Some((extended, difference)) = extended else { return Ok(None) };
+        if !difference.iter().all(|value| self.tower.is_clean(&extended, *value)) {
+            return Ok(None);
+        }
+        let trial = Trial::new(&extended, self.digest);
+        let roots = Roots { nested: self.tower.nested, fixed: &[] };
+        Ok(match trial.test(&[&difference], roots).pop() {
+            Some(Finding::Zero(certificate)) => Some(certificate),
             _ => None,
         })
-        .unzip()
-}
-
-/// Proves A Π A_i = c² b² for a root of A, the value b and other roots A_i.
-fn square_is(
-    algebraic: &Algebraic,
-    root: &Root,
-    base: Base,
-    square: &Rational,
-    over: &[usize],
-    roots: &[(Root, Standing)],
-    digest: Digest,
-) -> Result<Option<Certificate>, Fault> {
-    let factors =
-        || roots.iter().filter(|(r, _)| r.place.is_some_and(|place| over.contains(&place)));
-    let mut needed: Vec<Expr> = factors().map(|(other, _)| other.radicand).collect();
-    needed.push(root.radicand);
-    needed.extend(base.places().filter_map(|place| algebraic.values[place]));
-    let (graph, difference) = record(algebraic.sources.len(), |inputs| {
-        let reached = algebraic.graph.reached(needed.iter().copied());
-        let values = algebraic.graph.replay(&reached, inputs, |_, _, _| None);
-        let at = |expr: Expr| values[algebraic.graph.place(expr)];
-        let mut product = at(root.radicand)?;
-        for (other, _) in factors() {
-            product *= at(other.radicand)?;
-        }
-        let b = base.from(|place| at(algebraic.values[place]?))?;
-        let odd = algebraic.odd.iter().filter_map(|(base, index)| Some((at(*base)?, *index)));
-        Some((product - b * b * Expr::rational(square), odd.collect::<Vec<_>>()))
-    })?;
-    let Some((difference, odd)) = difference else { return Ok(None) };
-    let claim = Algebraic {
-        graph,
-        values: Vec::new(),
-        sources: algebraic.sources.clone(),
-        original_inputs: algebraic.original_inputs,
-        roots: algebraic.roots.clone(),
-        squares: algebraic.squares.clone(),
-        odd,
-    };
-    let contained: Vec<Root> = claim.roots_of(&[difference]).collect();
-    let standing = |root: &Root| roots.iter().find(|(r, _)| r.sign == root.sign).map(|(_, s)| *s);
-    if contained.iter().any(|root| standing(root) != Some(Standing::Independent)) {
-        return Ok(None);
     }
-    Ok(match Trial::new(&claim, digest).test(&[difference], &contained, &[]) {
-        Outcome::Zero(certificate) => Some(certificate),
-        _ => None,
-    })
-}
-
-/// |X| becomes ±X where X has one sign.
-fn moduli(
-    graph: &Graph,
-    roots: &[(Root, Standing)],
-    signs: impl Fn(Base) -> (Option<bool>, Option<bool>),
-) -> Vec<Replacement> {
-    let replacement = |root: &Root| {
-        let place = root.place?;
-        let base = Base { value: graph.step(place).arguments().next()?, beside: None };
-        let (sign, sign_where_real) = signs(base);
-        sign_where_real?;
-        let (factor, over) = (Rational::from(1), Vec::new());
-        let is_modulus = true;
-        Some(Replacement { place, base, factor, sign, sign_where_real, over, is_modulus })
-    };
-    let moduli = roots.iter().filter(|(root, _)| root.is_modulus);
-    moduli.filter_map(|(root, _)| replacement(root)).collect()
 }

@@ -1,224 +1,237 @@
-//! Squares among the values of a graph: A Π A_i = c² b² for a radicand A and earlier ones A_i.
+//! Squares among the values of a graph: A Π A_i = c b² for a radicand A and others A_i.
 
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Evaluator, Expr, Tape};
-use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::number::prime::{Modulus, UNDEFINED};
+use crate::number::quadratic::{Element, Quadratic};
 use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
-use super::algebraic::{Algebraic, Root};
-use super::chance::Chance;
+use super::chance::{Chance, Stream};
 use super::digest::Digest;
-use super::identity::{LANES, MOST_ROOTS, Trial, points};
-use super::standing::Standing;
+use super::lower::Algebraic;
+use super::reconstruct::reconstruct;
+use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, points, prime_of, suitable_moduli};
 
-/// Blocks of points that are tried before no common point of all roots is expected any more.
-const MOST_BLOCKS: usize = (64 << MOST_ROOTS) / LANES;
-/// Products of at most this many earlier radicands are tried.
-const MOST_FACTORS: usize = 4;
-/// Points that a square must fit before a proof is tried.
-const SAMPLES: usize = LANES;
-/// c² for the constants c with which √A = ±c b is looked for.
-const SQUARES: [(i64, i64); 7] = [(1, 1), (4, 1), (1, 4), (9, 1), (1, 9), (16, 1), (1, 16)];
+/// Lanes of one prime: the first is what the others are compared with.
+const SHARED: usize = LANES / PRIMES;
+/// Blocks of points that are tried until all values that are needed exist.
+const MOST_BLOCKS: usize = 8;
 
-/// b, the product or quotient of two values or one alone, by places of the original graph.
-#[derive(Clone, Copy)]
-pub struct Base {
-    pub value: usize,
-    /// Another place, and whether it divides.
-    pub beside: Option<(usize, bool)>,
+/// b, the product or quotient of values of the original graph, by their places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Square {
+    /// 1
+    One,
+    /// A value.
+    Value(usize),
+    /// A product of two values.
+    Product(usize, usize),
+    /// A quotient of two values.
+    Quotient(usize, usize),
 }
 
-impl Base {
+impl Square {
     /// The places.
-    pub fn places(self) -> impl Iterator<Item = usize> {
-        [Some(self.value), self.beside.map(|(place, _)| place)].into_iter().flatten()
+    pub fn places(self) -> Vec<usize> {
+        match self {
+            Square::One => Vec::new(),
+            Square::Value(a) => vec![a],
+            Square::Product(a, b) | Square::Quotient(a, b) => vec![a, b],
+        }
     }
 
-    /// Its value, from the values at the places.
-    pub fn from(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
-        let value = at(self.value)?;
-        Some(match self.beside {
-            None => value,
-            Some((place, false)) => value * at(place)?,
-            Some((place, true)) => value / at(place)?,
+    /// The value of b, from the values at places.
+    pub fn value(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        Some(match self {
+            Square::One => Expr::rational(&Rational::from(1)),
+            Square::Value(a) => at(a)?,
+            Square::Product(a, b) => at(a)? * at(b)?,
+            Square::Quotient(a, b) => at(a)? / at(b)?,
         })
     }
 }
 
-/// All values of the original graph at points where the independent roots exist.
-pub struct Samples {
-    moduli: Vec<Modulus>,
-    /// By place; `None` where the graph has no value that a field can compute.
-    values: Vec<Option<Vec<u64>>>,
-    /// For each root: its radicand at these points.
-    radicands: Vec<(usize, Vec<u64>)>,
-}
+/// Values at random points.
+type Values = [Element; LANES];
 
-impl Samples {
-    /// Values at points where all roots exist; `None` where there are hardly any.
-    pub fn of(
-        algebraic: &Algebraic,
-        trial: &Trial<'_>,
-        roots: &[(Root, Standing)],
-        digest: Digest,
-    ) -> Option<Self> {
-        let kept: Vec<usize> =
-            (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
-        let mut outputs: Vec<Expr> =
-            kept.iter().filter_map(|place| algebraic.values[*place]).collect();
-        let count = outputs.len();
-        outputs.extend(roots.iter().map(|(root, _)| root.radicand));
-        let tape = Tape::new(&algebraic.graph, &outputs);
-        let moduli = trial.moduli_for_search();
-        let mut evaluator = Evaluator::new(&tape, Prime::new(moduli));
-        let mut chance = Chance::of(digest, 4);
-        let mut samples = Self {
-            moduli: Vec::new(),
-            values: algebraic.values.iter().map(|value| value.map(|_| Vec::new())).collect(),
-            radicands: roots.iter().map(|(root, _)| (root.sign, Vec::new())).collect(),
-        };
-        for _ in 0..MOST_BLOCKS {
-            evaluator.run(&points(&moduli, &algebraic.sources, &[], &mut chance));
-            for (lane, modulus) in moduli.iter().enumerate() {
-                let exists = |index: usize| {
-                    let radicand = evaluator.output(count + index)[lane];
-                    roots[index].0.is_modulus
-                        || (radicand != UNDEFINED && modulus.is_square(radicand))
-                };
-                if !(0..roots.len()).all(exists) {
-                    continue;
-                }
-                samples.moduli.push(*modulus);
-                for (index, place) in kept.iter().enumerate() {
-                    if let Some(values) = &mut samples.values[*place] {
-                        values.push(evaluator.output(index)[lane]);
-                    }
-                }
-                for (index, (_, values)) in samples.radicands.iter_mut().enumerate() {
-                    values.push(evaluator.output(count + index)[lane]);
-                }
-            }
-            if samples.moduli.len() >= SAMPLES {
-                return Some(samples);
-            }
-        }
-        None
-    }
-
-    fn radicand(&self, root: &Root) -> Option<&Vec<u64>> {
-        self.radicands.iter().find(|(sign, _)| *sign == root.sign).map(|(_, values)| values)
-    }
-
-    /// A base b from earlier places, a square c² and earlier roots with A Π A_i = c² b² at all
-    /// points; one whose signs are `known` where there is one.
-    pub fn square(
-        &self,
-        place: usize,
-        root: &Root,
-        earlier: &[&Root],
-        known: &[bool],
-    ) -> Option<(Base, Rational, Vec<usize>)> {
-        let radicand = self.radicand(root)?;
-        let squares = Squares::of(self, place, known);
-        [true, false]
-            .into_iter()
-            .find_map(|only_known| self.square_among(&squares, only_known, radicand, earlier))
-    }
-
-    fn square_among(
-        &self,
-        squares: &Squares,
-        only_known: bool,
-        radicand: &[u64],
-        earlier: &[&Root],
-    ) -> Option<(Base, Rational, Vec<usize>)> {
-        for subset in 0u32..1 << earlier.len().min(MOST_FACTORS) {
-            let chosen = || earlier.iter().enumerate().filter(move |(k, _)| subset >> k & 1 == 1);
-            let mut target = radicand.to_vec();
-            for (_, root) in chosen() {
-                for ((entry, factor), m) in
-                    target.iter_mut().zip(self.radicand(root)?).zip(&self.moduli)
-                {
-                    *entry = m.mul(*entry, *factor);
-                }
-            }
-            for (n, d) in SQUARES {
-                let square = Rational::new(n, d);
-                let scaled: Option<Vec<u64>> = target
-                    .iter()
-                    .zip(&self.moduli)
-                    .map(|(x, m)| Some(m.mul(*x, m.rational(&square.recip()?)?)))
-                    .collect();
-                if let Some(base) = squares.find(&self.moduli, &scaled?, only_known) {
-                    let over = chosen().filter_map(|(_, root)| root.place).collect();
-                    return Some((base, square, over));
-                }
-            }
-        }
-        None
-    }
-}
-
-/// The squares of all values before a place, by what they are at the first point.
-struct Squares {
-    squares: Vec<Square>,
-    at_first: FxHashMap<u64, usize>,
-}
-
-/// The square of the value at a place, at all points.
-struct Square {
+/// The square of the value at a place.
+struct Entry {
     place: usize,
-    values: Vec<u64>,
-    /// Is the sign of the value known?
+    square: Values,
+    /// At the last point over that at the first point of the same prime, and the inverse of that: a
+    /// number as factor drops out.
+    ratios: [Element; 2],
+    /// Whether the sign of the value is known.
     is_known: bool,
 }
 
-impl Squares {
-    fn of(samples: &Samples, before: usize, known: &[bool]) -> Self {
-        let mut all = Self { squares: Vec::new(), at_first: FxHashMap::default() };
-        for (place, values) in samples.values.iter().enumerate().take(before) {
-            let Some(values) = values else { continue };
-            // 0 has no inverse, and is the square of nothing that is asked for.
-            if values.iter().any(|value| *value == UNDEFINED || *value == 0) {
-                continue;
-            }
-            let square = values.iter().zip(&samples.moduli).map(|(x, m)| m.mul(*x, *x));
-            let values: Vec<u64> = square.collect();
-            let Some(first) = values.first() else { continue };
-            let (next, is_known) = (all.squares.len(), known.get(place) == Some(&true));
-            let index = all.at_first.entry(*first).or_insert(next);
-            if is_known && all.squares.get(*index).is_some_and(|square| !square.is_known) {
-                *index = next;
-            }
-            all.squares.push(Square { place, values, is_known });
+/// All values of a graph at random points where its independent roots exist.
+pub struct Samples {
+    field: Quadratic<LANES>,
+    moduli: [Modulus; LANES],
+    /// Where there is a value other than 0 at all points, by place.
+    entries: Vec<Entry>,
+    /// The first entry with a ratio, and the first with a known sign.
+    with_ratio: FxHashMap<Element, [Option<usize>; 2]>,
+    /// The radicands, by base.
+    radicands: Vec<Values>,
+}
+
+/// The point that entries are looked up by, and that which it is compared with.
+const LAST: usize = LANES - 1;
+const COMPARED: usize = LANES - SHARED;
+
+impl Samples {
+    /// Values at points where the radicands of the bases `needed` exist; `None` where no such point
+    /// is found. `known` tells where signs are known.
+    pub fn of(
+        algebraic: &Algebraic<'_>,
+        needed: &[usize],
+        known: &[bool],
+        digest: Digest,
+    ) -> Option<Self> {
+        let places: Vec<usize> =
+            (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
+        let mut outputs: Vec<Expr> =
+            places.iter().filter_map(|place| algebraic.values[*place]).collect();
+        outputs.extend(algebraic.bases.iter().map(|base| base.radicand));
+        let tape = Tape::new(&algebraic.graph, &outputs);
+        // An identity has to be tested modulo primes that had no part in finding it.
+        let moduli = suitable_moduli(digest, Stream::Squares, algebraic);
+        let field = Quadratic::new(moduli);
+        let mut evaluator = Evaluator::new(&tape, field.clone());
+        let mut chance = Chance::of(digest, Stream::Squares);
+        let is_defined = |block: &Values| block.iter().all(|x| x[0] != UNDEFINED);
+        let found = (0..MOST_BLOCKS << MOST_NESTED).any(|_| {
+            let block = points(&moduli, &algebraic.sources, &[], &mut chance);
+            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
+            needed.iter().all(|base| is_defined(evaluator.output(places.len() + base)))
+        });
+        if !found {
+            return None;
         }
-        all
+        let mut entries: Vec<Entry> = Vec::new();
+        for (index, place) in places.iter().enumerate() {
+            let block = *evaluator.output(index);
+            if is_defined(&block) && block.iter().all(|x| *x != [0, 0]) {
+                let square =
+                    std::array::from_fn(|lane| field.product(lane, block[lane], block[lane]));
+                let is_known = known.get(*place) == Some(&true);
+                entries.push(Entry { place: *place, square, ratios: [[0; 2]; 2], is_known });
+            }
+        }
+        let ends = entries.iter().flat_map(|entry| [entry.square[COMPARED], entry.square[LAST]]);
+        let inverses = field.inverses(LAST, &ends.collect::<Vec<Element>>());
+        let mut with_ratio: FxHashMap<Element, [Option<usize>; 2]> = FxHashMap::default();
+        for (index, (entry, inverse)) in entries.iter_mut().zip(inverses.chunks(2)).enumerate() {
+            let [compared, last] = [entry.square[COMPARED], entry.square[LAST]];
+            entry.ratios =
+                [field.product(LAST, last, inverse[0]), field.product(LAST, compared, inverse[1])];
+            let [first, known] = with_ratio.entry(entry.ratios[0]).or_default();
+            first.get_or_insert(index);
+            if entry.is_known {
+                known.get_or_insert(index);
+            }
+        }
+        let radicands =
+            (places.len()..outputs.len()).map(|index| *evaluator.output(index)).collect();
+        Some(Self { field, moduli, entries, with_ratio, radicands })
     }
 
-    /// The place whose square this is.
-    fn place(&self, target: &[u64], only_known: bool) -> Option<usize> {
-        let square = &self.squares[*self.at_first.get(target.first()?)?];
-        (square.values == target && (square.is_known || !only_known)).then_some(square.place)
-    }
-
-    fn find(&self, moduli: &[Modulus], target: &[u64], only_known: bool) -> Option<Base> {
-        if let Some(value) = self.place(target, only_known) {
-            return Some(Base { value, beside: None });
+    /// b and c with A Π A_i = c b² at all points, for a base and others by their numbers: b from the
+    /// places before `before`, with a known sign where there is such a b.
+    pub fn square(
+        &self,
+        base: usize,
+        others: &[usize],
+        before: usize,
+    ) -> Option<(Rational, Square)> {
+        let mut target = *self.radicands.get(base)?;
+        for other in others {
+            target = self.product(&target, self.radicands.get(*other)?);
         }
-        let combined = |square: &[u64], over: bool| -> Vec<u64> {
-            let pairs = target.iter().zip(square).zip(moduli);
-            pairs.map(|((t, s), m)| m.mul(*t, if over { *s } else { m.inverse(*s) })).collect()
-        };
-        let squares = self.squares.iter().filter(|square| square.is_known || !only_known);
-        squares.into_iter().find_map(|square| {
-            [false, true].into_iter().find_map(|over| {
-                // The first point decides almost always.
-                let first = combined(&square.values[..1], over);
-                self.at_first.get(first.first()?)?;
-                let value = self.place(&combined(&square.values, over), only_known)?;
-                Some(Base { value, beside: Some((square.place, over)) })
-            })
+        if target.iter().any(|x| x[0] == UNDEFINED || *x == [0, 0]) {
+            return None;
+        }
+        let ones: Values = self.moduli.map(|m| [m.one(), 0]);
+        if self.is_multiple(&target, &ones) {
+            return Some((self.number(&target, &ones)?, Square::One));
+        }
+        [true, false].into_iter().find_map(|only_known| {
+            let (square, values) = self.find(&target, only_known, before)?;
+            Some((self.number(&target, &values)?, square))
         })
+    }
+
+    /// b of which b² is a multiple of the target by a number, and the values of b².
+    fn find(&self, target: &Values, only_known: bool, before: usize) -> Option<(Square, Values)> {
+        let of = |ratio: Element| -> Option<&Entry> {
+            let [first, known] = self.with_ratio.get(&ratio)?;
+            let entry = &self.entries[(if only_known { *known } else { *first })?];
+            (entry.place < before).then_some(entry)
+        };
+        let compared = self.field.inverse(LAST, target[COMPARED])?;
+        let ratio = self.field.product(LAST, target[LAST], compared);
+        if let Some(entry) = of(ratio).filter(|entry| self.is_multiple(target, &entry.square)) {
+            return Some((Square::Value(entry.place), entry.square));
+        }
+        let usable = self.entries.iter().take_while(|entry| entry.place < before);
+        usable.filter(|entry| entry.is_known || !only_known).find_map(|entry| {
+            let [own, inverse] = entry.ratios;
+            // b² = xy: the ratio of x is that of b² over that of y.
+            if let Some(other) = of(self.field.product(LAST, ratio, inverse)) {
+                let square = self.product(&other.square, &entry.square);
+                if self.is_multiple(target, &square) {
+                    return Some((Square::Product(other.place, entry.place), square));
+                }
+            }
+            let other = of(self.field.product(LAST, ratio, own))?;
+            let inverse = self.inverse(&entry.square)?;
+            let square = self.product(&other.square, &inverse);
+            let found = Square::Quotient(other.place, entry.place);
+            self.is_multiple(target, &square).then_some((found, square))
+        })
+    }
+
+    fn product(&self, a: &Values, b: &Values) -> Values {
+        std::array::from_fn(|lane| match (a[lane], b[lane]) {
+            ([UNDEFINED, _], _) | (_, [UNDEFINED, _]) => [UNDEFINED; 2],
+            (a, b) => self.field.product(lane, a, b),
+        })
+    }
+
+    fn inverse(&self, values: &Values) -> Option<Values> {
+        let mut inverse = [[0; 2]; LANES];
+        for lane in 0..LANES {
+            inverse[lane] = self.field.inverse(lane, values[lane])?;
+        }
+        Some(inverse)
+    }
+
+    /// Whether a is the same multiple of b at all points of a prime, for each prime.
+    fn is_multiple(&self, a: &Values, b: &Values) -> bool {
+        (0..LANES).all(|lane| {
+            let first = prime_of(lane) * SHARED;
+            let product = |x: Element, y: Element| self.field.product(lane, x, y);
+            product(a[lane], b[first]) == product(a[first], b[lane])
+        })
+    }
+
+    /// The rational number that a is times b at all points.
+    fn number(&self, a: &Values, b: &Values) -> Option<Rational> {
+        let mut number = None;
+        for lane in (0..LANES).step_by(SHARED) {
+            let image = self.field.product(lane, a[lane], self.field.inverse(lane, b[lane])?);
+            let found = match image {
+                [real, 0] => reconstruct(real, &self.moduli[lane])?,
+                _ => return None,
+            };
+            if number.get_or_insert_with(|| found.clone()) != &found {
+                return None;
+            }
+        }
+        number
     }
 }

@@ -10,7 +10,6 @@ use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
-use super::bounds::Source;
 use super::relations::{Combination, Relations};
 
 /// Symbols by their numbers, each with its integer multiple.
@@ -23,7 +22,7 @@ const LARGEST_MULTIPLE: i64 = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
     /// A symbol of its own.
-    Opaque(usize, Source),
+    Opaque(usize),
     /// base^q · Π T_i^n_i
     Product {
         /// The place of x, and the rational part of the exponent, for x^y.
@@ -53,10 +52,8 @@ impl Symbols {
     /// A symbol of its own for every transcendental step.
     pub fn opaque(graph: &Graph, reached: &[bool]) -> Self {
         let mut symbols = Self::default();
-        for (place, step) in transcendental(graph, reached) {
-            let positive = matches!(step, Step::Unary(Function::Exp, _) | Step::Binary(..));
-            let source = if positive { Source::Square } else { Source::Uniform };
-            symbols.forms.insert(place, Form::Opaque(symbols.count, source));
+        for (place, _) in transcendental(graph, reached) {
+            symbols.forms.insert(place, Form::Opaque(symbols.count));
             symbols.count += 1;
         }
         symbols

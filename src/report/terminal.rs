@@ -136,7 +136,10 @@ fn remark(claim: &ClaimReport) -> String {
             if let Some(witness) = &evidence.witness {
                 let shown = witness.digits.clone();
                 let shown = shown.unwrap_or_else(|| format!("{:.2e}", witness.residual));
-                words.push(format!("{shown} at state {}", witness.index));
+                words.push(match witness.index {
+                    Some(index) => format!("{shown} at state {index}"),
+                    None => format!("{shown} at a state that was looked for"),
+                });
                 if evidence.method != "ball" {
                     words.push(evidence.method.to_string());
                 }
@@ -194,7 +197,12 @@ fn details(report: &CaseReport) -> String {
                 Sign::Negative => "negative",
                 Sign::Changes => "of both signs",
             };
-            out.push_str(&format!("      sign      {sign} at the states that were tried\n"));
+            let extent = match (evidence.sign_is_proved, evidence.sign) {
+                (true, Some(Sign::Changes)) => "at states with the same parameters",
+                (true, _) => "at all states",
+                (false, _) => "at the states that were tried",
+            };
+            out.push_str(&format!("      sign      {sign} {extent}\n"));
         }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));

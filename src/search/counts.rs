@@ -213,7 +213,7 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
     for draw in draws {
         let values = match draw {
             Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
-            Draw::Within(_) | Draw::Of(..) => vec![None],
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
         };
         if combinations.len() * values.len() > MOST_LISTED {
             return Vec::new();

@@ -174,6 +174,7 @@ impl Local {
 pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
     let value = |draw: &Draw| match draw {
         Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)).unwrap_or(0),
+        Draw::Sign => modulus.one(),
         Draw::Within(_) | Draw::Of(..) => chance.element(modulus),
     };
     draws.iter().map(value).collect()

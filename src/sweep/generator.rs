@@ -38,6 +38,7 @@ impl Generator {
     pub(super) fn new(draws: &[Draw], seed: u64) -> Self {
         let source = |draw: &Draw| match draw {
             Draw::OneOf(values) => Source::List(values.iter().map(|x| x.to_f64().0).collect()),
+            Draw::Sign => Source::List(vec![1.0, -1.0]),
             Draw::Within(range) | Draw::Of(_, range) => {
                 let step = (&range.high - &range.low).to_f64().0 * UNIT;
                 Source::Range { first: range.low.to_f64().0 + step / 2.0, step }

@@ -13,7 +13,7 @@ use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::{Certificate, Extent, Outcome, Prover};
+use crate::proof::{Certificate, Extent, Group, Outcome, Prover};
 use crate::verdict::antiderivative_value;
 
 /// Bits of the second look at a state, where balls over f64 contain 0.
@@ -106,7 +106,7 @@ impl Recorded {
         let numbers = exact(coordinates).unwrap_or_default();
         let extents: Vec<Extent> = numbers.iter().map(|x| Extent::between(x, x)).collect();
         let prover = Prover { sources: &[], extents: &extents, seed: SEED };
-        let groups: Vec<Vec<Expr>> = self.rows.iter().map(|row| vec![row.value]).collect();
+        let groups: Vec<Group> = self.rows.iter().map(|row| Group::of(vec![row.value])).collect();
         let outcomes = prover.prove(&self.graph, &groups)?;
         let mut proof: Option<Certificate> = None;
         for (row, outcome) in self.rows.iter().zip(outcomes) {
@@ -115,11 +115,15 @@ impl Recorded {
                 Outcome::Zero(found) => {
                     proof = Some(proof.map_or(found, |before| before.and(found)));
                 }
-                Outcome::NonZero => {
+                Outcome::NonZero(_) => {
                     self.look_around(coordinates)?;
                     return Err(Failure::RefutedInFields { what });
                 }
                 Outcome::Silent(why) => return Err(Failure::Unproved { what, why }),
+                Outcome::Void | Outcome::Partial => {
+                    let why = "it has no value".to_string();
+                    return Err(Failure::Unproved { what, why });
+                }
             }
         }
         let nothing = || Failure::Unproved { what: "nothing", why: "nothing was said".to_string() };

@@ -1,6 +1,6 @@
 //! A case on the bench: its graph, how to run parts of it, and what every case is checked for.
 
-use super::field::Field;
+use super::field::{Answer, Field, Query};
 use super::finding::{Look, are_zero};
 use super::judge::{JudgeError, Options};
 use super::physics;
@@ -12,7 +12,6 @@ use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::number::ball::{Ball, Balls};
 use crate::number::twofold::TwofoldBall;
-use crate::proof::Outcome;
 
 /// A case on the bench: its graph and how to run parts of it.
 pub struct Bench<'a> {
@@ -77,6 +76,14 @@ impl Bench<'_> {
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
         warnings.extend(self.check_quadratures()?);
+        if sampler.is_numerical() {
+            warnings.push(
+                "the level set has no parametrisation: states are found numerically, and verdicts on \
+                 it rest on an estimated distance from it"
+                    .to_string(),
+            );
+        }
+        warnings.extend(self.missed_part(&sampler)?);
         Ok(warnings)
     }
 
@@ -91,15 +98,17 @@ impl Bench<'_> {
         }
         let everywhere = Place::everywhere(&self.case.model);
         let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
-        let groups: Vec<Vec<Expr>> = open.iter().map(|(_, defects)| defects.clone()).collect();
-        let outcomes = Field::new(self, &sampler).test(&groups)?;
+        let queries: Vec<Query> =
+            open.iter().map(|(_, defects)| Query::of(defects.clone())).collect();
+        let answers = Field::new(self, &sampler).test(&queries)?;
         let mut warning = None;
-        for ((text, defects), outcome) in open.into_iter().zip(outcomes) {
+        for ((text, defects), answer) in open.into_iter().zip(answers) {
             let values = self.run(defects).at(&Ball::<LANES>, &sampler.balls(0));
-            let seen = Look::at::<Doubles>(&values.range(0..defects.len()), None);
-            match outcome {
-                Outcome::Zero(_) => {}
-                Outcome::Silent(_) if !seen.excludes_zero() => {
+            let all = [true; LANES];
+            let seen = Look::at::<Doubles>(&values.range(0..defects.len()), None, &all);
+            match answer {
+                Answer::Zero(_) => {}
+                Answer::Silent(_) | Answer::Void if !seen.excludes_zero() => {
                     warning = Some(format!(
                         "it is not proved that each integrand in `{text}` is a function of its variable \
                          alone, as all verdicts suppose"
@@ -135,7 +144,7 @@ impl Bench<'_> {
         let width = self.case.model.dimension();
         for (index, equation) in self.case.model.level.iter().enumerate() {
             let left = values.range(index * width..(index + 1) * width);
-            if !Look::at::<Doubles>(&left, None).excludes_zero() {
+            if !Look::at::<Doubles>(&left, None, &[true; LANES]).excludes_zero() {
                 return Err(JudgeError::Dependent(equation.text.clone()));
             }
         }

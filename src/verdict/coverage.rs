@@ -1,20 +1,21 @@
 //! Does a parametrisation fill the level set? The rank of its derivative tells.
 
-use nalgebra::DMatrix;
 use num_dual::Dual;
 use num_traits::{One, Zero};
 
-use super::sampler::LANES;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Fault, Tape, record};
 use crate::mechanics::Draws;
-use crate::number::float::Float;
+use crate::number::Domain;
+use crate::number::precise::{Approximation, Precise};
 
-/// The largest rank of the chart's derivative by its inputs, over one block of states.
-///
-/// Numerical: a pivot counts when it is above the root of the rounding error against the largest.
-/// The rank can only be underrated, by a chart that is nearly degenerate everywhere.
+/// States at which the rank is looked at, and the bits in which it is.
+const STATES: u64 = 8;
+const BITS: u32 = 512;
+
+/// A lower bound on the rank of the chart's derivative by its inputs: what enclosures prove at some
+/// state.
 pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Result<usize, Fault> {
     let model = &case.model;
     let inputs = draws.len() - parameter_draws;
@@ -33,20 +34,63 @@ pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Re
             .collect::<Vec<_>>()
     })?;
     let tape = Tape::new(&graph, &slopes);
-    let mut evaluator = Evaluator::new(&tape, Float::<1>);
+    let domain = Precise::new(BITS);
+    let mut evaluator = Evaluator::new(&tape, domain);
     let rank_at = |index: u64| {
-        let point: Vec<[f64; 1]> =
-            draws.state(seed, index).iter().map(|value| [value.to_f64().0]).collect();
-        evaluator.run(&point);
-        let slopes = evaluator.outputs().map(|block| block[0]);
-        let matrix = DMatrix::from_iterator(model.dimension(), inputs, slopes);
-        if matrix.iter().any(|x| !x.is_finite()) {
-            return 0;
-        }
-        let pivots: Vec<f64> =
-            matrix.full_piv_lu().u().diagonal().iter().map(|pivot| pivot.abs()).collect();
-        let largest = pivots.iter().copied().fold(0.0, f64::max);
-        pivots.iter().filter(|pivot| **pivot > largest * f64::EPSILON.sqrt()).count()
+        let point = draws.state(seed, index).into_iter().map(|value| domain.values(&[value]));
+        evaluator.run(&point.collect::<Vec<_>>());
+        let slopes: Option<Vec<Approximation>> = evaluator.outputs().cloned().collect();
+        let columns = slopes.map(|slopes| {
+            slopes.chunks(model.dimension().max(1)).map(<[Approximation]>::to_vec).collect()
+        });
+        columns.map_or(0, proved_rank)
     };
-    Ok((0..LANES as u64).map(rank_at).max().unwrap_or(0))
+    Ok((0..STATES).map(rank_at).max().unwrap_or(0))
+}
+
+/// How many pivots of an elimination are known not to be 0.
+fn proved_rank(mut rows: Vec<Vec<Approximation>>) -> usize {
+    let width = rows.first().map_or(0, Vec::len);
+    let mut rank = 0;
+    let mut columns: Vec<usize> = (0..width).collect();
+    while rank < rows.len() {
+        // The largest entry that is known not to be 0.
+        let size = |x: &Approximation| if x.excludes_zero() { x.enclosure().0.abs() } else { -1.0 };
+        let entries = (rank..rows.len()).flat_map(|i| columns.iter().map(move |j| (i, *j)));
+        let best = entries.max_by(|a, b| size(&rows[a.0][a.1]).total_cmp(&size(&rows[b.0][b.1])));
+        let Some((row, column)) = best.filter(|(i, j)| rows[*i][*j].excludes_zero()) else { break };
+        rows.swap(rank, row);
+        columns.retain(|j| *j != column);
+        let (above, below) = rows.split_at_mut(rank + 1);
+        let pivot = &above[rank];
+        let Some(inverse) = pivot[column].recip(BITS) else { break };
+        for row in below {
+            let factor = row[column].mul(&inverse, BITS);
+            for j in &columns {
+                row[*j] = row[*j].add(&factor.mul(&pivot[*j], BITS).neg(), BITS);
+            }
+        }
+        rank += 1;
+    }
+    rank
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::rational::Rational;
+
+    #[test]
+    fn rounding_is_no_rank() {
+        let domain = Precise::new(BITS);
+        let third = Rational::new(1, 3);
+        let rows = |rows: [[Rational; 2]; 2]| {
+            rows.map(|row| row.map(|x| domain.rational(&x)).to_vec()).to_vec()
+        };
+        let one = Rational::from(1);
+        let thirds = rows([[third.clone(), one.clone()], [one.clone(), Rational::from(3)]]);
+        assert_eq!(proved_rank(thirds), 1, "the second row is three times the first");
+        let regular = rows([[third, one.clone()], [one, Rational::from(4)]]);
+        assert_eq!(proved_rank(regular), 2);
+    }
 }

@@ -36,8 +36,9 @@ impl Verdict {
 /// A state at which a claim fails, in the form in which `eval` takes it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Witness {
-    /// The number of the state under the run's seed.
-    pub index: u64,
+    /// The number of the state under the run's seed; none for one that was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub index: Option<u64>,
     /// The values of the parameters that were drawn, for `--set`.
     pub parameters: BTreeMap<String, String>,
     /// The state, for `--state`.
@@ -178,6 +179,9 @@ pub struct Evidence {
     /// For densities that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sign: Option<Sign>,
+    /// Whether that sign is proved at all states, rather than seen at those that were tried.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sign_is_proved: bool,
     /// What a density on a level set refers to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,

@@ -9,6 +9,14 @@ use super::sampler::Sampler;
 use super::witness::witness;
 use crate::number::Enclosing;
 
+/// The values of a block, and at which lanes there is a state.
+pub struct Seen<'v, D: Enclosing> {
+    /// The values.
+    pub values: &'v Values<D>,
+    /// The lanes that count.
+    pub existing: &'v [bool],
+}
+
 impl Bench<'_> {
     /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
     pub(super) fn examine<D: Enclosing>(
@@ -16,7 +24,7 @@ impl Bench<'_> {
         sampler: &Sampler,
         start: u64,
         span: &Span,
-        values: &Values<D>,
+        seen: &Seen<'_, D>,
         bits: u32,
         finding: &mut Finding,
     ) {
@@ -24,13 +32,13 @@ impl Bench<'_> {
             let numerical = sampler.is_numerical();
             finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
         }
-        if self.seek_witness(sampler, start, span.residual.clone(), values, bits, finding) {
+        if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, finding) {
             return;
         }
-        let residuals = values.range(span.residual.clone());
+        let residuals = seen.values.range(span.residual.clone());
         let mut states = 0;
         let (mut largest, mut scaled) = (0f64, 0f64);
-        for lane in 0..D::LANES {
+        for lane in (0..D::LANES).filter(|lane| seen.existing[*lane]) {
             let enclosures = || residuals.iter().map(|block| D::enclosure(block, lane));
             if enclosures().any(|enclosure| enclosure.is_none()) {
                 continue;
@@ -59,12 +67,12 @@ impl Bench<'_> {
         sampler: &Sampler,
         start: u64,
         residual: std::ops::Range<usize>,
-        values: &Values<D>,
+        seen: &Seen<'_, D>,
         bits: u32,
         finding: &mut Finding,
     ) -> bool {
-        let residuals = values.range(residual);
-        for lane in 0..D::LANES {
+        let residuals = seen.values.range(residual);
+        for lane in (0..D::LANES).filter(|lane| seen.existing[*lane]) {
             if residuals.iter().any(|block| D::enclosure(block, lane).is_none()) {
                 continue;
             }
@@ -78,7 +86,8 @@ impl Bench<'_> {
                     Some(digits) => format!("{digits} at state {index}"),
                     None => format!("{mid:.3e} ± {rad:.1e} at state {index}"),
                 };
-                let witness = witness(self.case, sampler, index, bits, (mid, rad));
+                let printed = sampler.printed(index, bits);
+                let witness = witness(self.case, Some(index), &printed, (mid, rad));
                 evidence.witness = Some(Witness { digits, ..witness });
                 evidence.max_residual = None;
                 evidence.max_scaled_residual = None;
@@ -95,25 +104,23 @@ impl Bench<'_> {
 /// The verdict on a claim that no state refuted.
 pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
     let kind = item.claim.kind.name();
-    let mut settle = |verdict: Verdict, method: &'static str| {
-        finding.settled = Some(verdict);
-        if !method.is_empty() {
-            finding.evidence.method = method;
-        }
-    };
     if let Some(reason) = finding.undefined.take() {
         finding.evidence.proof = None;
         undecide(finding, reason);
     } else if finding.is_zero {
-        settle(Verdict::Proved, "prime field");
-    } else if finding.is_nonzero {
-        settle(Verdict::Refuted, "prime field");
-        finding.evidence.reason = Some(format!(
-            "modulo a prime the residual of this {kind} is not 0, so it is no identity"
-        ));
-    } else if let Some(reason) = finding.blurred.take() {
+        finding.settled = Some(Verdict::Proved);
+        finding.evidence.method = "prime field";
+    } else if finding.is_nonzero() {
+        undecide(
+            finding,
+            format!(
+                "modulo a prime the residual of this {kind} is not 0, but no state is known at which \
+                 that matters"
+            ),
+        );
+    } else if let Some(reason) = finding.partial.take().or(finding.blurred.take()) {
         undecide(finding, reason);
     } else {
-        settle(Verdict::Confirmed, "");
+        finding.settled = Some(Verdict::Confirmed);
     }
 }

@@ -5,7 +5,7 @@ use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
-use crate::proof::{Outcome, Prover};
+use crate::proof::{Certificate, Group, Outcome, Parts, Prover};
 
 /// Combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
@@ -18,6 +18,56 @@ pub struct Field<'a> {
     sampler: &'a Sampler,
 }
 
+/// Values that are asked about together.
+#[derive(Clone, Debug, Default)]
+pub struct Query {
+    /// Whether all of them are zero is asked.
+    pub outputs: Vec<Expr>,
+    /// What has a value at the states that count, beside what every state has.
+    pub requirement: Vec<Expr>,
+}
+
+impl Query {
+    /// Values for which all states count.
+    pub fn of(outputs: Vec<Expr>) -> Self {
+        Self { outputs, requirement: Vec::new() }
+    }
+}
+
+/// The answer to a query.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// All values are zero wherever they exist.
+    Zero(Certificate),
+    /// Some value is not zero identically, at any of these.
+    NonZero(Vec<Where>),
+    /// Neither, and the reason.
+    Silent(String),
+    /// All values are zero wherever they exist, and that is not wherever all that is written has a
+    /// value.
+    Partial,
+    /// There are no states at which all values exist.
+    Void,
+}
+
+/// Where a value is not zero identically.
+#[derive(Clone, Debug)]
+pub struct Where {
+    /// The choice of listed parameter values.
+    pub fixed: Vec<Option<Rational>>,
+    /// Parts of the states.
+    pub parts: Parts,
+}
+
+impl Answer {
+    /// Whether it says that some value is not zero identically, on all of the states for some choice
+    /// of listed values; that is so if there are states at all.
+    pub fn is_nonzero(&self) -> bool {
+        let is_whole = |found: &Where| found.parts.proper().is_none();
+        matches!(self, Answer::NonZero(found) if found.iter().any(is_whole))
+    }
+}
+
 impl<'a> Field<'a> {
     /// The field side of a place.
     pub fn new(bench: &'a Bench<'a>, sampler: &'a Sampler) -> Self {
@@ -25,9 +75,9 @@ impl<'a> Field<'a> {
     }
 
     /// Is each group of values zero at all states of the place, whatever the parameters?
-    pub fn test(&self, groups: &[Vec<Expr>]) -> Result<Vec<Outcome>, Fault> {
-        let silent = |reason: &str| Ok(vec![Outcome::Silent(reason.to_string()); groups.len()]);
-        if groups.is_empty() {
+    pub fn test(&self, queries: &[Query]) -> Result<Vec<Answer>, Fault> {
+        let silent = |reason: &str| Ok(vec![Answer::Silent(reason.to_string()); queries.len()]);
+        if queries.is_empty() {
             return Ok(Vec::new());
         }
         if self.sampler.is_numerical() {
@@ -36,19 +86,36 @@ impl<'a> Field<'a> {
         let Some(combinations) = combinations(self.sampler.recipes()) else {
             return silent(TOO_MANY_COMBINATIONS);
         };
-        let extents = self.sampler.extents();
-        let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
+        let (extents, sources) = (self.sampler.extents(), self.sampler.sources());
+        let seed = self.bench.options.seed;
+        let prover = Prover { sources: &sources, extents: &extents, seed };
+        let graph = self.bench.graph;
+        let common = self.bench.common.required_at(self.sampler.kept());
+        let group = |query: &Query| Group {
+            outputs: query.outputs.clone(),
+            required: [&query.requirement[..], &common].concat(),
+        };
+        let groups: Vec<Group> = queries.iter().map(group).collect();
+        let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];
         for fixed in combinations {
-            let (graph, values) = self.sampler.compose(self.bench.graph, groups, &fixed)?;
-            let prover = Prover { sources: &[], extents: &extents, seed: self.bench.options.seed };
-            for (all, one) in outcomes.iter_mut().zip(prover.prove(&graph, &values)?) {
+            let (graph, groups) = self.sampler.compose_groups(graph, &groups, &fixed)?;
+            for (all, one) in answers.iter_mut().zip(prover.prove(&graph, &groups)?) {
+                let one = match one {
+                    Outcome::Zero(certificate) => Answer::Zero(certificate),
+                    Outcome::NonZero(parts) => {
+                        Answer::NonZero(vec![Where { fixed: fixed.clone(), parts }])
+                    }
+                    Outcome::Silent(reason) => Answer::Silent(reason),
+                    Outcome::Partial => Answer::Partial,
+                    Outcome::Void => Answer::Void,
+                };
                 *all = Some(match all.take() {
                     None => one,
                     Some(before) => both(before, one),
                 });
             }
         }
-        Ok(outcomes.into_iter().flatten().collect())
+        Ok(answers.into_iter().flatten().collect())
     }
 
     /// The ranks of the first `n` rows of a matrix of values, for each n in `heights`, at a random
@@ -62,10 +129,11 @@ impl<'a> Field<'a> {
         if self.sampler.is_numerical() {
             return Ok(None);
         }
-        let extents = self.sampler.extents();
+        let (extents, sources) = (self.sampler.extents(), self.sampler.sources());
         for fixed in combinations(self.sampler.recipes()).unwrap_or_default() {
             let (graph, rows) = self.sampler.compose(self.bench.graph, rows, &fixed)?;
-            let prover = Prover { sources: &[], extents: &extents, seed: self.bench.options.seed };
+            let seed = self.bench.options.seed;
+            let prover = Prover { sources: &sources, extents: &extents, seed };
             let Some(found) = prover.ranks(&graph, &rows, heights)? else { return Ok(None) };
             least = Some(match least {
                 None => found,
@@ -76,12 +144,18 @@ impl<'a> Field<'a> {
     }
 }
 
-/// What holds of two cases together.
-fn both(a: Outcome, b: Outcome) -> Outcome {
+/// What holds of two choices of listed values together; one for which nothing exists says nothing.
+fn both(a: Answer, b: Answer) -> Answer {
     match (a, b) {
-        (Outcome::Zero(a), Outcome::Zero(b)) => Outcome::Zero(a.and(b)),
-        (Outcome::NonZero, _) | (_, Outcome::NonZero) => Outcome::NonZero,
-        (Outcome::Silent(reason), _) | (_, Outcome::Silent(reason)) => Outcome::Silent(reason),
+        (Answer::Void, other) | (other, Answer::Void) => other,
+        (Answer::Zero(a), Answer::Zero(b)) => Answer::Zero(a.and(b)),
+        (Answer::NonZero(mut a), Answer::NonZero(b)) => {
+            a.extend(b);
+            Answer::NonZero(a)
+        }
+        (Answer::NonZero(found), _) | (_, Answer::NonZero(found)) => Answer::NonZero(found),
+        (Answer::Silent(reason), _) | (_, Answer::Silent(reason)) => Answer::Silent(reason),
+        (Answer::Partial, _) | (_, Answer::Partial) => Answer::Partial,
     }
 }
 
@@ -90,7 +164,7 @@ pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
     for recipe in recipes {
         let values: Vec<Option<Rational>> = match recipe {
-            Draw::Within(_) | Draw::Of(..) => vec![None],
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
             Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
         };
         all = all
@@ -119,7 +193,7 @@ mod tests {
     use crate::verdict::recorded::Common;
 
     /// What fields say about the claims of a case that are expected to fail.
-    fn outcomes_of_false_claims(case: &Case) -> Vec<(String, Outcome)> {
+    fn outcomes_of_false_claims(case: &Case) -> Vec<(String, Answer)> {
         let model = &case.model;
         let inputs = model.free_components() + model.dimension();
         let (graph, (common, residuals)) = record(inputs, |inputs| {
@@ -137,14 +211,15 @@ mod tests {
             // What is claimed to be independent fails where the residual does vanish.
             if claim.expect == Expect::Fails && !claim.kind.is_negated() {
                 let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
-                let outcome = Field::new(&bench, &sampler).test(&[residual]).expect("tested");
+                let outcome =
+                    Field::new(&bench, &sampler).test(&[Query::of(residual)]).expect("tested");
                 found.push((claim.name.clone(), outcome.into_iter().next().expect("one group")));
             }
         }
         found
     }
 
-    fn visit(folder: &Path, found: &mut Vec<(String, Outcome)>) {
+    fn visit(folder: &Path, found: &mut Vec<(String, Answer)>) {
         for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
             let path = entry.path();
             if path.is_dir() {
@@ -165,8 +240,8 @@ mod tests {
         assert!(found.len() > 1000, "{} false claims", found.len());
         let mut refuted = 0;
         for (name, outcome) in &found {
-            assert!(!matches!(outcome, Outcome::Zero(_)), "{name} is false");
-            refuted += usize::from(*outcome == Outcome::NonZero);
+            assert!(!matches!(outcome, Answer::Zero(_)), "{name} is false");
+            refuted += usize::from(outcome.is_nonzero());
         }
         // The others contain symbols of transcendental functions, or fail for listed values only.
         assert!(refuted > 900, "{refuted} of {} are seen not to be identities", found.len());

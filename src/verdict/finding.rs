@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::evidence::{Evidence, Independence, Rung, Verdict};
+use super::field::Where;
 use super::recorded::{Recorded, Span};
 use super::run::Values;
 use super::sampler::LANES;
@@ -11,6 +12,8 @@ use crate::number::Enclosing;
 
 /// A claim is confirmed by no fewer states of the first block than one in this many.
 const MIN_SHARE: usize = 4;
+/// Nor where it has no value at more of the states that count than one in this many.
+const MOST_LACKING: usize = 16;
 /// Bits of the residual's scale that its error bound must leave for a state to count: what is
 /// blurred more than this could hide a term.
 const RESOLVED_BITS: i32 = 16;
@@ -23,14 +26,18 @@ pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of it
 pub struct Finding {
     pub settled: Option<Verdict>,
     pub evidence: Evidence,
-    /// Did a prime field show that the residual is no identity?
-    pub is_nonzero: bool,
+    /// Where prime fields show that the residual is no identity.
+    pub nonzero: Vec<Where>,
     /// Is the residual zero in prime fields?
     pub is_zero: bool,
     /// Has something no value, as far as the digits used so far can tell?
     pub undefined: Option<String>,
     /// Did rounding blur the residual, and how?
     pub blurred: Option<String>,
+    /// Has the residual no value on a part of the states that count, and of what kind is it?
+    pub partial: Option<String>,
+    /// Lanes of the first block at which f64 finds no state, or no value of what is required.
+    pub missing: Vec<usize>,
 }
 
 impl Finding {
@@ -40,6 +47,11 @@ impl Finding {
             Some(last) if last.rung == rung => last.found = found,
             _ => self.evidence.climb.push(Rung { rung, found }),
         }
+    }
+
+    /// Whether a prime field shows that the residual is no identity.
+    pub fn is_nonzero(&self) -> bool {
+        !self.nonzero.is_empty()
     }
 
     /// Does the claim hold, as far as is known?
@@ -79,14 +91,16 @@ pub fn weigh<D: Enclosing>(
     item: &Recorded<'_>,
     span: &Span,
     values: &Values<D>,
+    existing: &[bool],
     finding: &mut Finding,
 ) {
     let look = |range: &Range<usize>, scale: &Range<usize>| {
-        Look::at::<D>(&values.range(range.clone()), values.range(scale.clone()).first().copied())
+        let scale = values.range(scale.clone()).first().copied();
+        Look::at::<D>(&values.range(range.clone()), scale, existing)
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
     finding.undefined = None;
-    if !span.value.is_empty() && look(&span.value, &none).defined == 0 {
+    if look(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         finding.undefined =
             Some(format!("the formula of this {kind} has no value at {LANES} states{hint}"));
@@ -132,6 +146,8 @@ pub fn weigh<D: Enclosing>(
 pub struct Look {
     /// States looked at.
     states: usize,
+    /// Those at which all that is required has a value.
+    existing: usize,
     /// States at which it has an enclosure.
     defined: usize,
     /// Those at which the enclosure is narrow against the residual's scale.
@@ -141,10 +157,16 @@ pub struct Look {
 }
 
 impl Look {
-    /// Looks at a residual, and the square of its scale.
-    pub fn at<D: Enclosing>(residuals: &[&D::Block], scale: Option<&D::Block>) -> Self {
-        let mut look = Self { states: D::LANES, defined: 0, resolved: 0, excludes_zero: false };
-        for lane in 0..D::LANES {
+    /// Looks at a residual, and the square of its scale, at the lanes that hold a state.
+    pub fn at<D: Enclosing>(
+        residuals: &[&D::Block],
+        scale: Option<&D::Block>,
+        existing: &[bool],
+    ) -> Self {
+        let mut look =
+            Self { states: D::LANES, existing: 0, defined: 0, resolved: 0, excludes_zero: false };
+        for lane in (0..D::LANES).filter(|lane| existing[*lane]) {
+            look.existing += 1;
             let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
             let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
                 continue;
@@ -166,11 +188,24 @@ impl Look {
 
     /// Is 0 enclosed everywhere, and narrowly enough at enough states?
     pub fn is_zero(&self) -> bool {
-        !self.excludes_zero && self.resolved * MIN_SHARE >= self.states
+        !self.excludes_zero && self.resolved * MIN_SHARE >= self.states && !self.is_partial()
+    }
+
+    /// Has it no value at many of the states at which all that is required has one?
+    fn is_partial(&self) -> bool {
+        (self.existing - self.defined) * MOST_LACKING > self.existing
     }
 
     /// Why zeros in these enclosures would not mean much, if that is so.
     pub fn blur(&self, kind: &str) -> Option<String> {
+        if !self.excludes_zero && self.is_partial() {
+            return Some(format!(
+                "the residual of this {kind} has no value at {} of {} states at which all that is \
+                 written has one",
+                self.existing - self.defined,
+                self.existing
+            ));
+        }
         (!self.excludes_zero && self.resolved * MIN_SHARE < self.states).then(|| {
             format!(
                 "rounding hides the residual of this {kind}: only at {} of {} states is its error \

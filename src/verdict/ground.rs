@@ -1,7 +1,7 @@
 //! The ground that claims stand on: states are on the level, and the motion stays there.
 
 use super::bench::Bench;
-use super::field::Field;
+use super::field::{Field, Query};
 use super::judge::JudgeError;
 use super::ladder::{BITS, PRECISE_STATES};
 use super::sampler::{LANES, Sampler};
@@ -9,7 +9,6 @@ use crate::claim::Place;
 use crate::graph::Expr;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
-use crate::proof::Outcome;
 
 impl Bench<'_> {
     /// Checks that the motion stays on a part of the level.
@@ -38,17 +37,19 @@ impl Bench<'_> {
     ) -> Result<(), JudgeError> {
         let kept = || (0..place.kept.len()).filter(|index| place.kept[*index]);
         let text = |index: usize| self.case.model.level[index].text.clone();
-        let single = |values: &[Expr]| kept().map(|index| vec![values[index]]).collect::<Vec<_>>();
+        let single = |values: &[Expr]| {
+            kept().map(|index| Query::of(vec![values[index]])).collect::<Vec<_>>()
+        };
         let (level, rates) = (single(&self.common.level), single(&self.common.level_rates));
         let field = Field::new(self, sampler);
-        for (index, outcome) in kept().zip(field.test(&level)?) {
-            if outcome == Outcome::NonZero {
+        for (index, answer) in kept().zip(field.test(&level)?) {
+            if answer.is_nonzero() {
                 let by = self.magnitude(sampler, self.common.level[index]);
                 return Err(JudgeError::OffLevel { equation: text(index), by });
             }
         }
-        for (index, outcome) in kept().zip(field.test(&rates)?) {
-            if outcome == Outcome::NonZero {
+        for (index, answer) in kept().zip(field.test(&rates)?) {
+            if answer.is_nonzero() {
                 let rate = self.magnitude(sampler, self.common.level_rates[index]);
                 return Err(JudgeError::NotInvariant { equation: text(index), rate });
             }

@@ -10,8 +10,8 @@ use super::sampler::LANES;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Fault, record};
+use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Chart, Phase};
 
 /// How thoroughly to judge.
 #[derive(Clone, Copy, Debug)]
@@ -151,7 +151,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     })?;
     let bench = Bench { case, common: &common, options, graph: &graph, inputs };
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
-    let mut warnings = [case.warnings.clone(), bench.check()?].concat();
+    let warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&Place> = Vec::new();
     for claim in &case.claims {
         if !places.contains(&&claim.place) {
@@ -164,13 +164,6 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         bench.climb(place, at_place.collect())?;
     }
     bench.widen(&recorded, &mut findings)?;
-    if matches!(case.chart, Chart::Numerical) && !model.level.is_empty() {
-        warnings.push(
-            "the level set has no parametrisation: states are found numerically, and verdicts on it \
-             rest on an estimated distance from it"
-                .to_string(),
-        );
-    }
     let claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(findings)

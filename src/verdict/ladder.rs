@@ -11,19 +11,17 @@
 
 use super::bench::Bench;
 use super::evidence::{Proof, Verdict};
-use super::examine::conclude;
-use super::field::{Field, TOO_MANY_COMBINATIONS, combinations};
+use super::examine::{Seen, conclude};
+use super::field::{Answer, Field, Query, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
-use super::recorded::{Recorded, Span};
+use super::recorded::{Layout, Recorded, Span};
 use super::run::{Run, waves};
 use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
-use crate::graph::Expr;
 use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::twofold::TwofoldBall;
-use crate::proof::Outcome;
 
 /// Precisions of the last rung.
 pub const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
@@ -45,13 +43,15 @@ impl Bench<'_> {
             let (negated, others): (Open<'_, '_>, Open<'_, '_>) =
                 open.into_iter().partition(|(item, _)| item.claim.kind.is_negated());
             open = others;
-            self.climb_each(place, &sampler, negated)?;
+            let missed = self.missed_part(&sampler)?;
+            self.climb_each(place, &sampler, missed.as_deref(), negated)?;
         }
-        self.settle(place, &sampler, &mut open)?;
+        let missed = self.missed_part(&sampler)?;
+        self.settle(place, &sampler, missed.as_deref(), &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, finding)| finding.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
-        self.settle_signs(&sampler, holding.into_iter());
+        self.settle_signs(&sampler, holding.into_iter())?;
         Ok(())
     }
 
@@ -60,6 +60,7 @@ impl Bench<'_> {
         &self,
         place: &Place,
         sampler: &Sampler,
+        missed: Option<&str>,
         open: &mut Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         for (item, finding) in open.iter_mut() {
@@ -74,8 +75,19 @@ impl Bench<'_> {
         if self.options.trust != Trust::Float && !sampler.is_numerical() {
             self.more_digits(sampler, open);
         }
-        for (item, finding) in open.iter_mut().filter(|(_, finding)| finding.settled.is_none()) {
-            conclude(item, finding);
+        if self.options.trust != Trust::Float {
+            self.missing_states(sampler, open);
+            self.real_states(sampler, open)?;
+        }
+        for (item, finding) in open.iter_mut() {
+            if finding.settled.is_none() {
+                conclude(item, finding);
+            }
+            // What holds at the states that there are need not hold on what they leave out.
+            if let (Some(reason), true) = (missed, finding.holds()) {
+                finding.evidence.proof = None;
+                undecide(finding, reason.to_string());
+            }
         }
         Ok(())
     }
@@ -86,6 +98,7 @@ impl Bench<'_> {
         &self,
         place: &Place,
         sampler: &Sampler,
+        missed: Option<&str>,
         open: Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         let Some(choices) = combinations(sampler.recipes()) else {
@@ -98,7 +111,7 @@ impl Bench<'_> {
             for fixed in &choices {
                 let mut one = Finding::default();
                 let chosen = sampler.with(fixed);
-                self.settle(place, &chosen, &mut vec![(item, &mut one)])?;
+                self.settle(place, &chosen, missed, &mut vec![(item, &mut one)])?;
                 let refuted = one.settled == Some(Verdict::Refuted);
                 if !refuted || finding.settled.is_none() {
                     *finding = one;
@@ -117,12 +130,15 @@ impl Bench<'_> {
 
     /// Balls over f64 at the first block, with what tells rounding from truth.
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let (run, spans) = self.lay_out(open.iter().map(|(item, _)| *item), true);
+        let (run, layout) = self.lay_out(sampler, open.iter().map(|(item, _)| *item), true);
         let values = run.at(&Ball::<LANES>, &sampler.balls(0));
-        for ((item, finding), span) in open.iter_mut().zip(&spans) {
-            weigh(item, span, &values, finding);
+        for ((item, finding), span) in open.iter_mut().zip(&layout.spans) {
+            let existing = layout.existing(&values, span);
+            finding.missing = (0..LANES).filter(|lane| !existing[*lane]).collect();
+            weigh(item, span, &values, &existing, finding);
             if finding.settled.is_none() && finding.undefined.is_none() {
-                self.examine(sampler, 0, span, &values, f64::MANTISSA_DIGITS, finding);
+                let seen = Seen { values: &values, existing: &existing };
+                self.examine(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, finding);
             }
         }
     }
@@ -140,37 +156,36 @@ impl Bench<'_> {
         if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
         }
-        let mut groups = vec![ground];
-        groups.extend(
-            unsettled
-                .iter()
-                .map(|(item, _)| [&item.residual[..], &item.context.quadrature_defects].concat()),
-        );
+        let mut queries = vec![Query::of(ground)];
+        queries.extend(unsettled.iter().map(|(item, _)| Query {
+            outputs: [&item.residual[..], &item.context.quadrature_defects].concat(),
+            requirement: item.requirement.clone(),
+        }));
         let field = Field::new(self, sampler);
-        let mut outcomes = field.test(&groups)?.into_iter();
-        let ground = outcomes.next();
-        if ground == Some(Outcome::NonZero) {
+        let mut answers = field.test(&queries)?.into_iter();
+        let ground = answers.next();
+        if ground.as_ref().is_some_and(Answer::is_nonzero) {
             self.name_the_error(place, sampler)?;
         }
-        for ((item, finding), outcome) in unsettled.iter_mut().zip(outcomes) {
+        for ((item, finding), answer) in unsettled.iter_mut().zip(answers) {
             let defects = &item.context.quadrature_defects;
-            if outcome == Outcome::NonZero
+            if answer.is_nonzero()
                 && !are_zero(self.graph, defects)
-                && field.test(std::slice::from_ref(defects))?.contains(&Outcome::NonZero)
+                && field.test(&[Query::of(defects.clone())])?.iter().any(Answer::is_nonzero)
             {
                 finding.rung("prime field", NO_QUADRATURE.to_string());
                 undecide(finding, NO_QUADRATURE.to_string());
                 continue;
             }
-            let outcome = match (&ground, outcome) {
-                (Some(Outcome::Zero(ground)), Outcome::Zero(own)) => Outcome::Zero(ground.and(own)),
-                (_, Outcome::Zero(_)) => Outcome::Silent(
+            let answer = match (&ground, answer) {
+                (Some(Answer::Zero(ground)), Answer::Zero(own)) => Answer::Zero(ground.and(own)),
+                (_, Answer::Zero(_)) => Answer::Silent(
                     "it is not proved that states are on the level, and stay".to_string(),
                 ),
-                (_, outcome) => outcome,
+                (_, answer) => answer,
             };
-            match outcome {
-                Outcome::Zero(certificate) => {
+            match answer {
+                Answer::Zero(certificate) => {
                     let proof = Proof::from(certificate);
                     finding.rung("prime field", proof.to_string());
                     finding.evidence.proof = Some(proof);
@@ -180,13 +195,27 @@ impl Bench<'_> {
                         finding.settled = Some(Verdict::Proved);
                     }
                 }
-                Outcome::NonZero => {
+                Answer::NonZero(found) => {
                     finding.rung("prime field", "not 0, so no identity".to_string());
-                    finding.is_nonzero = true;
+                    finding.nonzero = found;
                 }
-                Outcome::Silent(reason) => {
+                Answer::Silent(reason) => {
                     finding.rung("prime field", format!("silent: {reason}"));
                     finding.evidence.silence = Some(reason);
+                }
+                Answer::Partial => {
+                    let reason = format!(
+                        "the residual of this {} has no value on a part of the states at which all \
+                         that is written has one",
+                        item.claim.kind.name()
+                    );
+                    finding.rung("prime field", reason.clone());
+                    finding.partial = Some(reason);
+                }
+                Answer::Void => {
+                    let reason = "there is no state at which all that is written has a value";
+                    finding.rung("prime field", reason.to_string());
+                    finding.evidence.silence = Some(reason.to_string());
                 }
             }
         }
@@ -195,28 +224,31 @@ impl Bench<'_> {
 
     /// Balls over f64 at the other blocks, for claims that the fields did not settle.
     fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let mut laid_out: Option<(Run, Vec<Span>, usize)> = None;
+        let mut laid_out: Option<(Run, Layout, usize)> = None;
         for blocks in waves(1..self.blocks()) {
             let mut left: Vec<_> = open
                 .iter_mut()
                 .filter(|(_, finding)| {
-                    finding.settled.is_none() && !finding.is_nonzero && !finding.is_zero
+                    finding.settled.is_none() && !finding.is_nonzero() && !finding.is_zero
                 })
                 .collect();
             if left.is_empty() {
                 return;
             }
             if laid_out.as_ref().is_none_or(|(_, _, count)| *count != left.len()) {
-                let (run, spans) = self.lay_out(left.iter().map(|(item, _)| *item), false);
-                laid_out = Some((run, spans, left.len()));
+                let (run, layout) =
+                    self.lay_out(sampler, left.iter().map(|(item, _)| *item), false);
+                laid_out = Some((run, layout, left.len()));
             }
-            let Some((run, spans, _)) = &laid_out else { return };
+            let Some((run, layout, _)) = &laid_out else { return };
             let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
             for (block, values) in blocks.zip(values) {
                 let start = block * LANES as u64;
-                for ((_, finding), span) in left.iter_mut().zip(spans) {
+                for ((_, finding), span) in left.iter_mut().zip(&layout.spans) {
                     if finding.settled.is_none() {
-                        self.examine(sampler, start, span, &values, f64::MANTISSA_DIGITS, finding);
+                        let existing = layout.existing(&values, span);
+                        let seen = Seen { values: &values, existing: &existing };
+                        self.examine(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
                     }
                 }
             }
@@ -230,40 +262,45 @@ impl Bench<'_> {
         if left.is_empty() {
             return;
         }
-        let (run, spans) = self.lay_out(left.iter().map(|(item, _)| *item), true);
+        let (run, layout) = self.lay_out(sampler, left.iter().map(|(item, _)| *item), true);
         let domain = TwofoldBall::<LANES>;
         let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
-        for ((item, finding), span) in left.iter_mut().zip(&spans) {
+        for ((item, finding), span) in left.iter_mut().zip(&layout.spans) {
             let method = "double-double ball";
             finding.evidence.method = method;
-            weigh(item, span, &values, finding);
+            let existing = layout.existing(&values, span);
+            weigh(item, span, &values, &existing, finding);
             if finding.undefined.is_some() && self.is_out_of_range(item, sampler) {
                 finding.undefined = None;
             }
             if finding.settled.is_none() && finding.undefined.is_none() {
-                self.examine(sampler, 0, span, &values, 2 * f64::MANTISSA_DIGITS, finding);
+                let seen = Seen { values: &values, existing: &existing };
+                self.examine(sampler, 0, span, &seen, 2 * f64::MANTISSA_DIGITS, finding);
             }
         }
         let deserves = |finding: &Finding| {
             finding.settled.is_none() && !finding.is_zero && finding.undefined.is_none()
         };
         for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
-            let run = self.run(&item.residual);
-            let all = 0..item.residual.len();
+            let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
+            let span = &layout.spans[0];
             let before = finding.evidence.method;
             // Where the fields are silent there may be nothing to find.
-            let precisions = if finding.is_nonzero { &BITS[..] } else { &BITS[..1] };
+            let precisions = if finding.is_nonzero() { &BITS[..] } else { &BITS[..1] };
             for bits in precisions {
                 let domain = Precise::new(*bits);
                 finding.evidence.method = "ball of many bits";
                 for index in 0..PRECISE_STATES {
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                    let existing = layout.existing(&values, span);
+                    let seen = Seen { values: &values, existing: &existing };
                     if finding.settled.is_none() {
-                        self.seek_witness(sampler, index, all.clone(), &values, *bits, finding);
+                        let residual = span.residual.clone();
+                        self.seek_witness(sampler, index, residual, &seen, *bits, finding);
                     }
                 }
             }
-            if finding.settled.is_none() && !finding.is_nonzero {
+            if finding.settled.is_none() && !finding.is_nonzero() {
                 finding.evidence.method = before;
             }
         }
@@ -271,23 +308,27 @@ impl Bench<'_> {
 
     /// Have formula and residual a value that only numbers of 64 bits are too small for?
     fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
-        let outputs: Vec<Expr> = item.residual.iter().chain(&item.context.value).copied().collect();
+        let mut outputs = self.common.required_at(sampler.kept());
+        let parts = [&item.requirement, &item.residual, &item.context.value];
+        outputs.extend(parts.into_iter().flatten());
         let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
         let is_defined = |index| {
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
-            values.range(0..outputs.len()).iter().all(|value| value.is_some())
+            values.existing(&[0..outputs.len()])[0]
         };
         item.context.quadrature_defects.is_empty() && (0..PRECISE_STATES).any(is_defined)
     }
 
     /// One tape for some claims.
-    fn lay_out<'r>(
+    pub(super) fn lay_out<'r>(
         &self,
+        sampler: &Sampler,
         items: impl Iterator<Item = &'r Recorded<'r>>,
         with_context: bool,
-    ) -> (Run, Vec<Span>) {
-        let mut outputs = Vec::new();
+    ) -> (Run, Layout) {
+        let mut outputs = self.common.required_at(sampler.kept());
+        let common = 0..outputs.len();
         let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
-        (self.run(&outputs), spans)
+        (self.run(&outputs), Layout { common, spans })
     }
 }

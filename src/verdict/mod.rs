@@ -6,10 +6,12 @@
 //! compared with a fixed tolerance.
 
 mod bench;
+mod branches;
 mod conclude;
 mod coverage;
 mod evidence;
 mod examine;
+mod existence;
 mod field;
 mod finding;
 mod ground;

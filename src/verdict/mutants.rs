@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::bench::Bench;
 use super::evidence::ClaimReport;
-use super::field::Field;
+use super::field::{Answer, Field, Query};
 use super::finding::Look;
 use super::judge::{JudgeError, Options};
 use super::recorded::Common;
@@ -25,7 +25,6 @@ use crate::mechanics::calculus::Jet;
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::twofold::TwofoldBall;
-use crate::proof::Outcome;
 
 /// What became of the mutants of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -135,14 +134,14 @@ impl Bench<'_> {
     ) -> Result<Vec<(&'k Candidate<'c>, bool)>, JudgeError> {
         let total = candidates.len();
         let left = self.not_refuted::<Doubles>(&Ball::<LANES>, &sampler.balls(0), candidates);
-        let groups: Vec<Vec<Expr>> = left.iter().map(|c| c.residual.clone()).collect();
-        let outcomes = Field::new(self, sampler).test(&groups)?;
+        let queries: Vec<Query> = left.iter().map(|c| Query::of(c.residual.clone())).collect();
+        let answers = Field::new(self, sampler).test(&queries)?;
         let (mut proved, mut silent, mut killed) = (Vec::new(), Vec::new(), total - left.len());
-        for (candidate, outcome) in left.into_iter().zip(outcomes) {
-            match outcome {
-                Outcome::Zero(_) => proved.push((candidate, true)),
-                Outcome::NonZero => killed += 1,
-                Outcome::Silent(_) => silent.push(candidate),
+        for (candidate, answer) in left.into_iter().zip(answers) {
+            match answer {
+                Answer::Zero(_) => proved.push((candidate, true)),
+                Answer::NonZero(_) => killed += 1,
+                Answer::Silent(_) | Answer::Void | Answer::Partial => silent.push(candidate),
             }
         }
         let open = silent.len();
@@ -173,7 +172,7 @@ impl Bench<'_> {
         for candidate in candidates {
             let residual = values.range(start..start + candidate.residual.len());
             start += candidate.residual.len();
-            let look = Look::at::<D>(&residual, None);
+            let look = Look::at::<D>(&residual, None, &values.existing(&[]));
             if look.has_value() && !look.excludes_zero() {
                 left.push(candidate);
             }

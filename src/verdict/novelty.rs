@@ -4,13 +4,11 @@
 
 use super::bench::Bench;
 use super::evidence::{Independence, Verdict};
-use super::field::Field;
+use super::field::{Answer, Field, Query};
 use super::judge::{JudgeError, Trust};
 use super::ladder::Open;
 use super::recorded::Recorded;
 use super::sampler::Sampler;
-use crate::graph::Expr;
-use crate::proof::Outcome;
 
 impl Bench<'_> {
     /// For proved integrals whose gradient no enclosure shows to be independent of those of the
@@ -35,25 +33,26 @@ impl Bench<'_> {
             let general = Some(&item.novelty.off_general).filter(|group| !group.is_empty());
             [level.cloned(), general.cloned()]
         };
-        let groups: Vec<Vec<Expr>> = open
+        let queries: Vec<Query> = open
             .iter()
-            .flat_map(|(item, finding)| asked(item, finding.evidence.independence))
-            .flatten()
+            .flat_map(|(item, finding)| {
+                let groups = asked(item, finding.evidence.independence).into_iter().flatten();
+                groups.map(|outputs| Query { outputs, requirement: item.requirement.clone() })
+            })
             .collect();
-        let mut outcomes = match self.options.trust {
+        let mut answers = match self.options.trust {
             Trust::Float => Vec::new(),
-            _ => Field::new(self, sampler).test(&groups)?,
+            _ => Field::new(self, sampler).test(&queries)?,
         }
         .into_iter();
         for (item, finding) in &mut open {
             let [level, general] = asked(item, finding.evidence.independence)
-                .map(|group| group.and_then(|_| outcomes.next()));
+                .map(|group| group.and_then(|_| answers.next()));
             finding.evidence.independence = match (level, general) {
-                (Some(Outcome::Zero(_)), _) => Some(Independence::Constant),
-                (_, Some(Outcome::Zero(_))) => Some(Independence::General),
-                (_, Some(Outcome::NonZero)) | (Some(Outcome::NonZero), None) => {
-                    Some(Independence::Independent)
-                }
+                (Some(Answer::Zero(_)), _) => Some(Independence::Constant),
+                (_, Some(Answer::Zero(_))) => Some(Independence::General),
+                (_, Some(general)) if general.is_nonzero() => Some(Independence::Independent),
+                (Some(level), None) if level.is_nonzero() => Some(Independence::Independent),
                 _ => None,
             };
         }

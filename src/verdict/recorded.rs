@@ -3,20 +3,32 @@
 use std::ops::Range;
 
 use super::physics;
+use super::run::Values;
 use crate::case::{Claim, Expect};
 use crate::claim::{Context, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::System;
 use crate::mechanics::calculus::{Jet, rejection};
+use crate::mechanics::{LevelEquation, LevelFunction, Origin, Phase, System};
+use crate::number::Enclosing;
 
 /// A claim with everything recorded about it.
 pub struct Recorded<'c> {
     pub claim: &'c Claim,
     pub residual: Vec<Expr>,
+    /// What the claim's formulas are as they are written: they have a value where a state counts.
+    pub requirement: Vec<Expr>,
     pub context: Context,
     pub novelty: Novelty,
     pub wider: Vec<Wider>,
+}
+
+/// The components of formulas, with a value exactly where all that is written has one.
+fn literal_values<'f>(
+    phase: &Phase<'_, Expr>,
+    formulas: impl IntoIterator<Item = &'f Formula>,
+) -> Vec<Expr> {
+    formulas.into_iter().flat_map(|f| phase.evaluate_literally(f).components()).collect()
 }
 
 /// A wider place than the claim's own, with what vanishes if the claim holds there too.
@@ -37,6 +49,7 @@ impl<'c> Recorded<'c> {
         Self {
             claim,
             residual: residual(&claim.place),
+            requirement: literal_values(&jet.phase, claim.kind.formulas()),
             context: claim.kind.context(jet, &claim.place.kept),
             novelty: match claim.expect {
                 Expect::Fails => Novelty::default(),
@@ -57,6 +70,10 @@ impl<'c> Recorded<'c> {
 /// What is asked of every case, whatever it claims.
 pub struct Common {
     pub field: Vec<Expr>,
+    /// The formulas of the system as they are written: without a value of theirs there is no state.
+    requirement: Vec<Expr>,
+    /// Those of the level functions.
+    level_requirement: Vec<Vec<Expr>>,
     /// The level functions, zero on the level.
     pub level: Vec<Expr>,
     /// Their rates along the motion.
@@ -78,6 +95,21 @@ impl Common {
         let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {
             field: phase.field().to_vec(),
+            requirement: {
+                let model = phase.model();
+                let formulas = model.parameters.iter().filter_map(|p| match &p.origin {
+                    Origin::Formula(formula) => Some(formula),
+                    _ => None,
+                });
+                literal_values(phase, formulas.chain(model.dynamics()))
+            },
+            level_requirement: {
+                let formula = |equation: &LevelEquation| match &equation.function {
+                    LevelFunction::Formula(formula) => literal_values(phase, [formula]),
+                    _ => Vec::new(),
+                };
+                phase.model().level.iter().map(formula).collect()
+            },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
             physics: physics::outputs(phase),
@@ -97,9 +129,34 @@ impl Common {
     }
 }
 
+impl Common {
+    /// What has a value wherever there is a state at which these equations of the level hold.
+    pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
+        let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
+        let level = level.flat_map(|(values, _)| values);
+        self.requirement.iter().chain(level).copied().collect()
+    }
+}
+
+/// The outputs of a tape for some claims.
+pub struct Layout {
+    /// What has a value wherever there is a state.
+    pub common: Range<usize>,
+    /// The outputs of each claim.
+    pub spans: Vec<Span>,
+}
+
+impl Layout {
+    /// At which lanes there is a state, with all that a claim requires.
+    pub fn existing<D: Enclosing>(&self, values: &Values<D>, span: &Span) -> Vec<bool> {
+        values.existing(&[self.common.clone(), span.requirement.clone()])
+    }
+}
+
 /// Where a claim's outputs stand in a tape; what is not asked for is an empty range.
 pub struct Span {
     pub residual: Range<usize>,
+    pub requirement: Range<usize>,
     pub scale: Range<usize>,
     pub value: Range<usize>,
     pub slope: Range<usize>,
@@ -124,6 +181,7 @@ impl Span {
         };
         Self {
             residual,
+            requirement: extend(&item.requirement),
             scale: extend(context.scale.as_slice()),
             value: extend(&context.value),
             slope: extend(novelty.slope.as_slice()),

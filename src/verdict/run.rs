@@ -5,8 +5,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::graph::{Evaluator, Expr, Graph, Tape};
-use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
+use crate::number::{Domain, Enclosing};
 
 use super::antiderivative_value;
 use super::sampler::{LANES, Maker, Sampler};
@@ -17,6 +17,22 @@ pub type Doubles = Ball<LANES>;
 /// The values of some outputs of a graph at one block of states.
 pub struct Values<D: Domain> {
     blocks: Vec<D::Block>,
+    /// Parameters and states.
+    states: Vec<D::Block>,
+}
+
+impl<D: Enclosing> Values<D> {
+    /// At which lanes there is a state, with all outputs of some ranges.
+    pub fn existing(&self, ranges: &[Range<usize>]) -> Vec<bool> {
+        let outputs = ranges.iter().flat_map(|range| &self.blocks[range.clone()]);
+        let mut existing = vec![true; D::LANES];
+        for block in self.states.iter().chain(outputs) {
+            for (lane, exists) in existing.iter_mut().enumerate() {
+                *exists = *exists && D::enclosure(block, lane).is_some();
+            }
+        }
+        existing
+    }
 }
 
 impl<D: Domain> Values<D> {
@@ -87,6 +103,6 @@ impl Run {
         let free = (0..self.antiderivatives).map(|k| domain.constant(&antiderivative_value(k)));
         let inputs: Vec<D::Block> = states.iter().cloned().chain(free).collect();
         evaluator.run(&inputs);
-        Values { blocks: evaluator.outputs().cloned().collect() }
+        Values { blocks: evaluator.outputs().cloned().collect(), states: states.to_vec() }
     }
 }

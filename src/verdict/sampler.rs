@@ -4,14 +4,17 @@ use std::sync::Arc;
 
 use crate::case::Case;
 use crate::claim::Place;
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use num_dual::DualNum;
+
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, literally, record};
+use crate::level::{self, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, Draws, Line, Origin};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::Extent;
+use crate::proof::{Extent, Group, Source};
 use crate::scalar::Scalar;
 
 use super::newton::Newton;
@@ -23,6 +26,9 @@ const SPARE_DIGITS: usize = 8;
 /// States a run of a tape treats at once.
 pub const LANES: usize = 64;
 
+/// Draws that are tried for a state that has to lie in given ranges.
+const ATTEMPTS: u32 = 64;
+
 /// Makes the inputs of a case's tapes at one place.
 #[derive(Clone)]
 pub struct Sampler {
@@ -32,46 +38,94 @@ pub struct Sampler {
     /// From draws to parameters and state.
     graph: Arc<Graph>,
     made: Vec<Expr>,
+    /// How the level is solved, and what must not vanish, lest a part of it is left out.
+    solution: Option<Arc<Solution>>,
+    pivots: Arc<[Pivot]>,
     /// How many of the draws make the parameters.
     parameter_draws: usize,
     dimension: usize,
+    /// The level equations that hold.
+    kept: Vec<bool>,
+    /// Makes parameters and state, without a value where they are out of range.
     tape: Tape,
+    /// Makes them wherever it can.
+    unguarded: Tape,
+    /// Whether some draws lead to no state.
+    is_guarded: bool,
     newton: Option<Newton>,
 }
 
 impl Sampler {
     /// A sampler of states at `place`.
     pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
-        let model = &case.model;
+        let (model, kept) = (&case.model, &place.kept);
+        let some = kept.iter().any(|kept| *kept);
+        let is_charted = match &case.chart {
+            Chart::Rolling | Chart::Sphere | Chart::Free => true,
+            // A chart of the whole level knows nothing of its equations one by one.
+            Chart::Given(_) => kept.iter().all(|kept| *kept),
+            Chart::Equations => false,
+        };
+        let solution = match is_charted || !some {
+            true => None,
+            false => level::solve(model, kept),
+        };
+        let newton = (some && !is_charted && solution.is_none())
+            .then(|| Newton::new(model, kept))
+            .transpose()?;
         let mut draws = model.parameter_draws();
         let parameter_draws = draws.len();
-        draws.extend(case.chart.draws(&case.free_draws, &place.kept));
-        let (graph, outputs) = record(draws.len(), |inputs| {
-            let (mut values, state) = model.make_parameters(inputs);
-            let point = case.chart.point(model, &place.kept, &values, state);
-            values.extend(point);
-            values
+        draws.extend(match &solution {
+            Some(solution) => solution.draws(&case.free_draws),
+            None => case.chart.draws(&case.free_draws, kept),
+        });
+        let (graph, (made, guarded, pivots)) = record(draws.len(), |inputs| {
+            let (parameters, state) = model.make_parameters(inputs);
+            let Some(solution) = &solution else {
+                let mut made = parameters;
+                let point = literally(|| case.chart.point(model, kept, &made, state));
+                made.extend(point);
+                return (made.clone(), made, Vec::new());
+            };
+            let solved = solution.point(model, parameters, state);
+            let bounds = ranges(case, solution, &solved.made);
+            let facts = solved.facts.iter().map(|(value, _)| *value).chain(bounds);
+            let guarded = guarded(&solved.made, facts);
+            (solved.made, guarded, solved.pivots)
         })?;
-        let some = place.kept.iter().any(|kept| *kept);
-        let all = place.kept.iter().all(|kept| *kept);
-        let newton = match &case.chart {
-            Chart::Rolling | Chart::Sphere | Chart::Free => None,
-            // A chart of the whole level knows nothing of its equations one by one.
-            Chart::Given(_) | Chart::Solved(_) if all => None,
-            _ => some.then(|| Newton::new(model, &place.kept)).transpose()?,
-        };
-        let tape = Tape::new(&graph, &outputs);
+        let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
+        let is_guarded = solution.is_some();
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
-        let made = outputs;
-        let graph = Arc::new(graph);
-        Ok(Self { seed, draws, recipes, graph, made, parameter_draws, dimension, tape, newton })
+        let (graph, pivots) = (Arc::new(graph), pivots.into());
+        let solution = solution.map(Arc::new);
+        Ok(Self {
+            seed,
+            draws,
+            recipes,
+            graph,
+            made: guarded,
+            solution,
+            pivots,
+            parameter_draws,
+            dimension,
+            kept: kept.clone(),
+            tape,
+            unguarded,
+            is_guarded,
+            newton,
+        })
     }
 
     /// Are the states found numerically, with an estimated rather than a proved distance from the
     /// level?
     pub fn is_numerical(&self) -> bool {
         self.newton.is_some()
+    }
+
+    /// Which of the level's equations hold at the states.
+    pub fn kept(&self) -> &[bool] {
+        &self.kept
     }
 
     /// Parameters and state of the states `start..start + LANES`, as balls.
@@ -87,20 +141,76 @@ impl Sampler {
     /// The same for `lanes` states in another domain; states found numerically are known in f64
     /// only.
     pub fn states<D: Domain + Clone>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
-        let numbers: Vec<Vec<Rational>> =
-            (0..lanes).map(|lane| self.draws.state(self.seed, start + lane as u64)).collect();
-        self.made_in(domain, &numbers)
+        self.made_in(domain, &self.numbers(lanes, start))
+    }
+
+    /// The draws of `lanes` states in a domain.
+    pub fn drawn<D: Domain>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
+        self.columns(domain, &self.numbers(lanes, start))
+    }
+
+    /// Parameters and one state made from given numbers in place of draws.
+    pub fn made_from<D: Domain + Clone>(&self, domain: &D, numbers: &[Rational]) -> Vec<D::Block> {
+        self.made_in(domain, &[numbers.to_vec()])
+    }
+
+    fn numbers(&self, lanes: usize, start: u64) -> Vec<Vec<Rational>> {
+        let attempts = self.attempts(start, lanes, None);
+        let state = |(lane, attempt)| self.draws.attempt(self.seed, start + lane as u64, attempt);
+        attempts.into_iter().enumerate().map(state).collect()
+    }
+
+    /// For each of some states, the first attempt at which the draws lead to a state, by enclosures
+    /// in f64; the first of all where none does. With few parameter sets, each state has those of
+    /// its set.
+    fn attempts(&self, start: u64, lanes: usize, sets: Option<usize>) -> Vec<u32> {
+        let mut attempts = vec![0; lanes];
+        if !self.is_guarded {
+            return attempts;
+        }
+        let mut evaluator = Evaluator::new(&self.tape, Ball::<LANES>);
+        for first in (0..lanes).step_by(LANES) {
+            let own = &mut attempts[first..lanes.min(first + LANES)];
+            let mut open: Vec<usize> = (0..own.len()).collect();
+            for attempt in 0..ATTEMPTS {
+                let numbers: Vec<Vec<(f64, bool)>> = open
+                    .iter()
+                    .map(|lane| self.nearest(start + (first + lane) as u64, attempt, sets))
+                    .collect();
+                let last = open.len() - 1;
+                let column = |k: usize| Balls::about(|lane| numbers[lane.min(last)][k]);
+                let columns: Vec<Balls<LANES>> = (0..self.draws.len()).map(column).collect();
+                evaluator.run(&columns);
+                let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
+                let mut left = Vec::new();
+                for (place, lane) in open.iter().enumerate() {
+                    match exists(place) {
+                        true => own[*lane] = attempt,
+                        false => left.push(*lane),
+                    }
+                }
+                open = left;
+                if open.is_empty() {
+                    break;
+                }
+            }
+        }
+        attempts
+    }
+
+    /// The draws of a state in f64, with the parameters of its set where there are few.
+    fn nearest(&self, index: u64, attempt: u32, sets: Option<usize>) -> Vec<(f64, bool)> {
+        let mut own = self.draws.nearest(self.seed, index, attempt);
+        if let Some(sets) = sets {
+            let set = (index % LANES as u64) as usize * sets / LANES;
+            let shared = self.draws.nearest(self.seed, set as u64, 0);
+            own[..self.parameter_draws].copy_from_slice(&shared[..self.parameter_draws]);
+        }
+        own
     }
 
     /// Where each of the numbers that are drawn can be.
     pub fn extents(&self) -> Vec<Extent> {
-        let extent = |draw: &Draw| match draw {
-            Draw::Within(range) => Extent::between(&range.low, &range.high),
-            Draw::Of(Line::All, _) => Extent::ALL,
-            Draw::Of(Line::Positive, _) => Extent::POSITIVE,
-            // Each value is put in before anything is proved.
-            Draw::OneOf(_) => Extent::ALL,
-        };
         self.recipes.iter().map(extent).collect()
     }
 
@@ -157,16 +267,7 @@ impl Sampler {
         fixed: &[Option<Rational>],
     ) -> Result<(Graph, Vec<Vec<Expr>>), Fault> {
         let (composed, values) = record(self.draws.len(), |draws| {
-            let draws: Vec<Expr> = draws
-                .iter()
-                .zip(fixed)
-                .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
-                .collect();
-            let reached = self.graph.reached(self.made.iter().copied());
-            let values = self.graph.replay(&reached, &draws, |_, _, _| None);
-            let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
-            let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
-            inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
             let reached = graph.reached(groups.iter().flatten().copied());
             let values = graph.replay(&reached, &inputs, |_, _, _| None);
             let group = |group: &Vec<Expr>| {
@@ -175,6 +276,85 @@ impl Sampler {
             groups.iter().map(group).collect::<Option<Vec<Vec<Expr>>>>()
         })?;
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
+    }
+
+    /// The same for groups of values; states, too, have a value wherever the values matter.
+    pub fn compose_groups(
+        &self,
+        graph: &Graph,
+        groups: &[Group],
+        fixed: &[Option<Rational>],
+    ) -> Result<(Graph, Vec<Group>), Fault> {
+        let (composed, groups) = record(self.draws.len(), |draws| {
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
+            let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
+                graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
+            };
+            let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
+            // √x √x is x where x ≥ 0, and what is required has no value elsewhere.
+            let required = literally(|| {
+                values_of(&mut groups.iter().flat_map(|group| &group.required).copied())
+            });
+            let all = |some: &[Expr], values: &[Option<Expr>]| {
+                some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            };
+            let group = |group: &Group| {
+                let mut required = all(&group.required, &required)?;
+                required.extend(&inputs[..self.made.len()]);
+                Some(Group { outputs: all(&group.outputs, &outputs)?, required })
+            };
+            groups.iter().map(group).collect::<Option<Vec<Group>>>()
+        })?;
+        groups.map(|groups| (composed, groups)).ok_or(Fault::ForeignValue)
+    }
+
+    /// Parameters, states and further inputs of `graph` from draws, and all values on the way.
+    fn inputs_from(
+        &self,
+        graph: &Graph,
+        draws: &[Expr],
+        fixed: &[Option<Rational>],
+    ) -> Option<(Vec<Expr>, Vec<Option<Expr>>)> {
+        let draws: Vec<Expr> = draws
+            .iter()
+            .zip(fixed)
+            .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
+            .collect();
+        let reached = self.graph.reached(self.made.iter().copied());
+        let values = self.graph.replay(&reached, &draws, |_, _, _| None);
+        let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+        let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
+        inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+        Some((inputs, values))
+    }
+
+    /// From draws to parameters and states.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// What must not vanish at a state, lest a part of the place is left out.
+    pub fn pivots(&self) -> &[Pivot] {
+        &self.pivots
+    }
+
+    /// How the level is solved, if it is.
+    pub fn solution(&self) -> Option<&Solution> {
+        self.solution.as_deref()
+    }
+
+    /// How many of the draws make the parameters.
+    pub fn parameter_draws(&self) -> usize {
+        self.parameter_draws
+    }
+
+    /// What each of the draws is in a field.
+    pub fn sources(&self) -> Vec<Source> {
+        let source = |draw: &Draw| match draw {
+            Draw::Sign => Source::Sign,
+            _ => Source::Uniform,
+        };
+        self.recipes.iter().map(source).collect()
     }
 
     /// Checks that a parametrisation typed by the user fills the level set.
@@ -195,24 +375,45 @@ impl Sampler {
         start: u64,
         sets: usize,
     ) -> Vec<D::Block> {
-        let numbers: Vec<Vec<Rational>> =
-            (0..LANES).map(|lane| self.sharing(sets, lane, start, Draws::state)).collect();
+        let attempts = self.attempts(start, LANES, Some(sets));
+        let state = |(lane, attempt)| {
+            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
+            let own = self.draws.attempt(self.seed, start + lane as u64, attempt);
+            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            values
+        };
+        let numbers: Vec<Vec<Rational>> = attempts.into_iter().enumerate().map(state).collect();
         self.made_in(domain, &numbers)
     }
 
-    /// The draws of a state with the parameters of its set.
-    fn sharing<T: Clone>(
+    /// One of those states in a domain of one lane.
+    pub fn state_sharing_parameters<D: Domain + Clone>(
         &self,
+        domain: &D,
+        index: u64,
         sets: usize,
-        lane: usize,
+    ) -> Vec<D::Block> {
+        let mut values = self.numbers(1, index).swap_remove(0);
+        let set = (index % LANES as u64) as usize * sets / LANES;
+        let shared = self.draws.state(self.seed, set as u64);
+        values[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
+        self.made_in(domain, &[values])
+    }
+
+    /// States in another domain near the ends of ranges and near 0, with few parameter sets.
+    pub fn states_at_edges<D: Domain + Clone>(
+        &self,
+        domain: &D,
         start: u64,
-        state: impl Fn(&Draws, u64, u64) -> Vec<T>,
-    ) -> Vec<T> {
-        let set = lane * sets / LANES;
-        let mut values = state(&self.draws, self.seed, set as u64);
-        let own = state(&self.draws, self.seed, start + lane as u64);
-        values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
-        values
+        sets: usize,
+    ) -> Vec<D::Block> {
+        let state = |lane: usize| {
+            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
+            let own = self.draws.edge(self.seed, start + lane as u64);
+            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            values
+        };
+        self.made_in(domain, &(0..LANES).map(state).collect::<Vec<_>>())
     }
 
     /// The draws of some states, a block each.
@@ -234,8 +435,11 @@ impl Sampler {
 
     /// Parameters and state of one state, exact where they are rational.
     pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
-        let values = self.draws.state(self.seed, index);
-        let mut evaluator = Evaluator::new(&self.tape, Exact);
+        self.exact_from(self.numbers(1, index).swap_remove(0))
+    }
+
+    fn exact_from(&self, values: Vec<Rational>) -> Vec<Option<Rational>> {
+        let mut evaluator = Evaluator::new(&self.unguarded, Exact);
         evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
         let state_begins = self.tape.outputs() - self.dimension;
         evaluator
@@ -249,15 +453,7 @@ impl Sampler {
     /// told apart: with them a residual that was computed from as many bits is found again.
     pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
         if bits > f64::MANTISSA_DIGITS {
-            let domain = Precise::new(bits + SPARE_BITS);
-            let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
-            let precise = std::cell::LazyCell::new(|| self.states(&domain, 1, index));
-            let written = |k: usize| precise[k].as_ref()?.decimal(digits);
-            let text = |(k, value): (usize, Option<Rational>)| match value {
-                Some(exact) => exact.to_string(),
-                None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
-            };
-            return self.exact(index).into_iter().enumerate().map(text).collect();
+            return self.printed_from(&self.numbers(1, index).swap_remove(0), bits);
         }
         let start = index - index % LANES as u64;
         let lane = (index % LANES as u64) as usize;
@@ -268,6 +464,64 @@ impl Sampler {
         };
         self.exact(index).into_iter().enumerate().map(text).collect()
     }
+
+    /// A state made from given numbers as text, with digits for `bits` bits.
+    pub fn printed_from(&self, numbers: &[Rational], bits: u32) -> Vec<String> {
+        let domain = Precise::new(bits + SPARE_BITS);
+        let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
+        let precise = std::cell::LazyCell::new(|| self.made_from(&domain, numbers));
+        let written = |k: usize| precise[k].as_ref()?.decimal(digits);
+        let text = |(k, value): (usize, Option<Rational>)| match value {
+            Some(exact) => exact.to_string(),
+            None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
+        };
+        self.exact_from(numbers.to_vec()).into_iter().enumerate().map(text).collect()
+    }
+}
+
+/// Where a number that is drawn can be.
+pub fn extent(draw: &Draw) -> Extent {
+    match draw {
+        Draw::Within(range) => Extent::between(&range.low, &range.high),
+        Draw::Of(Line::All, _) => Extent::ALL,
+        Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+        // Each value is put in before anything is proved.
+        Draw::OneOf(_) => Extent::ALL,
+        Draw::Sign => Extent::SIGN,
+    }
+}
+
+/// The differences of components that a level determines from the ends of their ranges.
+fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
+    let (parameters, state) = made.split_at(case.model.free_components());
+    let recipes = case.model.parameter_draws();
+    let of_state = solution.components().into_iter().map(|k| (state[k], &case.free_draws[k]));
+    let of_parameters = solution.parameters().into_iter().filter_map(|k| {
+        let draw = case.model.draw_of_component(k).and_then(|draw| recipes.get(draw))?;
+        Some((parameters[k], draw))
+    });
+    let ends = of_state.chain(of_parameters).filter_map(|(value, draw)| match draw {
+        Draw::Within(range) => {
+            let [low, high] = [&range.low, &range.high].map(Expr::rational);
+            Some([value - low, high - value])
+        }
+        _ => None,
+    });
+    ends.flatten().collect()
+}
+
+/// Parameters and state that have no value where some values are negative: √x has none for x < 0.
+fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
+    let mut guarded = made.to_vec();
+    literally(|| {
+        let zero = Expr::rational(&Rational::from(0));
+        for fact in facts {
+            if let Some(first) = guarded.last_mut() {
+                *first += zero * fact.sqrt();
+            }
+        }
+    });
+    guarded
 }
 
 /// Makes blocks of balls, with memory of its own.
@@ -279,18 +533,19 @@ pub struct Maker<'s> {
 impl Maker<'_> {
     /// Parameters and state of the states `start..start + LANES`.
     pub fn balls(&mut self, start: u64) -> Vec<Balls<LANES>> {
-        let Sampler { draws, seed, .. } = self.sampler;
-        self.made(|lane| draws.nearest(*seed, start + lane as u64))
+        self.made(start, None)
     }
 
     /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
     pub fn balls_sharing_parameters(&mut self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
-        let sampler = self.sampler;
-        self.made(|lane| sampler.sharing(sets, lane, start, Draws::nearest))
+        self.made(start, Some(sets))
     }
 
-    fn made(&mut self, draws_of: impl Fn(usize) -> Vec<(f64, bool)>) -> Vec<Balls<LANES>> {
-        let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(draws_of);
+    fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<LANES>> {
+        let sampler = self.sampler;
+        let attempts = sampler.attempts(start, LANES, sets);
+        let lanes: [Vec<(f64, bool)>; LANES] =
+            std::array::from_fn(|lane| sampler.nearest(start + lane as u64, attempts[lane], sets));
         let column = |k: usize| Balls::about(|lane| lanes[lane][k]);
         let columns: Vec<Balls<LANES>> = (0..self.sampler.draws.len()).map(column).collect();
         self.evaluator.run(&columns);

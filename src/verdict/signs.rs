@@ -1,18 +1,29 @@
 //! The signs of densities that hold.
 
+use std::ops::Range;
+
 use super::bench::Bench;
 use super::evidence::Sign;
+use super::field::combinations;
 use super::finding::{Finding, undecide};
 use super::recorded::Recorded;
-use super::run::{Values, waves};
+use super::run::{Run, Values, waves};
 use super::sampler::{LANES, Maker, Sampler};
 use crate::claim::Kind;
-use crate::graph::Expr;
+use crate::graph::{Expr, Fault};
 use crate::number::Enclosing;
+use crate::number::mixed::Mixed;
 use crate::number::twofold::TwofoldBall;
+use crate::proof::{self, Group};
 
 /// Parameter sets over which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
+/// States near the ends of ranges, and states in exact numbers, at which it is observed.
+const EDGES: usize = 2 * LANES;
+const EXACT_STATES: usize = 16;
+
+/// The signs seen of a density, negative and positive, by parameter set.
+type Signs = [[bool; 2]; PARAMETER_SETS];
 
 impl Bench<'_> {
     /// The signs of the densities among claims that hold, over all states for each of a few
@@ -21,50 +32,133 @@ impl Bench<'_> {
         &self,
         sampler: &Sampler,
         items: impl Iterator<Item = (&'f Recorded<'r>, &'f mut Finding)>,
-    ) {
-        let (densities, mut findings): (Vec<Expr>, Vec<&mut Finding>) = items
+    ) -> Result<(), Fault> {
+        let mut open: Vec<(Expr, &Recorded<'_>, &mut Finding)> = items
             .filter(|(item, _)| matches!(item.claim.kind, Kind::Density(_)))
-            .filter_map(|(item, finding)| Some((*item.context.value.first()?, finding)))
-            .unzip();
-        if densities.is_empty() {
-            return;
+            .filter_map(|(item, finding)| Some((*item.context.value.first()?, item, finding)))
+            .collect();
+        if open.is_empty() {
+            return Ok(());
         }
-        let run = self.run(&densities);
-        let mut seen = vec![[[false; 2]; PARAMETER_SETS]; densities.len()];
+        let proved = self.proved_signs(sampler, &open)?;
+        let mut outputs: Vec<Expr> = open.iter().map(|(density, ..)| *density).collect();
+        let first = outputs.len();
+        outputs.extend(self.common.required_at(sampler.kept()));
+        let common = first..outputs.len();
+        let own = open.iter().map(|(_, item, _)| {
+            let start = outputs.len();
+            outputs.extend(&item.requirement);
+            [common.clone(), start..outputs.len()]
+        });
+        let required: Vec<[Range<usize>; 2]> = own.collect();
+        let run = self.run(&outputs);
+        let mut seen: Vec<Signs> = vec![Signs::default(); required.len()];
         for blocks in waves(0..self.blocks()) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
             };
             for values in run.at_blocks(sampler, blocks, sharing) {
-                observe(&values, &mut seen);
+                observe(&values, &required, &mut seen);
             }
-            if seen.iter().all(|seen| sign(seen) == Some(Sign::Changes)) {
+            let is_known = |(seen, proved): (&Signs, &Option<bool>)| match proved {
+                Some(_) => sign(seen).is_some(),
+                None => sign(seen) == Some(Sign::Changes),
+            };
+            if seen.iter().zip(&proved).all(is_known) {
                 break;
             }
         }
-        if seen.iter().any(|seen| sign(seen).is_none()) && !sampler.is_numerical() {
-            let domain = TwofoldBall::<LANES>;
-            let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
-            observe(&run.at(&domain, &states), &mut seen);
+        if !sampler.is_numerical() {
+            let is_open = |(seen, proved): (&Signs, &Option<bool>)| {
+                sign(seen).is_none() || (proved.is_none() && sign(seen) != Some(Sign::Changes))
+            };
+            if seen.iter().zip(&proved).any(is_open) {
+                self.look_closely(&run, &required, sampler, &mut seen);
+            }
         }
-        for (finding, seen) in findings.iter_mut().zip(&seen) {
+        for (((_, _, finding), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
             finding.evidence.sign = sign(seen);
+            finding.evidence.sign_is_proved =
+                proved.is_some() || finding.evidence.sign == Some(Sign::Changes);
             if finding.evidence.sign.is_none() {
+                finding.evidence.sign_is_proved = false;
                 undecide(finding, "the density is 0 at all states that were tried".to_string());
             }
+        }
+        Ok(())
+    }
+
+    /// Observes signs near the ends of ranges, with twice the digits, and exactly where a root may
+    /// be 0.
+    fn look_closely(
+        &self,
+        run: &Run,
+        required: &[[Range<usize>; 2]],
+        sampler: &Sampler,
+        seen: &mut [Signs],
+    ) {
+        let domain = TwofoldBall::<LANES>;
+        let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
+        observe(&run.at(&domain, &states), required, seen);
+        for start in (0..EDGES).step_by(LANES) {
+            let states = sampler.states_at_edges(&domain, start as u64, PARAMETER_SETS);
+            observe(&run.at(&domain, &states), required, seen);
+        }
+        let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
+        for lane in (0..LANES).step_by(LANES / EXACT_STATES) {
+            let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
+            let values = run.at(&domain, &states);
+            for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
+                if !values.existing(required)[0] {
+                    continue;
+                }
+                note::<Mixed>(values.output(index), 0, &mut seen[lane * PARAMETER_SETS / LANES]);
+            }
+        }
+    }
+
+    /// The signs that are proved, by enclosures over all states.
+    fn proved_signs(
+        &self,
+        sampler: &Sampler,
+        densities: &[(Expr, &Recorded<'_>, &mut Finding)],
+    ) -> Result<Vec<Option<bool>>, Fault> {
+        let lists = combinations(sampler.recipes()).unwrap_or_default();
+        if sampler.is_numerical() || lists.len() != 1 {
+            return Ok(vec![None; densities.len()]);
+        }
+        let common = self.common.required_at(sampler.kept());
+        let group = |(density, item, _): &(Expr, &Recorded<'_>, &mut Finding)| Group {
+            outputs: vec![*density],
+            required: [&item.requirement[..], &common].concat(),
+        };
+        let groups: Vec<Group> = densities.iter().map(group).collect();
+        let (graph, groups) = sampler.compose_groups(self.graph, &groups, &lists[0])?;
+        let extents = sampler.extents();
+        let sign = |group: &Group| {
+            let value = *group.outputs.first()?;
+            proof::sign(&graph, &extents, &group.required, value)
+        };
+        Ok(groups.iter().map(sign).collect())
+    }
+}
+
+/// Notes the signs of a block of values where there is a state, by parameter set.
+fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Signs]) {
+    for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
+        let existing = values.existing(required);
+        for lane in (0..LANES).filter(|lane| existing[*lane]) {
+            note::<D>(values.output(index), lane, &mut seen[lane * PARAMETER_SETS / LANES]);
         }
     }
 }
 
-/// Notes the signs of a block of values, by parameter set.
-fn observe<D: Enclosing>(values: &Values<D>, seen: &mut [[[bool; 2]; PARAMETER_SETS]]) {
-    for (index, seen) in seen.iter_mut().enumerate() {
-        let block = values.output(index);
-        for lane in (0..LANES).filter(|lane| D::excludes_zero(block, *lane)) {
-            if let Some((mid, _)) = D::enclosure(block, lane) {
-                seen[lane * PARAMETER_SETS / LANES][usize::from(mid > 0.0)] = true;
-            }
-        }
+/// Notes the sign of one value, if it is known.
+fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) {
+    if D::excludes_zero(block, lane)
+        && let Some((mid, _)) = D::enclosure(block, lane)
+    {
+        seen[usize::from(mid > 0.0)] = true;
     }
 }
 

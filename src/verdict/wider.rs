@@ -4,9 +4,11 @@
 //! a constant 0, or zero in prime fields. What enclosures show adds places to what is confirmed by
 //! them, and never contradicts that a claim holds in one place only.
 
+use std::ops::Range;
+
 use super::bench::Bench;
 use super::evidence::Verdict;
-use super::field::Field;
+use super::field::{Answer, Field, Query};
 use super::finding::{Finding, Look};
 use super::judge::{JudgeError, Trust};
 use super::recorded::Recorded;
@@ -15,7 +17,6 @@ use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
 use crate::graph::Expr;
 use crate::number::ball::Ball;
-use crate::proof::Outcome;
 
 impl Bench<'_> {
     /// Finds out in which wider places the claims hold that hold at their own.
@@ -40,47 +41,58 @@ impl Bench<'_> {
                 start..outputs.len()
             };
             let mut asked = Vec::new();
+            let common = extend(&self.common.required_at(&place.kept));
             for (item, finding) in recorded.iter().zip(findings.iter_mut()) {
                 let wider = item.wider.iter().find(|wider| wider.place == *place);
                 let covered = finding.evidence.holds.iter().any(|name| name == "everywhere");
                 if let (Some(wider), true, false) = (wider, finding.holds(), covered) {
                     let residual = extend(&wider.residual);
                     let scale = extend(item.context.scale.as_slice());
-                    asked.push((item.claim, finding, residual, scale, extend(&wider.defects)));
+                    let (defects, own) = (extend(&wider.defects), extend(&item.requirement));
+                    asked.push((item.claim, finding, residual, scale, defects, own));
                 }
             }
             if asked.is_empty() {
                 continue;
             }
             let sampler = Sampler::new(self.case, place, self.options.seed)?;
+            if self.missed_part(&sampler)?.is_some() {
+                continue;
+            }
             let values = self.run(&outputs).at(&Ball::<LANES>, &sampler.balls(0));
-            if Look::at::<Doubles>(&values.range(rates), None).excludes_zero() {
+            let all = values.existing(std::slice::from_ref(&common));
+            if Look::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
                 continue;
             }
             let mut open = Vec::new();
-            for (claim, finding, residual, scale, defects) in asked {
+            for (claim, finding, residual, scale, defects, own) in asked {
                 let scale = values.range(scale).first().copied();
-                let sound = defects.is_empty()
-                    || Look::at::<Doubles>(&values.range(defects.clone()), None).is_zero();
-                let look = Look::at::<Doubles>(&values.range(residual.clone()), scale);
-                if sound && !look.excludes_zero() {
+                let existing = values.existing(&[common.clone(), own.clone()]);
+                let look = |range: Range<usize>, scale| {
+                    Look::at::<Doubles>(&values.range(range), scale, &existing)
+                };
+                let sound = defects.is_empty() || look(defects.clone(), None).is_zero();
+                let look = look(residual.clone(), scale);
+                // Where nothing has a value nothing holds.
+                if sound && look.has_value() && !look.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
-                    open.push((claim, finding, group, look.is_zero()));
+                    let query = Query { outputs: group, requirement: outputs[own].to_vec() };
+                    open.push((claim, finding, query, look.is_zero()));
                 }
             }
-            let groups: Vec<Vec<Expr>> =
-                open.iter().map(|(_, _, group, _)| group.clone()).collect();
-            let outcomes = match self.options.trust {
-                Trust::Float => vec![None; groups.len()],
-                _ => Field::new(self, &sampler).test(&groups)?.into_iter().map(Some).collect(),
+            let queries: Vec<Query> = open.iter().map(|(_, _, query, _)| query.clone()).collect();
+            let answers = match self.options.trust {
+                Trust::Float => vec![None; queries.len()],
+                _ => Field::new(self, &sampler).test(&queries)?.into_iter().map(Some).collect(),
             };
-            for ((claim, finding, group, is_zero), outcome) in open.into_iter().zip(outcomes) {
-                let holds = match outcome {
-                    Some(Outcome::Zero(_)) => true,
-                    Some(Outcome::NonZero) => false,
-                    Some(Outcome::Silent(_)) | None => {
+            for ((claim, finding, query, is_zero), answer) in open.into_iter().zip(answers) {
+                let holds = match answer {
+                    Some(Answer::Zero(_)) => true,
+                    Some(Answer::NonZero(_) | Answer::Partial) => false,
+                    Some(Answer::Silent(_) | Answer::Void) | None => {
                         let constant = |expr: &Expr| self.graph.constant_value(*expr);
-                        let folded = group.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
+                        let folded =
+                            query.outputs.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
                         let confirmed = finding.settled == Some(Verdict::Confirmed);
                         if is_zero && claim.only_there && !folded {
                             let place = place.name(model);

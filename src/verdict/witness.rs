@@ -2,19 +2,18 @@
 
 use super::evidence::Witness;
 use super::point::named;
-use super::sampler::Sampler;
 use crate::case::Case;
 use crate::formula::Type;
 
-/// State `index` with the residual that was found there in `bits` bits, and a bound on its error.
+/// A state as it is printed, with its number under the seed if it has one, the residual that was
+/// found there, and a bound on its error.
 pub fn witness(
     case: &Case,
-    sampler: &Sampler,
-    index: u64,
-    bits: u32,
+    index: Option<u64>,
+    printed: &[String],
     (residual, error_bound): (f64, f64),
 ) -> Witness {
-    let (parameters, state) = named(&case.model, &sampler.printed(index, bits));
+    let (parameters, state) = named(&case.model, printed);
     let kinds = case.model.free_parameters().map(|parameter| parameter.kind);
     let parameters =
         parameters.into_iter().zip(kinds).map(|((name, value), kind)| (name, listed(kind, &value)));

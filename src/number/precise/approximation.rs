@@ -7,6 +7,11 @@ use super::super::rational::Rational;
 
 /// Radii are kept below this many bits: the digits beneath them mean nothing.
 const RADIUS_BITS: u64 = 32;
+/// Exponents beyond ± this are given up by [`Approximation::in_range`]; a few thousand products of
+/// numbers within it do not overflow.
+const LARGEST_EXPONENT: u64 = 1 << 45;
+/// Bits to which sums that are asked for in full are aligned at most.
+const MOST_ALIGNED: u64 = 1 << 17;
 
 /// The interval of all reals within r·2^e of m·2^e.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +44,18 @@ impl Approximation {
             radius += BigUint::one();
         }
         let radius = radius.to_u64().unwrap_or(u64::MAX);
-        Self { mantissa: mantissa >> shift, exponent: exponent + shift as i64, radius }
+        Self {
+            mantissa: mantissa >> shift,
+            exponent: exponent.saturating_add(shift as i64),
+            radius,
+        }
+    }
+
+    /// The number, unless it is too large or too small for its exponent to be relied on.
+    pub fn in_range(self) -> Option<Self> {
+        let fits = self.mantissa.is_zero() && self.radius == 0
+            || self.exponent.unsigned_abs() <= LARGEST_EXPONENT;
+        fits.then_some(self)
     }
 
     /// An exact f64; `None` for NaN and infinities.
@@ -87,7 +103,7 @@ impl Approximation {
 
     /// Bits of the midpoint before the binary point; negative for small numbers.
     pub(super) fn magnitude(&self) -> i64 {
-        self.mantissa.bits() as i64 + self.exponent
+        (self.mantissa.bits() as i64).saturating_add(self.exponent)
     }
 
     /// Midpoint and radius in f64, the radius covering both roundings.
@@ -147,8 +163,8 @@ impl Approximation {
         if fine.is_zero() {
             return coarse.clone().rounded(bits);
         }
-        let apart = (coarse.exponent - fine.exponent) as u64;
-        let room = u64::from(bits).saturating_mul(2).saturating_add(128);
+        let apart = coarse.exponent.abs_diff(fine.exponent);
+        let room = u64::from(bits).min(MOST_ALIGNED).saturating_mul(2).saturating_add(128);
         if coarse.radius > 0 || apart > room.saturating_add(fine.mantissa.bits()) {
             // Nothing finer than the coarse radius is worth keeping; without one, an exact coarse
             // number is first refined as far as the result can be.
@@ -158,7 +174,8 @@ impl Approximation {
             let mantissa = coarse_mantissa + (&fine.mantissa >> drop);
             let dropped = fine.radius.checked_shr(drop.min(64) as u32).unwrap_or(0) + 2;
             let radius = BigUint::from(coarse.radius) + BigUint::from(dropped);
-            return Self::new(mantissa, radius, coarse.exponent - refine as i64, bits);
+            let exponent = coarse.exponent.saturating_sub(refine as i64);
+            return Self::new(mantissa, radius, exponent, bits);
         }
         let mantissa = (&coarse.mantissa << apart) + &fine.mantissa;
         Self::new(mantissa, fine.radius.into(), fine.exponent, bits)
@@ -167,10 +184,8 @@ impl Approximation {
     /// x y
     pub fn mul(&self, other: &Self, bits: u32) -> Self {
         let mantissa = &self.mantissa * &other.mantissa;
-        let Some(exponent) = self.exponent.checked_add(other.exponent) else {
-            // Out of all range: nothing is known, not even the sign.
-            return Self { mantissa: BigInt::zero(), exponent: i64::MAX / 4, radius: 1 };
-        };
+        // Out of range where it saturates.
+        let exponent = self.exponent.saturating_add(other.exponent);
         // |m| s + |n| r + r s
         let mut radius = BigUint::zero();
         if other.radius > 0 {
@@ -201,7 +216,8 @@ impl Approximation {
         if &quotient * &self.mantissa != one {
             radius += BigUint::one();
         }
-        Some(Self::new(quotient, radius, -self.exponent - shift as i64, bits))
+        let exponent = self.exponent.saturating_neg().saturating_sub(shift as i64);
+        Some(Self::new(quotient, radius, exponent, bits))
     }
 
     /// √x, unless a negative number is in the interval.
@@ -214,7 +230,7 @@ impl Approximation {
         }
         let wanted = 2 * u64::from(bits.min(1 << 24)) + 2;
         let mut shift = wanted.saturating_sub(self.mantissa.bits());
-        if (self.exponent - shift as i64) % 2 != 0 {
+        if self.exponent.saturating_sub(shift as i64) % 2 != 0 {
             shift += 1;
         }
         let square = self.mantissa.magnitude() << shift;
@@ -227,7 +243,7 @@ impl Approximation {
         if &root * &root != square {
             radius += BigUint::one();
         }
-        let exponent = (self.exponent - shift as i64) / 2;
+        let exponent = self.exponent.saturating_sub(shift as i64) / 2;
         Some(Self::new(BigInt::from(root), radius, exponent, bits))
     }
 }
@@ -241,7 +257,7 @@ fn to_f64(mantissa: &BigInt, exponent: i64) -> f64 {
         // Something was cut off: no tie any more.
         head |= 1;
     }
-    let exponent = (exponent + shift as i64).clamp(-4000, 4000) as i32;
+    let exponent = exponent.saturating_add(shift as i64).clamp(-4000, 4000) as i32;
     let value = libm::scalbn(head as f64, exponent);
     if mantissa.is_negative() { -value } else { value }
 }

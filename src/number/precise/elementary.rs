@@ -187,11 +187,17 @@ pub fn sin_cos(x: &Approximation, bits: u32) -> Option<(Approximation, Approxima
 /// arctan x.
 pub fn atan(x: &Approximation, bits: u32) -> Option<Approximation> {
     let w = bits + 48;
-    let (mantissa, exponent, _) = x.parts();
-    let midpoint = Approximation::exact(mantissa.clone(), exponent);
     // |x| > 1: arctan x = ±π/2 - arctan(1/x).
     let turned = x.magnitude() > 0;
-    let mut t = if turned { fixed(&midpoint.recip(w + 8)?, w) } else { fixed(&midpoint, w) };
+    let argument = match turned {
+        false => x.clone(),
+        true => match x.recip(w + 8) {
+            Some(inverse) => inverse,
+            None => return Some(made(BigInt::zero(), BigUint::from(2u8) << w, w, bits)),
+        },
+    };
+    let is_negative = argument.parts().0.is_negative();
+    let mut t = fixed(&argument, w);
     let one = BigInt::one() << w;
     // arctan t = 2 arctan(t/(1 + √(1 + t²))): the argument halves, errors do not grow.
     const HALVED: u32 = 4;
@@ -211,10 +217,10 @@ pub fn atan(x: &Approximation, bits: u32) -> Option<Approximation> {
     if turned {
         let (_, pi) = constants(w);
         let half: BigInt = pi >> 1;
-        let half = if mantissa.is_negative() { -half } else { half };
+        let half = if is_negative { -half } else { half };
         value = half - value;
     }
     // Four halvings are off by a few units each, doubled again on the way back; π by 8w + 64.
-    let error = (BigUint::from(8 * k + 128) << HALVED) + BigUint::from(8 * w + 64) + spread(x, w);
-    Some(made(value, error, w, bits))
+    let own = (BigUint::from(8 * k + 128) << HALVED) + BigUint::from(8 * w + 64);
+    Some(made(value, own + spread(&argument, w), w, bits))
 }

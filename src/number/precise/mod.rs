@@ -49,7 +49,7 @@ impl Precise {
 
     /// f(x), `None` where it is undefined or too large to be of use.
     pub fn function(&self, function: Function, x: &Approximation) -> Option<Approximation> {
-        match function {
+        let value = match function {
             Function::Neg => Some(x.neg()),
             Function::Abs => Some(x.abs()),
             Function::Recip => x.recip(self.bits),
@@ -59,7 +59,8 @@ impl Precise {
             Function::Sin => elementary::sin_cos(x, self.bits).map(|(sine, _)| sine),
             Function::Cos => elementary::sin_cos(x, self.bits).map(|(_, cosine)| cosine),
             Function::Atan => elementary::atan(x, self.bits),
-        }
+        };
+        value?.in_range()
     }
 
     /// x^y = exp(y ln x) for x > 0.
@@ -67,7 +68,7 @@ impl Precise {
         // exp turns absolute into relative errors: the exponent needs as many bits more as it has
         // before the point, of which there are few.
         let more = self.bits + 48;
-        elementary::exp(&elementary::ln(x, more)?.mul(y, more), self.bits)
+        elementary::exp(&elementary::ln(x, more)?.mul(y, more).in_range()?, self.bits)
     }
 
     /// x^q, for x > 0 unless q is an integer.
@@ -81,6 +82,7 @@ impl Precise {
                         power = power.mul(x, self.bits + 16);
                     }
                 }
+                let power = power.in_range()?;
                 if n < 0 { power.recip(self.bits) } else { Some(power.rounded(self.bits)) }
             }
             None => self.power_of(x, &Precise::new(self.bits + 48).rational(exponent)),
@@ -115,11 +117,14 @@ impl Domain for Precise {
         y: &Option<Approximation>,
         out: &mut Option<Approximation>,
     ) {
-        *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| match operation {
-            Operation::Add => Some(x.add(y, self.bits)),
-            Operation::Sub => Some(x.add(&y.neg(), self.bits)),
-            Operation::Mul => Some(x.mul(y, self.bits)),
-            Operation::Pow => self.power_of(x, y),
+        *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| {
+            let value = match operation {
+                Operation::Add => x.add(y, self.bits),
+                Operation::Sub => x.add(&y.neg(), self.bits),
+                Operation::Mul => x.mul(y, self.bits),
+                Operation::Pow => self.power_of(x, y)?,
+            };
+            value.in_range()
         });
     }
 

@@ -122,6 +122,7 @@ impl<'l> Minors<'l> {
             .zip(&local.draws)
             .map(|(listed, draw)| match draw {
                 Draw::OneOf(_) => listed,
+                Draw::Sign => modulus.one(),
                 Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut chance)),
             })
             .collect();

@@ -1,0 +1,417 @@
+//! The order in which the equations of a level are solved, and for what.
+//!
+//! Equations are taken in blocks: one with as few unknowns as possible, and all others that contain
+//! none but these. A block of j equations is solved for j of its unknowns; the rest of them are free.
+//! Which entries of the equations' derivatives are free of which components is read off the graph.
+
+use num_traits::Zero;
+
+use super::equation::{Equation, Point};
+use super::quadric::Quadric;
+use super::solution::Solution;
+use super::steps::{Step, choices};
+use crate::graph::{Expr, Graph, Step as Node, record};
+use crate::mechanics::{Model, Origin, components};
+use crate::number::rational::Rational;
+
+/// Larger levels are not solved.
+const MOST_EQUATIONS: usize = 16;
+const MOST_COMPONENTS: usize = 96;
+/// Larger blocks are not solved together.
+const MOST_TOGETHER: usize = 6;
+/// Choices of unknowns that are looked at in one block.
+const MOST_CHOICES: usize = 400;
+
+/// Components of the state, and of the free parameters, as bits.
+type Set = u128;
+
+fn bit(component: usize) -> Set {
+    1 << component
+}
+
+fn members(set: Set) -> Vec<usize> {
+    (0..Set::BITS as usize).filter(|k| set >> k & 1 == 1).collect()
+}
+
+/// The steps that solve those equations of a model that are kept; `None` where none are found.
+pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
+    let equations: Vec<usize> = (0..kept.len()).filter(|index| kept[*index]).collect();
+    let dimension = model.dimension();
+    if equations.is_empty() || equations.len() > MOST_EQUATIONS || dimension > MOST_COMPONENTS {
+        return None;
+    }
+    let looks = |is_squared: bool| {
+        let all: Option<Vec<Look>> = equations
+            .iter()
+            .map(|index| {
+                let is_squared = is_squared && model.level[*index].root.is_some();
+                Look::at(model, Equation { index: *index, is_squared })
+            })
+            .collect();
+        all
+    };
+    // √A = e is solved as A = e² where it cannot be solved as it stands.
+    let plain = looks(false).and_then(|looks| Search::of(model, looks).steps());
+    let steps = plain.or_else(|| {
+        let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
+        Search::of(model, looks(true).filter(|_| has_roots)?).steps()
+    })?;
+    Some(Solution { steps })
+}
+
+/// An equation with its derivatives, as far as they matter.
+struct Look {
+    equation: Equation,
+    graph: Graph,
+    /// The components of the state that each node depends on.
+    sets: Vec<Set>,
+    /// The free parameters that the equation depends on, by component.
+    parameters: Vec<usize>,
+    value: Expr,
+    slopes: Vec<Expr>,
+    /// Second derivatives by pairs of the components that the equation contains.
+    bends: Vec<(usize, usize, Expr)>,
+    parameter_slopes: Vec<(usize, Expr)>,
+}
+
+impl Look {
+    fn at(model: &Model, equation: Equation) -> Option<Self> {
+        let (free, dimension) = (model.free_components(), model.dimension());
+        let within = |inputs: &[Expr]| {
+            let (parameters, state) = inputs.split_at(free);
+            Point { model, parameters: parameters.to_vec(), state: state.to_vec() }
+        };
+        let (plain, value) =
+            record(free + dimension, |inputs| within(inputs).value(equation)).ok()?;
+        let reached = plain.reached([value]);
+        let used: Vec<usize> = plain
+            .steps()
+            .zip(reached)
+            .filter_map(|(step, reached)| match step {
+                Node::Input(input) if reached => Some(input),
+                _ => None,
+            })
+            .collect();
+        let own: Vec<usize> = used
+            .iter()
+            .filter(|k| **k >= free && **k < free + dimension)
+            .map(|k| k - free)
+            .collect();
+        let parameters: Vec<usize> = used.iter().copied().filter(|k| *k < free).collect();
+        let pairs: Vec<(usize, usize)> = own
+            .iter()
+            .flat_map(|i| own.iter().filter(move |j| i <= *j).map(|j| (*i, *j)))
+            .collect();
+        let (graph, (value, slopes, bends, parameter_slopes)) =
+            record(free + dimension, |inputs| {
+                let point = within(inputs);
+                let mut slopes = vec![Expr::zero(); dimension];
+                for (component, slope) in own.iter().zip(point.slopes(equation, &own)) {
+                    slopes[*component] = slope;
+                }
+                let bend = |(i, j): &(usize, usize)| (*i, *j, point.bend(equation, *i, *j));
+                let parameter = |k: &usize| (*k, point.parameter_slope(equation, *k));
+                (
+                    point.value(equation),
+                    slopes,
+                    pairs.iter().map(bend).collect(),
+                    parameters.iter().map(parameter).collect(),
+                )
+            })
+            .ok()?;
+        let sets = sets(&graph, free);
+        Some(Self { equation, graph, sets, parameters, value, slopes, bends, parameter_slopes })
+    }
+
+    fn set(&self, value: Expr) -> Set {
+        self.sets[self.graph.place(value)]
+    }
+
+    fn is_zero(&self, value: Expr) -> bool {
+        self.graph.constant_value(value).is_some_and(Rational::is_zero)
+    }
+
+    /// The components that it contains.
+    fn contained(&self) -> Set {
+        self.set(self.value)
+    }
+
+    /// Whether it is linear in some components together.
+    fn is_linear_in(&self, set: Set) -> bool {
+        members(set).into_iter().all(|k| self.set(self.slopes[k]) & set == 0)
+    }
+
+    /// Whether it is of degree 2 at most in some components together.
+    fn is_quadratic_in(&self, set: Set) -> bool {
+        let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
+        self.bends.iter().filter(inside).all(|(_, _, bend)| self.set(*bend) & set == 0)
+    }
+
+    /// The equation as a quadric with numbers as coefficients in all components that it contains.
+    fn quadric(&self, components: &[usize]) -> Option<Quadric> {
+        if !self.parameters.is_empty() || !self.is_quadratic_in(self.contained()) {
+            return None;
+        }
+        let constant = |value: Expr| self.graph.constant_value(value).cloned();
+        let n = components.len();
+        let mut bends = vec![vec![Rational::from(0); n]; n];
+        for (i, j, bend) in &self.bends {
+            let place = |k: &usize| components.iter().position(|own| own == k);
+            let (i, j, bend) = (place(i)?, place(j)?, constant(*bend)?);
+            (bends[i][j], bends[j][i]) = (bend.clone(), bend);
+        }
+        let [value, slopes @ ..] = &self.at_origin(components)?[..] else { return None };
+        Some(Quadric { constant: value.clone(), slopes: slopes.to_vec(), bends })
+    }
+
+    /// The value and the slopes at the origin.
+    fn at_origin(&self, components: &[usize]) -> Option<Vec<Rational>> {
+        let wanted: Vec<Expr> =
+            [self.value].into_iter().chain(components.iter().map(|k| self.slopes[*k])).collect();
+        let reached = self.graph.reached(wanted.iter().copied());
+        let (graph, found) = record(self.graph.inputs(), |inputs| {
+            let zeros = vec![Expr::zero(); inputs.len()];
+            let values = self.graph.replay(&reached, &zeros, |_, _, _| None);
+            wanted
+                .iter()
+                .map(|value| values[self.graph.place(*value)])
+                .collect::<Option<Vec<Expr>>>()
+        })
+        .ok()?;
+        found?.into_iter().map(|value| graph.constant_value(value).cloned()).collect()
+    }
+}
+
+/// The components of the state that each step depends on, by their inputs after the free ones.
+fn sets(graph: &Graph, free: usize) -> Vec<Set> {
+    let mut sets: Vec<Set> = Vec::with_capacity(graph.len());
+    for step in graph.steps() {
+        let set = match step {
+            Node::Input(input) => match input.checked_sub(free) {
+                Some(component) if component < MOST_COMPONENTS => bit(component),
+                _ => 0,
+            },
+            step => step.arguments().fold(0, |set, argument| set | sets[argument]),
+        };
+        sets.push(set);
+    }
+    sets
+}
+
+/// The search for an order.
+struct Search<'m> {
+    model: &'m Model,
+    looks: Vec<Look>,
+}
+
+impl<'m> Search<'m> {
+    fn of(model: &'m Model, looks: Vec<Look>) -> Self {
+        Self { model, looks }
+    }
+
+    fn steps(&self) -> Option<Vec<Step>> {
+        let mut left: Vec<usize> = (0..self.looks.len()).collect();
+        // Components that are solved for, or free because an equation was solved for another.
+        let (mut settled, mut solved): (Set, Set) = (0, 0);
+        let mut steps = Vec::new();
+        while !left.is_empty() {
+            let unknown = |index: &usize| self.looks[*index].contained() & !settled;
+            let mut blocks: Vec<Set> = left.iter().map(unknown).collect();
+            blocks.sort_by_key(|set| (set.count_ones(), *set));
+            blocks.dedup();
+            let found = blocks.into_iter().find_map(|block| {
+                let members: Vec<usize> =
+                    left.iter().copied().filter(|index| unknown(index) & !block == 0).collect();
+                let step = self.step(&members, block, settled, solved)?;
+                Some((block, members, step))
+            });
+            let (block, members, step) = match found {
+                Some(found) => found,
+                None => {
+                    let (index, component) = self.parameter(&left)?;
+                    let equation = self.looks[index].equation;
+                    let block = unknown(&index);
+                    (block, vec![index], Step::Parameter { equation, component })
+                }
+            };
+            settled |= block;
+            solved |= step.components().iter().fold(0, |set, k| set | bit(*k));
+            left.retain(|index| !members.contains(index));
+            steps.push(step);
+        }
+        // A parameter that is solved for depends on all of the state: it comes last.
+        let is_parameter = |step: &Step| matches!(step, Step::Parameter { .. });
+        let (parameters, mut others): (Vec<Step>, Vec<Step>) =
+            steps.into_iter().partition(is_parameter);
+        others.extend(parameters);
+        Some(others)
+    }
+
+    /// A step that solves a block of equations for as many of its unknowns.
+    fn step(&self, block: &[usize], unknown: Set, settled: Set, solved: Set) -> Option<Step> {
+        let count = block.len();
+        if count > MOST_TOGETHER || count > unknown.count_ones() as usize {
+            return None;
+        }
+        let choices = choices(&members(unknown), count, MOST_CHOICES);
+        let mut best: Option<(u32, Step)> = None;
+        let mut offer = |cost: u32, step: Step| {
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, step));
+            }
+        };
+        // The last components are preferred: γ₃ is solved for by the others.
+        for chosen in choices.into_iter().rev() {
+            let set = chosen.iter().fold(0, |set, k| set | bit(*k));
+            if let Some(cost) = self.linear_cost(block, &chosen, set, solved) {
+                let all = self.linear_together(block, set, unknown);
+                let equations = block.iter().map(|index| self.looks[*index].equation).collect();
+                offer(cost, Step::Linear { equations, components: chosen, all });
+            } else if let Some(step) = self.quadratic(block, chosen, set, unknown) {
+                offer(20, step);
+            }
+        }
+        // A rational parametrisation beats a root.
+        if let ([index], true) = (block, best.as_ref().is_none_or(|(cost, _)| *cost >= 20)) {
+            best = self.quadric(*index, unknown, settled).map(|step| (0, step)).or(best);
+        }
+        best.map(|(_, step)| step)
+    }
+
+    /// Whether a block is linear in some of its unknowns and can be solved for them; less where that
+    /// divides by less.
+    fn linear_cost(&self, block: &[usize], chosen: &[usize], set: Set, solved: Set) -> Option<u32> {
+        if !block.iter().all(|index| self.looks[*index].is_linear_in(set))
+            || !self.is_regular(block, chosen)
+        {
+            return None;
+        }
+        let slopes = || {
+            block.iter().flat_map(|index| {
+                let look = &self.looks[*index];
+                chosen.iter().map(move |k| (look, look.slopes[*k]))
+            })
+        };
+        let is_number = |(look, slope): (&Look, Expr)| look.graph.constant_value(slope).is_some();
+        if slopes().all(is_number) {
+            return Some(1);
+        }
+        let over_solved = slopes().any(|(look, slope)| look.set(slope) & solved != 0);
+        Some(if over_solved { 3 } else { 2 })
+    }
+
+    /// Whether the slopes of equations by as many components make a regular matrix in general.
+    fn is_regular(&self, block: &[usize], chosen: &[usize]) -> bool {
+        let slope = |index: usize, k: usize| {
+            let look = &self.looks[index];
+            !look.is_zero(look.slopes[k])
+        };
+        // A pairing in which no slope is 0 as it stands; points at which it is regular are drawn.
+        fn pairs(rows: &[usize], columns: &[usize], slope: &impl Fn(usize, usize) -> bool) -> bool {
+            let Some((row, rows)) = rows.split_first() else { return true };
+            columns.iter().any(|column| {
+                let others: Vec<usize> = columns.iter().copied().filter(|k| k != column).collect();
+                slope(*row, *column) && pairs(rows, &others, slope)
+            })
+        }
+        pairs(block, chosen, &slope)
+    }
+
+    /// All unknowns in which a block is linear together, those chosen among them.
+    fn linear_together(&self, block: &[usize], chosen: Set, unknown: Set) -> Vec<usize> {
+        let mut set = chosen;
+        for component in members(unknown & !chosen) {
+            let more = set | bit(component);
+            if block.iter().all(|index| self.looks[*index].is_linear_in(more)) {
+                set = more;
+            }
+        }
+        members(set)
+    }
+
+    /// A step with one equation that is quadratic on the line that the others leave.
+    fn quadratic(
+        &self,
+        block: &[usize],
+        chosen: Vec<usize>,
+        set: Set,
+        unknown: Set,
+    ) -> Option<Step> {
+        let is_linear = |index: &usize| self.looks[*index].is_linear_in(set);
+        let (linear, others): (Vec<usize>, Vec<usize>) = block.iter().partition(|k| is_linear(k));
+        let [last] = others[..] else { return None };
+        if !self.looks[last].is_quadratic_in(set) {
+            return None;
+        }
+        // The line runs along any of the components.
+        let (mut components, line) = chosen.iter().rev().find_map(|line| {
+            let rest: Vec<usize> = chosen.iter().copied().filter(|k| k != line).collect();
+            self.is_regular(&linear, &rest).then_some((rest, *line))
+        })?;
+        components.push(line);
+        // What is divided by may be free of all unknowns of the block.
+        let slopes = linear.iter().flat_map(|index| {
+            let look = &self.looks[*index];
+            chosen.iter().map(|k| look.set(look.slopes[*k]))
+        });
+        let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
+        let look = &self.looks[last];
+        let bends = look.bends.iter().filter(inside).map(|(_, _, bend)| look.set(*bend));
+        let pivots = slopes.chain(bends).fold(0, |all, own| all | own);
+        let all = members(if pivots & unknown == 0 { unknown } else { set });
+        let together = all.iter().fold(0, |set, k| set | bit(*k));
+        let is_of_degree_2 = look.is_quadratic_in(together)
+            && linear.iter().all(|index| self.looks[*index].is_linear_in(together));
+        let linear = linear.iter().map(|index| self.looks[*index].equation).collect();
+        let quadratic = look.equation;
+        Some(Step::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
+    }
+
+    /// A quadric with a rational point on an axis, all components of which are unknown.
+    fn quadric(&self, index: usize, unknown: Set, settled: Set) -> Option<Step> {
+        let look = &self.looks[index];
+        let contained = look.contained();
+        if contained != unknown || contained & settled != 0 {
+            return None;
+        }
+        let mut components = members(contained);
+        let quadric = look.quadric(&components).filter(Quadric::is_irreducible)?;
+        let found = (0..components.len()).rev().find_map(|k| Some((k, quadric.on_axis(k)?)));
+        let (axis, point) = found?;
+        let last = components.remove(axis);
+        components.push(last);
+        Some(Step::Quadric { equation: look.equation, components, point })
+    }
+
+    /// An equation that is left, with a scalar parameter that enters it linearly, with a number as
+    /// factor, and no other equation.
+    fn parameter(&self, left: &[usize]) -> Option<(usize, usize)> {
+        let is_scalar = scalar_components(self.model);
+        left.iter().find_map(|index| {
+            let look = &self.looks[*index];
+            let usable = |(k, slope): &&(usize, Expr)| {
+                let elsewhere =
+                    |other: &Look| other.equation != look.equation && other.parameters.contains(k);
+                is_scalar.contains(k)
+                    && look.graph.constant_value(*slope).is_some_and(|slope| !slope.is_zero())
+                    && !self.looks.iter().any(elsewhere)
+            };
+            let (component, _) = look.parameter_slopes.iter().find(usable)?;
+            Some((*index, *component))
+        })
+    }
+}
+
+/// The components of the free parameters that are scalars drawn from a range.
+fn scalar_components(model: &Model) -> Vec<usize> {
+    use crate::mechanics::{Draw, Recipe};
+    let mut start = 0;
+    let mut found = Vec::new();
+    for parameter in model.free_parameters() {
+        if let Origin::Free(Recipe::Scalar(Draw::Within(_))) = &parameter.origin {
+            found.push(start);
+        }
+        start += components(parameter.kind);
+    }
+    found
+}

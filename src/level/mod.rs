@@ -1,0 +1,23 @@
+//! Level sets as textbooks write them: equations solved one after the other, each for variables that
+//! enter linearly or quadratically.
+//!
+//! ```text
+//! quadric     one equation of degree 2 with numbers as coefficients and a rational point x₀:
+//!             x = x₀ − 2B(x₀,u)/q(u) · u, without a root
+//! linear      j equations jointly linear in j unknowns, given the rest: Cramer's rule
+//! quadratic   the same but for one of degree 2 on the line that the others leave: both roots
+//! parameter   F(x) = c for a free parameter c that occurs nowhere else: c = F(x)
+//! ```
+//!
+//! Each step uses what the steps before it have solved. docs/soundness.md, "Level sets", says when
+//! no part of a level is missed.
+
+mod analysis;
+mod equation;
+mod quadric;
+mod solution;
+mod steps;
+
+pub use analysis::solve;
+pub use solution::{Solution, Solved};
+pub use steps::Pivot;

@@ -1,0 +1,96 @@
+//! Quadrics with numbers as coefficients that meet an axis at a rational point.
+
+use crate::number::exact::square_root;
+use crate::number::rational::Rational;
+
+/// F(x) = c + (b,x) + (x,Ax) with rational coefficients.
+pub struct Quadric {
+    /// c
+    pub constant: Rational,
+    /// b
+    pub slopes: Vec<Rational>,
+    /// 2A
+    pub bends: Vec<Vec<Rational>>,
+}
+
+impl Quadric {
+    /// Whether it is irreducible: its matrix in homogeneous coordinates is regular, and larger than
+    /// that of a pair of points.
+    pub fn is_irreducible(&self) -> bool {
+        let n = self.slopes.len();
+        let two = Rational::from(2);
+        let mut rows: Vec<Vec<Rational>> = Vec::new();
+        for (row, slope) in self.bends.iter().zip(&self.slopes) {
+            rows.push(row.iter().cloned().chain([slope.clone()]).collect());
+        }
+        let last = self.slopes.iter().cloned().chain([&self.constant * &two]);
+        rows.push(last.collect());
+        n >= 2 && !determinant_vanishes(rows)
+    }
+
+    /// Where an axis meets it in a rational point at which its slope is not 0: the lower one.
+    pub fn on_axis(&self, axis: usize) -> Option<Rational> {
+        let (a, b) = (&self.bends[axis][axis], &self.slopes[axis]);
+        // a x²/2 + b x + c = 0
+        let two = Rational::from(2);
+        let discriminant = &(b * b) - &(&(a * &two) * &self.constant);
+        let root = square_root(&discriminant).filter(|root| !root.is_zero())?;
+        let below = a.recip()?;
+        let sign = if a.is_negative() { Rational::from(-1) } else { Rational::from(1) };
+        Some(&(&-b - &(&root * &sign)) * &below)
+    }
+}
+
+/// Whether a square matrix is singular, by elimination.
+fn determinant_vanishes(mut rows: Vec<Vec<Rational>>) -> bool {
+    let n = rows.len();
+    for column in 0..n {
+        let Some(found) = (column..n).find(|row| !rows[*row][column].is_zero()) else {
+            return true;
+        };
+        rows.swap(column, found);
+        let (above, below) = rows.split_at_mut(column + 1);
+        let pivot = &above[column];
+        let Some(inverse) = pivot[column].recip() else { return true };
+        for row in below {
+            let factor = &row[column] * &inverse;
+            for (entry, above) in row.iter_mut().zip(pivot).skip(column) {
+                *entry = &*entry - &(&factor * above);
+            }
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quadric(constant: i64, slopes: &[i64], bends: &[&[i64]]) -> Quadric {
+        let number = |n: &i64| Rational::from(*n);
+        Quadric {
+            constant: Rational::from(constant),
+            slopes: slopes.iter().map(number).collect(),
+            bends: bends.iter().map(|row| row.iter().map(number).collect()).collect(),
+        }
+    }
+
+    #[test]
+    fn spheres_and_hyperbolas_are_irreducible() {
+        let sphere = quadric(-4, &[0, 0, 0], &[&[2, 0, 0], &[0, 2, 0], &[0, 0, 2]]);
+        assert!(sphere.is_irreducible(), "x² + y² + z² = 4");
+        assert_eq!(sphere.on_axis(2), Some(Rational::from(-2)), "the lower pole");
+        let hyperbola = quadric(-1, &[0, 0], &[&[2, 0], &[0, -2]]);
+        assert!(hyperbola.is_irreducible(), "x² − y² = 1");
+        assert_eq!(hyperbola.on_axis(0), Some(Rational::from(-1)));
+        assert_eq!(hyperbola.on_axis(1), None, "−y² = 1 has no real root");
+        let lines = quadric(0, &[0, 0], &[&[2, 0], &[0, -2]]);
+        assert!(!lines.is_irreducible(), "x² = y² are two lines");
+        let points = quadric(-1, &[0], &[&[2]]);
+        assert!(!points.is_irreducible(), "x² = 1 are two points");
+        let shifted = quadric(0, &[-2, 0], &[&[2, 0], &[0, 2]]);
+        assert_eq!(shifted.on_axis(0), Some(Rational::from(0)), "x² − 2x + y² = 0");
+        let surd = quadric(-2, &[0, 0], &[&[2, 0], &[0, 2]]);
+        assert_eq!(surd.on_axis(0), None, "x² + y² = 2 meets no axis in a rational point");
+    }
+}

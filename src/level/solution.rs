@@ -1,0 +1,86 @@
+//! A level that is solved: its steps, and the points they make.
+
+use super::equation::Point;
+use super::steps::{Pivot, Step};
+use crate::graph::Expr;
+use crate::mechanics::{Draw, Line, Model, Phase, Range};
+use crate::proof::Fact;
+
+/// The steps that make points of a level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    pub(super) steps: Vec<Step>,
+}
+
+/// A point of a level as it is recorded.
+pub struct Solved {
+    /// The components of the free parameters, then those of the state.
+    pub made: Vec<Expr>,
+    /// What is known of values there.
+    pub facts: Vec<(Expr, Fact)>,
+    /// What must not vanish at a real point, lest a part of the level is missed.
+    pub pivots: Vec<Pivot>,
+}
+
+impl Solution {
+    /// The number of roots, each of which has two signs.
+    pub fn signs(&self) -> usize {
+        self.steps.iter().filter(|step| matches!(step, Step::Quadratic { .. })).count()
+    }
+
+    /// The components of the state that are made, rather than drawn.
+    pub fn components(&self) -> Vec<usize> {
+        self.steps.iter().flat_map(|step| step.components().iter().copied()).collect()
+    }
+
+    /// The components of the free parameters that are made.
+    pub fn parameters(&self) -> Vec<usize> {
+        let component = |step: &Step| match step {
+            Step::Parameter { component, .. } => Some(*component),
+            _ => None,
+        };
+        self.steps.iter().filter_map(component).collect()
+    }
+
+    /// The draws of the state's components and of the signs, from those of the components.
+    pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
+        let mut draws = free.to_vec();
+        for step in &self.steps {
+            let Step::Quadric { components, .. } = step else { continue };
+            // The directions of lines through one point.
+            for component in &components[..components.len() - 1] {
+                draws[*component] = Draw::Of(Line::All, Range::between((-8, 5), (8, 5)));
+            }
+        }
+        draws.extend(vec![Draw::Sign; self.signs()]);
+        draws
+    }
+
+    /// What must not vanish at any point of the level, from the coordinates of the point and the free
+    /// parameters.
+    pub fn pivots(&self, model: &Model, parameters: &[Expr], state: &[Expr]) -> Vec<Pivot> {
+        let point = Point { model, parameters: parameters.to_vec(), state: state.to_vec() };
+        self.steps.iter().filter_map(|step| step.pivot(&point)).collect()
+    }
+
+    /// The point made from the free parameters and from draws.
+    pub fn point(&self, model: &Model, parameters: Vec<Expr>, draws: &[Expr]) -> Solved {
+        let (state, signs) = draws.split_at(model.dimension());
+        let mut signs = signs.iter().copied();
+        let mut point = Point { model, parameters, state: state.to_vec() };
+        let mut pivots = Vec::new();
+        for step in &self.steps {
+            let sign = match step {
+                Step::Quadratic { .. } => signs.next(),
+                _ => None,
+            };
+            pivots.extend(step.complete(&mut point, sign));
+        }
+        let phase = Phase::new(model, &point.parameters, &point.state);
+        let equations = self.steps.iter().flat_map(Step::equations);
+        let facts = equations.filter_map(|equation| equation.other_side(&phase));
+        let facts = facts.map(|value| (value, Fact::NotNegative)).collect();
+        let made = point.parameters.iter().chain(&point.state).copied().collect();
+        Solved { made, facts, pivots }
+    }
+}

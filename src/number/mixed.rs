@@ -1,0 +1,232 @@
+//! Exact rationals as long as numbers stay rational and short, balls of many bits beyond: the domain
+//! that knows of √0 that it exists.
+//!
+//! A value is exact, enclosed, known not to exist (√-1), or in doubt (the root of a ball that holds 0
+//! and negative numbers).
+
+use super::exact::square_root;
+use super::precise::{Approximation, Precise};
+use super::rational::Rational;
+use super::{Domain, Enclosing, Function, Operation};
+
+/// Past this size a number is enclosed: exact arithmetic on longer ones takes too long.
+const MAX_BITS: u64 = 1 << 14;
+
+/// The domain, with balls of a given precision; one lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Mixed {
+    balls: Precise,
+}
+
+/// A number, or why there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Number {
+    /// Known exactly.
+    Exact(Rational),
+    /// Enclosed.
+    Ball(Approximation),
+    /// There is none: 1/0, √-1, ln 0.
+    Nothing,
+    /// Whether there is one is not known.
+    Doubtful,
+}
+
+impl Mixed {
+    /// Balls with midpoints of `bits` bits.
+    pub fn new(bits: u32) -> Self {
+        Self { balls: Precise::new(bits) }
+    }
+
+    fn ball(&self, x: &Number) -> Option<Approximation> {
+        match x {
+            Number::Exact(value) => Some(self.balls.rational(value)),
+            Number::Ball(ball) => Some(ball.clone()),
+            Number::Nothing | Number::Doubtful => None,
+        }
+    }
+
+    /// A function of a ball; where it has no enclosure, the sign of the argument decides whether
+    /// there is a value.
+    fn of_ball(&self, function: Function, x: &Number) -> Number {
+        let Some(ball) = self.ball(x) else { return x.clone() };
+        match self.balls.function(function, &ball) {
+            Some(value) => Number::Ball(value),
+            None => {
+                let is_negative = ball.excludes_zero() && !ball.is_positive();
+                match function {
+                    Function::Sqrt | Function::Ln if is_negative => Number::Nothing,
+                    _ => Number::Doubtful,
+                }
+            }
+        }
+    }
+
+    fn exact(&self, function: Function, x: &Rational) -> Option<Number> {
+        let value = match function {
+            Function::Neg => Some(-x),
+            Function::Abs => Some(x.abs()),
+            Function::Recip => return Some(x.recip().map_or(Number::Nothing, Number::Exact)),
+            Function::Sqrt if x.is_negative() => return Some(Number::Nothing),
+            Function::Sqrt => square_root(x),
+            Function::Ln if x.is_zero() || x.is_negative() => return Some(Number::Nothing),
+            Function::Ln => x.is_one().then(|| Rational::from(0)),
+            Function::Exp | Function::Cos => x.is_zero().then(|| Rational::from(1)),
+            Function::Sin | Function::Atan => x.is_zero().then(|| Rational::from(0)),
+        };
+        value.map(Number::Exact)
+    }
+
+    /// x^y for x > 0, and integer powers.
+    fn raised(&self, x: &Number, exponent: &Number) -> Number {
+        match (x, exponent) {
+            (Number::Nothing, _) | (_, Number::Nothing) => return Number::Nothing,
+            (Number::Doubtful, _) | (_, Number::Doubtful) => return Number::Doubtful,
+            _ => {}
+        }
+        let Some(ball) = self.ball(x) else { return Number::Doubtful };
+        if !ball.is_positive() {
+            let is_known = ball.is_zero() || ball.excludes_zero();
+            return if is_known { Number::Nothing } else { Number::Doubtful };
+        }
+        let value = match exponent {
+            Number::Exact(exponent) => self.balls.rational_power(&ball, exponent),
+            _ => self.ball(exponent).and_then(|y| self.balls.power_of(&ball, &y)),
+        };
+        value.map_or(Number::Doubtful, Number::Ball)
+    }
+}
+
+impl Domain for Mixed {
+    type Block = Number;
+
+    fn constant(&self, value: &Rational) -> Number {
+        Number::Exact(value.clone())
+    }
+
+    fn values(&self, values: &[Rational]) -> Number {
+        values.first().map_or(Number::Doubtful, |value| Number::Exact(value.clone()))
+    }
+
+    fn unary(&self, function: Function, x: &Number, out: &mut Number) {
+        *out = match x {
+            Number::Exact(value) => {
+                self.exact(function, value).unwrap_or_else(|| self.of_ball(function, x))
+            }
+            _ => self.of_ball(function, x),
+        };
+    }
+
+    fn binary(&self, operation: Operation, x: &Number, y: &Number, out: &mut Number) {
+        *out = match (x, y) {
+            _ if operation == Operation::Pow => self.raised(x, y),
+            (Number::Nothing, _) | (_, Number::Nothing) => Number::Nothing,
+            (Number::Exact(a), Number::Exact(b))
+                if a.bits().saturating_add(b.bits()) <= MAX_BITS =>
+            {
+                Number::Exact(match operation {
+                    Operation::Add => a + b,
+                    Operation::Sub => a - b,
+                    Operation::Mul | Operation::Pow => a * b,
+                })
+            }
+            // A product with 0 is 0, however large the other factor may be.
+            (Number::Exact(zero), Number::Ball(_)) | (Number::Ball(_), Number::Exact(zero))
+                if operation == Operation::Mul && zero.is_zero() =>
+            {
+                Number::Exact(zero.clone())
+            }
+            _ => {
+                let mut result = None;
+                let balls = (self.ball(x), self.ball(y));
+                self.balls.binary(operation, &balls.0, &balls.1, &mut result);
+                result.map_or(Number::Doubtful, Number::Ball)
+            }
+        };
+    }
+
+    fn power(&self, x: &Number, exponent: &Rational, out: &mut Number) {
+        let integer = exponent.to_integer().and_then(|n| i32::try_from(n).ok());
+        *out = match (x, integer) {
+            (Number::Exact(value), Some(n))
+                if value.bits().saturating_mul(u64::from(n.unsigned_abs())) <= MAX_BITS =>
+            {
+                value.powi(n).map_or(Number::Nothing, Number::Exact)
+            }
+            (Number::Nothing | Number::Doubtful, _) => x.clone(),
+            (_, Some(_)) => self
+                .ball(x)
+                .and_then(|ball| self.balls.rational_power(&ball, exponent))
+                .map_or(Number::Doubtful, Number::Ball),
+            (_, None) => self.raised(x, &Number::Exact(exponent.clone())),
+        };
+    }
+}
+
+impl Enclosing for Mixed {
+    const LANES: usize = 1;
+
+    fn enclosure(block: &Number, _: usize) -> Option<(f64, f64)> {
+        match block {
+            Number::Exact(value) => {
+                let (mid, is_exact) = value.to_f64();
+                let rounding = mid.abs() * f64::EPSILON + f64::MIN_POSITIVE;
+                Some((mid, if is_exact { 0.0 } else { rounding }))
+            }
+            Number::Ball(ball) => Some(ball.enclosure()),
+            Number::Nothing | Number::Doubtful => None,
+        }
+    }
+
+    fn excludes_zero(block: &Number, _: usize) -> bool {
+        match block {
+            Number::Exact(value) => !value.is_zero(),
+            Number::Ball(ball) => ball.excludes_zero(),
+            Number::Nothing | Number::Doubtful => false,
+        }
+    }
+
+    fn beyond_f64(block: &Number, lane: usize) -> Option<String> {
+        match block {
+            Number::Exact(value) => {
+                let (mid, rad) = Self::enclosure(block, lane)?;
+                let hidden = !value.is_zero() && mid.abs() <= rad;
+                hidden.then(|| Precise::new(64).rational(value).rough())
+            }
+            Number::Ball(ball) => Precise::beyond_f64(&Some(ball.clone()), lane),
+            Number::Nothing | Number::Doubtful => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::graph::{Evaluator, Expr, Tape, literally, record};
+    use crate::scalar::Scalar;
+
+    fn at(x: &str, build: impl FnOnce(Expr) -> Expr) -> Number {
+        let (graph, value) = record(1, |inputs| literally(|| build(inputs[0]))).expect("records");
+        let tape = Tape::new(&graph, &[value]);
+        let domain = Mixed::new(128);
+        let mut run = Evaluator::new(&tape, domain);
+        run.run(&[domain.values(&[x.parse().expect("a number")])]);
+        run.output(0).clone()
+    }
+
+    #[test]
+    fn existence_is_known_where_numbers_are() {
+        let zero = Number::Exact(Rational::from(0));
+        assert_eq!(at("-3/7", |x| (x + x.modulus()).sqrt()), zero, "√0 exists");
+        assert_eq!(at("-3/7", |x| x.sqrt()), Number::Nothing, "√-3/7 does not");
+        assert_eq!(at("2", |x| (x.sqrt() - 2.0).sqrt()), Number::Nothing, "nor √(√2 − 2)");
+        let doubt = at("2", |x| (x.sqrt() * x.sqrt() - 2.0).sqrt());
+        assert_eq!(doubt, Number::Doubtful, "√(√2 √2 − 2) is not told from √-0.000…");
+        assert_eq!(at("2", |x| (x - 2.0).recip()), Number::Nothing, "1/0");
+        assert_eq!(at("2", |x| (x - 2.0).recip() * 0.0), Number::Nothing, "not even times 0");
+        assert!(matches!(at("2", |x| x.sqrt().exp()), Number::Ball(_)), "an enclosure");
+        assert_eq!(at("-1", |x| x.power(&Rational::new(1, 3))), Number::Nothing, "(-1)^(1/3)");
+        assert_eq!(at("4", |x| x.sqrt() - 2.0), zero, "√4 is 2");
+    }
+}

@@ -1,0 +1,97 @@
+//! Values of a graph that are equal or opposite, found at random points of prime fields.
+
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Evaluator, Expr, Tape};
+use crate::number::prime::UNDEFINED;
+use crate::number::quadratic::{Element, Quadratic};
+
+use super::chance::{Chance, Stream};
+use super::digest::Digest;
+use super::lower::Algebraic;
+use super::tower::Tower;
+use super::trial::{Certificate, LANES, Residues, Trial};
+
+/// Points are drawn this often until most values exist.
+const MOST_BLOCKS: usize = 16;
+
+/// Values of a graph that are equal, opposite or zero wherever they exist.
+#[derive(Clone, Debug, Default)]
+pub struct Classes {
+    /// By place: a number that equal and opposite values share, and whether this is the opposite.
+    pub of: Vec<Option<(u32, bool)>>,
+    /// By place: whether the value is known to be 0, or known not to be 0 identically.
+    zero: Vec<Option<bool>>,
+    /// A bound on the probability that some values are not what they are said to be.
+    pub certificate: Option<Certificate>,
+}
+
+impl Classes {
+    /// Whether the value at a place is known to be 0.
+    pub fn is_zero(&self, place: usize) -> bool {
+        self.zero.get(place) == Some(&Some(true))
+    }
+
+    /// Whether the value at a place is known not to be 0 identically.
+    pub fn is_nonzero(&self, place: usize) -> bool {
+        self.zero.get(place) == Some(&Some(false))
+    }
+
+    /// The classes of those values of the graph that `algebraic` was made from that contain no root
+    /// but independent ones: a random sign of another root would make equal what is not.
+    pub fn of(algebraic: &Algebraic<'_>, trial: &Trial<'_>, tower: &Tower, digest: Digest) -> Self {
+        let count = algebraic.values.len();
+        let mut found = Self { of: vec![None; count], zero: vec![None; count], certificate: None };
+        let Some(certificate) = trial.of_differences() else { return found };
+        let is_clean = |place: &usize| {
+            algebraic.values[*place].is_some_and(|value| tower.is_clean(algebraic, value))
+        };
+        let places: Vec<usize> = (0..count).filter(is_clean).collect();
+        let outputs: Vec<Expr> =
+            places.iter().filter_map(|place| algebraic.values[*place]).collect();
+        let tape = Tape::new(&algebraic.graph, &outputs);
+        let field = Quadratic::new(*trial.moduli());
+        let mut evaluator = Evaluator::new(&tape, field.clone());
+        let mut chance = Chance::of(digest, Stream::Classes);
+        let is_defined = |block: &[Element; LANES]| block.iter().all(|x| x[0] != UNDEFINED);
+        let mut most = 0;
+        let mut values: Vec<[Element; LANES]> = Vec::new();
+        for _ in 0..MOST_BLOCKS {
+            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&trial.points(&[], &mut chance)));
+            let defined = evaluator.outputs().filter(|block| is_defined(block)).count();
+            if values.is_empty() || defined > most {
+                most = defined;
+                values = evaluator.outputs().copied().collect();
+            }
+            if defined == outputs.len() {
+                break;
+            }
+        }
+        let mut classes: FxHashMap<[Element; LANES], u32> = FxHashMap::default();
+        let mut merged = 0;
+        for (place, block) in places.into_iter().zip(&values) {
+            if !is_defined(block) {
+                continue;
+            }
+            if block.iter().all(|x| *x == [0, 0]) {
+                found.zero[place] = Some(true);
+                merged += 1;
+                continue;
+            }
+            found.zero[place] = Some(false);
+            let opposite: [Element; LANES] =
+                std::array::from_fn(|lane| field.negative(lane, block[lane]));
+            let is_opposite = opposite < *block;
+            let next = classes.len() as u32;
+            let own = if is_opposite { opposite } else { *block };
+            let class = *classes.entry(own).or_insert(next);
+            merged += i32::from(class != next);
+            found.of[place] = Some((class, is_opposite));
+        }
+        if merged > 0 {
+            let error_log2 = certificate.error_log2 + f64::from(merged).log2();
+            found.certificate = Some(Certificate { error_log2, ..certificate });
+        }
+        found
+    }
+}

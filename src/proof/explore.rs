@@ -1,0 +1,359 @@
+//! The search of all cells: what a cell is rewritten to, how it is divided, and when it is tested.
+
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Expr, Fault, Graph, Step};
+use crate::number::Operation;
+
+use super::Prover;
+use super::bounds::Source;
+use super::cells::{Cell, Change, Leaf, with_signs};
+use super::classes::Classes;
+use super::digest::Digest;
+use super::domain::{Fact, Region};
+use super::lower::Algebraic;
+use super::rewrite::Rewrite;
+use super::roots::{RootFinder, Search};
+use super::tower::{Standing, Tower};
+use super::trial::{Certificate, Finding, Roots, Trial, both};
+
+/// More cells than this are not looked at.
+const MOST_CELLS: usize = 64;
+/// Rewritings of one cell, one after the other.
+const MOST_ROUNDS: usize = 48;
+/// Signs of dependent roots and moduli that are tried in all combinations.
+const MOST_CHOICES: usize = 4;
+
+/// The next thing to do with a cell.
+enum Next {
+    /// It is rewritten, at the price of a certificate.
+    Rewrite(Vec<Rewrite>, Option<Certificate>),
+    /// It is divided by the sign of X, the argument of the modulus at a place.
+    Divide {
+        /// The place of |X|.
+        modulus: usize,
+        /// The place of X.
+        argument: usize,
+    },
+    /// It is divided by the sign that an input is.
+    DivideInput(usize),
+    /// No real inputs lie in it, up to the probability that is bounded.
+    Empty(Option<Certificate>),
+    /// It was tested.
+    Tested(Vec<Option<Finding>>),
+}
+
+/// The cells that some groups are proved on.
+#[derive(Default)]
+pub struct Explored {
+    /// Those that may hold real inputs, with what was found on each.
+    pub leaves: Vec<Leaf>,
+    /// A bound on the probability that one was left out that holds some.
+    pub certificate: Option<Certificate>,
+}
+
+/// Groups of values of a graph, with the places of what no field computes in them.
+pub struct Question<'q> {
+    /// The computation.
+    pub graph: &'q Graph,
+    /// Values that are asked about together.
+    pub groups: Vec<&'q [Expr]>,
+    /// The places of roots, moduli, signs and functions that the groups need.
+    pub special: &'q [usize],
+}
+
+/// A search of all cells.
+pub struct Explorer<'p> {
+    /// What is asked.
+    pub question: &'p Question<'p>,
+    /// The extents of the inputs, and the seed.
+    pub prover: &'p Prover<'p>,
+    /// What the inputs are.
+    pub sources: &'p [Source],
+    /// Of what is to be proved.
+    pub digest: Digest,
+}
+
+impl Explorer<'_> {
+    /// The findings on all cells that `cell` is divided into.
+    pub fn explore(&self, cell: Cell) -> Result<Explored, Fault> {
+        let count = self.question.groups.len();
+        let mut explored = Explored::default();
+        let mut open = vec![(cell, 0)];
+        let mut seen = 1;
+        while let Some((cell, round)) = open.pop() {
+            let next = match round >= MOST_ROUNDS || seen > MOST_CELLS {
+                true => Next::Tested(silent(
+                    count,
+                    &format!(
+                        "its roots and moduli have more than {MOST_CELLS} combinations of signs"
+                    ),
+                )),
+                false => self.next(&cell)?,
+            };
+            let mut divided = |change: Change<'_>| -> Result<(), Fault> {
+                open.push((cell.changed(&change)?, round + 1));
+                Ok(())
+            };
+            match next {
+                Next::Empty(certificate) => {
+                    explored.certificate = both(explored.certificate, certificate);
+                }
+                Next::Rewrite(rewrites, certificate) => {
+                    divided(Change { rewrites: &rewrites, certificate, ..Change::default() })?;
+                }
+                Next::DivideInput(input) => {
+                    seen += 1;
+                    for positive in [false, true] {
+                        let fixed = Some((input, positive));
+                        divided(Change { fixed, ..Change::default() })?;
+                    }
+                }
+                Next::Divide { modulus, argument } => {
+                    seen += 1;
+                    for positive in [false, true] {
+                        let rewrites = [Rewrite::Signed { place: modulus, positive }];
+                        let chosen = Some((argument, positive));
+                        divided(Change { rewrites: &rewrites, chosen, ..Change::default() })?;
+                    }
+                }
+                Next::Tested(findings) => explored.leaves.push(Leaf { cell, findings }),
+            }
+        }
+        Ok(explored)
+    }
+
+    fn next(&self, cell: &Cell) -> Result<Next, Fault> {
+        let (graph, known) = (&cell.graph, cell.known());
+        let no_classes = Classes::default();
+        let inputs = self.prover.extents;
+        let region = Region { graph, inputs, facts: &known, classes: &no_classes };
+        if region.is_empty() {
+            return Ok(Next::Empty(None));
+        }
+        let algebraic = self.prover.lower(graph, &cell.values, self.sources, self.digest)?;
+        if !algebraic.has_few_signs() {
+            let reason = "it contains too many roots";
+            return Ok(Next::Tested(silent(self.question.groups.len(), reason)));
+        }
+        let trial = Trial::new(&algebraic, self.digest);
+        let tower = Tower::of(graph, &algebraic, &trial, self.digest);
+        let mut finder = RootFinder {
+            graph,
+            algebraic: &algebraic,
+            trial: &trial,
+            tower: &tower,
+            region: &region,
+            digest: self.digest,
+            samples: None,
+        };
+        let (mut rewrites, mut certificate) = (Vec::new(), None);
+        let mut loose: Vec<usize> = Vec::new();
+        for index in 0..algebraic.bases.len() {
+            match finder.search(index)? {
+                Search::Independent => {}
+                Search::Rewrite(rewrite, own) => {
+                    rewrites.push(rewrite);
+                    certificate = both(certificate, own);
+                }
+                Search::NeverReal(own) => return Ok(Next::Empty(own)),
+                Search::Unknown => {
+                    loose.extend(algebraic.bases[index].links.iter().map(|(_, sign)| *sign));
+                }
+            }
+        }
+        let mut open = Vec::new();
+        for modulus in &algebraic.moduli {
+            if !tower.is_clean(&algebraic, modulus.argument) {
+                loose.push(modulus.sign);
+                continue;
+            }
+            let argument = graph.step(modulus.place).arguments().next().unwrap_or(modulus.place);
+            match region.sign(argument) {
+                Some(positive) => {
+                    rewrites.push(Rewrite::Signed { place: modulus.place, positive });
+                }
+                None => match self.vanishes(&trial, &tower, modulus.argument) {
+                    Some(own) => {
+                        rewrites.push(Rewrite::Vanishing { place: modulus.place });
+                        certificate = both(certificate, Some(own));
+                    }
+                    None => open.push((modulus.place, argument)),
+                },
+            }
+        }
+        if !rewrites.is_empty() {
+            return Ok(Next::Rewrite(rewrites, certificate));
+        }
+        self.divide(cell, &algebraic, &trial, &tower, open)
+            .map_or_else(|| self.test(cell, &algebraic, &trial, &tower, &loose, &known), Ok)
+    }
+
+    /// Whether a clean value is 0 identically, and how surely.
+    fn vanishes(&self, trial: &Trial<'_>, tower: &Tower, value: Expr) -> Option<Certificate> {
+        let roots = Roots { nested: tower.nested, fixed: &[] };
+        match trial.test(&[&[value]], roots).pop() {
+            Some(Finding::Zero(certificate)) => Some(certificate),
+            _ => None,
+        }
+    }
+
+    /// The signs of moduli that are still open, or the division by one of them or by an input.
+    fn divide(
+        &self,
+        cell: &Cell,
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        tower: &Tower,
+        open: Vec<(usize, usize)>,
+    ) -> Option<Next> {
+        if let Some((modulus, argument)) = open.first().copied() {
+            let classes = Classes::of(algebraic, trial, tower, self.digest);
+            let (known, inputs) = (cell.known(), self.prover.extents);
+            let region = Region { graph: &cell.graph, inputs, facts: &known, classes: &classes };
+            if cell.is_part() && region.is_empty() {
+                return Some(Next::Empty(classes.certificate));
+            }
+            let signs = open.iter().filter_map(|(place, argument)| {
+                let positive = region.sign(*argument)?;
+                Some(Rewrite::Signed { place: *place, positive })
+            });
+            let rewrites: Vec<Rewrite> = signs.collect();
+            if !rewrites.is_empty() {
+                return Some(Next::Rewrite(rewrites, classes.certificate));
+            }
+            return Some(Next::Divide { modulus, argument });
+        }
+        let Question { graph, groups, special } = self.question;
+        let outputs = groups.iter().flat_map(|group| group.iter().copied());
+        let reached = graph.reached(outputs);
+        let mut signs = special.iter().filter_map(|place| match graph.step(*place) {
+            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
+                Some((*place, input))
+            }
+            _ => None,
+        });
+        let is_root = |place: usize| {
+            let own = special.iter().position(|own| *own == place);
+            own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
+                .is_some_and(|value| tower.is_independent_root(algebraic, value))
+        };
+        // The sign of an independent root is random anyhow.
+        let is_absorbed = |sign: usize| {
+            let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+            let mut users =
+                steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
+            users.all(|(_, step)| match step {
+                Step::Binary(Operation::Mul, a, b) => is_root(if a == sign { b } else { a }),
+                _ => false,
+            })
+        };
+        signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
+    }
+
+    /// The test of all groups, with all choices of signs that are not known.
+    fn test(
+        &self,
+        cell: &Cell,
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        tower: &Tower,
+        loose: &[usize],
+        known: &[(usize, Fact)],
+    ) -> Result<Next, Fault> {
+        let Question { graph, groups, special } = self.question;
+        let all_silent = |reason: &str| Ok(Next::Tested(silent(groups.len(), reason)));
+        if tower.standings.contains(&Standing::Unreached) {
+            return all_silent("a root never exists at random points, or is reached too rarely");
+        }
+        if loose.len() > MOST_CHOICES {
+            return all_silent(&format!("{} roots or moduli depend on others", loose.len()));
+        }
+        let is_lost = |value: &Expr| {
+            let lowered = algebraic.values[cell.graph.place(*value)];
+            !cell.graph.is_nowhere_defined(*value)
+                && lowered.is_none_or(|lowered| algebraic.graph.is_nowhere_defined(lowered))
+        };
+        if cell.values.iter().any(is_lost) {
+            return all_silent("a function has no value in a prime field");
+        }
+        // The outputs themselves, made from what their roots and functions are here.
+        let outputs = groups.concat();
+        let reached = graph.reached(outputs.iter().copied());
+        let extended = algebraic.with(|inputs, at| {
+            let inputs = with_signs(inputs, cell.fixed.iter().copied());
+            let mut made = FxHashMap::default();
+            for (place, value) in special.iter().zip(&cell.values) {
+                made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
+            }
+            let values = graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
+            outputs.iter().map(|output| values[graph.place(*output)]).collect()
+        })?;
+        let Some((extended, outputs)) = extended else {
+            return all_silent("a function has no value in a prime field");
+        };
+        let mut rest = outputs.as_slice();
+        let all: Vec<&[Expr]> = groups
+            .iter()
+            .map(|group| {
+                let (own, others) = rest.split_at(group.len());
+                rest = others;
+                own
+            })
+            .collect();
+        let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
+        let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
+        let extended_trial = Trial::new(&extended, self.digest);
+        let mut found: Vec<Finding> = Vec::new();
+        for choice in 0u32..1 << loose.len() {
+            let fixed: Vec<(usize, bool)> =
+                loose.iter().enumerate().map(|(k, sign)| (*sign, choice >> k & 1 == 0)).collect();
+            let roots = Roots { nested: tower.nested + loose.len() as u32, fixed: &fixed };
+            let one = extended_trial.test(&asked, roots);
+            found = match choice {
+                0 => one,
+                _ => found.into_iter().zip(one).map(|(a, b)| for_both(a, b)).collect(),
+            };
+        }
+        let mut found = found.into_iter().zip(&asked).map(|(finding, group)| match finding {
+            Finding::NonZero if !loose.is_empty() => Finding::Silent(
+                "it does not vanish for all choices of signs of dependent roots".to_string(),
+            ),
+            Finding::NonZero if extended.has_symbols(group) => Finding::Silent(
+                "it does not vanish for independent symbols in the place of transcendental functions"
+                    .to_string(),
+            ),
+            Finding::Zero(own) => {
+                Finding::Zero(cell.certificate.map_or(own, |before| own.and(before)))
+            }
+            finding => finding,
+        });
+        let findings: Vec<Option<Finding>> =
+            all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
+        let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
+        if cell.is_part() && !findings.iter().all(is_zero) {
+            // Whether there is such a cell at all is worth knowing now.
+            let classes = Classes::of(algebraic, trial, tower, self.digest);
+            let inputs = self.prover.extents;
+            let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
+            if region.is_empty() {
+                return Ok(Next::Empty(classes.certificate));
+            }
+        }
+        Ok(Next::Tested(findings))
+    }
+}
+
+/// The same finding for all groups.
+fn silent(count: usize, reason: &str) -> Vec<Option<Finding>> {
+    vec![Some(Finding::Silent(reason.to_string())); count]
+}
+
+/// The finding for two choices of signs.
+fn for_both(a: Finding, b: Finding) -> Finding {
+    match (a, b) {
+        (Finding::Zero(a), Finding::Zero(b)) => Finding::Zero(a.and(b)),
+        (Finding::Silent(reason), _) | (_, Finding::Silent(reason)) => Finding::Silent(reason),
+        _ => Finding::NonZero,
+    }
+}

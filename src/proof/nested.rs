@@ -1,0 +1,199 @@
+//! Roots that can be written out: √(x² + 2x + 1) = |x + 1| and √(x + 1 + 2√x) = |√x + 1|.
+//!
+//! A radicand is read as a polynomial in the inputs and in the roots and functions that it contains.
+//! Where it is c b², its root is √c |b|. Where it is a + b y with y² = C and a² - b² C = d², then with
+//! u = (a + d)/2
+//!
+//! ```text
+//! √(a + b y) = |√u + b y/(2√u)|
+//! ```
+//!
+//! since the square of the right side is u + b y + b²C/(4u), and b²C/4 = u (a - u). It holds where
+//! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not negative,
+//! so both are negative only where a + b y = -(√-u ± √(u - a))² is.
+
+use crate::graph::{Expr, Graph, Step};
+use crate::number::exact::square_root;
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::scalar::Scalar;
+
+use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
+
+/// A root written out, its variables standing for values at places.
+#[derive(Clone, Debug)]
+pub enum Written {
+    /// √c |p/q|; nothing where c is negative.
+    Square(Rational, Fraction),
+    /// |√u + b y/(2√u)|/|q|, y the root at a place.
+    Sum {
+        /// u
+        first: Polynomial,
+        /// b
+        factor: Polynomial,
+        /// The place of y.
+        root: usize,
+        /// q
+        below: Polynomial,
+    },
+    /// √p/|q|, p without roots.
+    Plain {
+        /// p
+        radicand: Polynomial,
+        /// q
+        below: Polynomial,
+    },
+}
+
+/// The product of the values at some places, if it is a square or the root of a sum that can be
+/// written out.
+pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
+    let roots = roots_of_inputs(graph, places);
+    let by_roots = |place: usize, step: Step<'_>| match step {
+        // x is y² where y = √x occurs too.
+        Step::Input(_) => match roots.iter().find(|(input, _)| *input == place) {
+            Some((_, root)) => {
+                let y = Polynomial::variable(*root as u32);
+                y.times(&y, &mut { 1 })
+            }
+            None => Some(Polynomial::variable(place as u32)),
+        },
+        _ => variable(place, step),
+    };
+    let product = product(graph, places, &by_roots)?;
+    if let Some((scale, root)) = product.square() {
+        return Some(Written::Square(scale, root));
+    }
+    let product = self::product(graph, places, &variable)?;
+    let (above, below) = (product.over_square()?, product.below);
+    let square_of = |root: u32| match graph.step(root as usize) {
+        Step::Unary(Function::Sqrt, a) => fraction(graph, a, &variable)?.polynomial(),
+        _ => None,
+    };
+    let sum = above.variables().into_iter().rev().find_map(|root| {
+        let square = square_of(root)?;
+        let [even, odd] = above.split(root, &square)?;
+        let first = first_of_sum(&even, &odd, &square)?;
+        let (root, below) = (root as usize, below.clone());
+        Some(Written::Sum { first, factor: odd, root, below })
+    });
+    // (a + b√C)(a − b√C) contains no root any more.
+    sum.or_else(|| {
+        let radicand = without_roots(graph, above, square_of)?;
+        (places.len() > 1).then_some(Written::Plain { radicand, below })
+    })
+}
+
+/// A polynomial in which all roots occur in even powers, by what they are roots of.
+fn without_roots(
+    graph: &Graph,
+    mut polynomial: Polynomial,
+    square_of: impl Fn(u32) -> Option<Polynomial>,
+) -> Option<Polynomial> {
+    let is_root = |variable: &u32| match graph.step(*variable as usize) {
+        Step::Unary(Function::Sqrt, _) => true,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
+    };
+    // The last one first: it may contain those before it.
+    while let Some(root) = polynomial.variables().into_iter().rev().find(is_root) {
+        let [even, odd] = polynomial.split(root, &square_of(root)?)?;
+        if !odd.is_zero() {
+            return None;
+        }
+        polynomial = even;
+    }
+    Some(polynomial)
+}
+
+/// u = (a + d)/2 with d² = a² - b² C, not 0.
+fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<Polynomial> {
+    if b.is_zero() {
+        return None;
+    }
+    let mut work = MOST_WORK;
+    let product = b.times(b, &mut work)?.times(square, &mut work)?;
+    let difference = a.times(a, &mut work)?.plus(&product.scaled(&Rational::from(-1)));
+    let root = match difference.is_zero() {
+        true => difference,
+        false => {
+            let (scale, root) = difference.square()?;
+            root.scaled(&square_root(&scale)?)
+        }
+    };
+    let halves = [1, -1]
+        .map(|sign| a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)));
+    // What is a square itself needs no further root.
+    let order = |u: &Polynomial| (u.square().is_none(), u.size());
+    halves.into_iter().filter(|u| !u.is_zero()).min_by_key(order)
+}
+
+/// The inputs that a root is taken of, with one that is, among the places that some others need.
+fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
+    let reached = graph.reached_from(places);
+    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    steps
+        .filter_map(|(place, step)| match step {
+            Step::Unary(Function::Sqrt, a) if matches!(graph.step(a), Step::Input(_)) => {
+                Some((a, place))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+/// A variable for what is no rational operation.
+fn variable(place: usize, step: Step<'_>) -> Option<Polynomial> {
+    let is_rational = match step {
+        Step::Constant(_) | Step::Unary(Function::Neg | Function::Recip, _) => true,
+        Step::Binary(operation, ..) => operation != Operation::Pow,
+        Step::Power(_, exponent) => exponent.to_integer().is_some(),
+        Step::Input(_) | Step::Unary(..) => false,
+    };
+    (!is_rational).then(|| Polynomial::variable(place as u32))
+}
+
+fn product(
+    graph: &Graph,
+    places: &[usize],
+    given: &impl Fn(usize, Step<'_>) -> Option<Polynomial>,
+) -> Option<Fraction> {
+    let factors: Option<Vec<Fraction>> =
+        places.iter().map(|place| fraction(graph, *place, given)).collect();
+    Fraction::product(factors?.iter())
+}
+
+impl Written {
+    /// The places of its variables.
+    pub fn places(&self) -> Vec<usize> {
+        let (polynomials, root) = match self {
+            Written::Square(_, root) => ([&root.above, &root.below, &root.below], None),
+            Written::Sum { first, factor, root, below } => ([first, factor, below], Some(*root)),
+            Written::Plain { radicand, below } => ([radicand, below, below], None),
+        };
+        let variables = polynomials.into_iter().flat_map(Polynomial::variables);
+        variables.map(|variable| variable as usize).chain(root).collect()
+    }
+
+    /// The root in the recording under way, from the values at places; `None` where it is not real.
+    pub fn value(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        let of = |variable: u32| at(variable as usize);
+        match self {
+            Written::Square(scale, _) if scale.is_negative() => None,
+            Written::Square(scale, root) => {
+                let scale = Expr::rational(scale).apply(Function::Sqrt);
+                Some(scale * root.value(&of)?.modulus())
+            }
+            Written::Sum { first, factor, root, below } => {
+                let u = first.value(&of)?.apply(Function::Sqrt);
+                let doubled = u + u;
+                let sum = u + factor.value(&of)? * at(*root)? / doubled;
+                Some(sum.modulus() / below.value(&of)?.modulus())
+            }
+            Written::Plain { radicand, below } => {
+                let root = radicand.value(&of)?.apply(Function::Sqrt);
+                Some(root / below.value(&of)?.modulus())
+            }
+        }
+    }
+}

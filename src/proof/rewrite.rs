@@ -1,0 +1,198 @@
+//! Rewritings of roots and moduli by what they are.
+
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Expr, Graph, Step};
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::scalar::Scalar;
+
+use super::domain::Fact;
+use super::nested::Written;
+use super::squares::Square;
+
+/// The root of a product of radicands.
+#[derive(Clone, Debug)]
+pub enum Root {
+    /// √c |b|
+    Found(Rational, Square),
+    /// As it is written out.
+    Written(Written),
+}
+
+/// Steps of a graph with what takes their place.
+#[derive(Clone, Debug)]
+pub enum Rewrite {
+    /// |X| is X or -X.
+    Signed {
+        /// The place of |X|.
+        place: usize,
+        /// Whether it is X.
+        positive: bool,
+    },
+    /// |X| is 0.
+    Vanishing {
+        /// The place of |X|.
+        place: usize,
+    },
+    /// √A is 0, and other powers of A that are no integers have no value.
+    Zero {
+        /// The places of A.
+        arguments: Vec<usize>,
+    },
+    /// √A = √(A Π A_i)/Π√A_i.
+    Root {
+        /// The places of A.
+        arguments: Vec<usize>,
+        /// √(A Π A_i)
+        root: Root,
+        /// The places of the A_i.
+        over: Vec<usize>,
+    },
+    /// √(u Π T_i) = √u Π √T_i for roots T_i.
+    Split {
+        /// The places of the product.
+        arguments: Vec<usize>,
+    },
+}
+
+impl Rewrite {
+    /// The places whose values it is made from, beside the arguments of what it replaces.
+    pub fn needs(&self) -> Vec<usize> {
+        match self {
+            Rewrite::Root { root, over, .. } => {
+                let mut needs = over.clone();
+                match root {
+                    Root::Found(_, square) => needs.extend(square.places()),
+                    Root::Written(written) => needs.extend(written.places()),
+                }
+                needs
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The value of a step, if it is replaced, from the values at places.
+    pub fn value(
+        &self,
+        graph: &Graph,
+        place: usize,
+        step: Step<'_>,
+        values: &[Option<Expr>],
+    ) -> Option<Expr> {
+        match (self, step) {
+            (Rewrite::Signed { place: own, positive }, Step::Unary(Function::Abs, a)) => {
+                let value = values[a].filter(|_| *own == place)?;
+                Some(if *positive { value } else { -value })
+            }
+            (Rewrite::Vanishing { place: own }, _) => {
+                (*own == place).then(|| Expr::rational(&Rational::from(0)))
+            }
+            (Rewrite::Zero { arguments }, Step::Unary(Function::Sqrt, a)) => {
+                arguments.contains(&a).then(|| Expr::rational(&Rational::from(0)))
+            }
+            (Rewrite::Zero { arguments }, _) => {
+                let (a, _) = power(step)?;
+                let zero = || Expr::rational(&Rational::from(0));
+                arguments.contains(&a).then(|| zero().apply(Function::Recip))
+            }
+            (Rewrite::Root { arguments, root, over }, _) => {
+                let (a, exponent) = power(step)?;
+                if !arguments.contains(&a) {
+                    return None;
+                }
+                let at = |place: usize| values[place];
+                let mut value = match root {
+                    Root::Found(scale, square) => {
+                        let scale = Expr::rational(scale).apply(Function::Sqrt);
+                        scale * square.value(at)?.modulus()
+                    }
+                    Root::Written(written) => written.value(at)?,
+                };
+                for other in over {
+                    value /= values[*other]?.apply(Function::Sqrt);
+                }
+                Some(value.power(&(&exponent * &Rational::from(2))))
+            }
+            (Rewrite::Split { arguments }, _) => {
+                let (a, exponent) = power(step)?;
+                if !arguments.contains(&a) {
+                    return None;
+                }
+                split(graph, a, &exponent, values)
+            }
+            (Rewrite::Signed { .. }, _) => None,
+        }
+    }
+}
+
+/// Argument and exponent of a power that is no integer one.
+fn power(step: Step<'_>) -> Option<(usize, Rational)> {
+    match step {
+        Step::Unary(Function::Sqrt, a) => Some((a, Rational::new(1, 2))),
+        Step::Power(a, exponent) if exponent.to_integer().is_none() => Some((a, exponent.clone())),
+        _ => None,
+    }
+}
+
+/// The power of a product, factor by factor: roots as powers of their arguments, the rest at once.
+fn split(
+    graph: &Graph,
+    place: usize,
+    exponent: &Rational,
+    values: &[Option<Expr>],
+) -> Option<Expr> {
+    let one = || Expr::rational(&Rational::from(1));
+    let (mut roots, mut rest): (FxHashMap<usize, Rational>, _) = (FxHashMap::default(), one());
+    // How often each factor occurs, users before their arguments.
+    let mut counts: std::collections::BTreeMap<usize, i64> = [(place, 1)].into();
+    while let Some((at, count)) = counts.pop_last() {
+        let mut add = |place: usize, more: i64| -> Option<()> {
+            let own = counts.entry(place).or_insert(0);
+            *own = own.checked_add(more)?;
+            Some(())
+        };
+        match graph.step(at) {
+            _ if count == 0 => {}
+            Step::Binary(Operation::Mul, a, b) => {
+                add(a, count)?;
+                add(b, count)?;
+            }
+            Step::Unary(Function::Recip, a) => add(a, -count)?,
+            Step::Unary(Function::Neg, a) => {
+                add(a, count)?;
+                rest = if count % 2 == 0 { rest } else { -rest };
+            }
+            step => match power(step) {
+                Some((a, root)) => {
+                    let more = &root * &Rational::from(count);
+                    let own = roots.entry(a).or_insert_with(|| Rational::from(0));
+                    *own = &*own + &more;
+                }
+                None => rest *= values[at]?.power(&Rational::from(count)),
+            },
+        }
+    }
+    let mut roots: Vec<(usize, Rational)> = roots.into_iter().collect();
+    roots.sort_by_key(|(place, _)| *place);
+    let mut product = rest.power(exponent);
+    for (place, root) in roots {
+        product *= values[place]?.power(&(&root * exponent));
+    }
+    Some(product)
+}
+
+/// The facts without which some steps have no value: what roots, logarithms and powers are taken of.
+pub fn conditions(graph: &Graph, reached: &[bool]) -> Vec<(usize, Fact)> {
+    let condition = |step: Step<'_>| match step {
+        Step::Unary(Function::Sqrt, a) => Some((a, Fact::NotNegative)),
+        Step::Unary(Function::Ln, a) | Step::Binary(Operation::Pow, a, _) => {
+            Some((a, Fact::Positive))
+        }
+        Step::Power(a, exponent) if exponent.to_integer().is_none() => Some((a, Fact::Positive)),
+        _ => None,
+    };
+    let steps = graph.steps().zip(reached).filter(|(_, reached)| **reached);
+    let all = steps.filter_map(|(step, _)| condition(step));
+    all.filter(|(place, _)| !matches!(graph.step(*place), Step::Constant(_))).collect()
+}

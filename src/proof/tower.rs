@@ -1,0 +1,191 @@
+//! The roots of a computation, one upon the other: which are independent of those before them.
+//!
+//! A root of X is independent where X is no square in the field that the roots before it generate
+//! over F_p(i)(z). For radicands without roots that is seen by characters: at a point z each of them
+//! is a square in F_p or is none, which makes a vector over the field of two elements for each; if
+//! these vectors, together with that of -1, are linearly independent, no product of the radicands is
+//! a square up to sign. A vector that depends on others names the product that may be a square. A
+//! radicand that contains roots is no square if it is none at one point.
+//!
+//! docs/soundness.md, "Roots".
+
+use rustc_hash::FxHashSet;
+
+use crate::graph::{Expr, Graph, Step};
+use crate::number::{Function, Operation};
+
+use super::characters::{Character, Characters, MOST_FIRST, Refusals, Space};
+use super::digest::Digest;
+use super::lower::Algebraic;
+use super::trial::{MOST_NESTED, Trial};
+
+/// What is known of the root of a base.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standing {
+    /// Its radicand is no square in the field of the roots before it, modulo each of the primes.
+    Independent,
+    /// Its radicand is 0 at all points.
+    Zero,
+    /// Its radicand times those of these bases seems to be a square, up to a number.
+    Dependent(Vec<usize>),
+    /// Its radicand contains a factor that is a root.
+    Split,
+    /// It contains what is not known to be independent.
+    Deferred,
+    /// Its radicand hardly ever has a value.
+    Unreached,
+}
+
+/// The standing of all bases of an algebraic graph.
+pub struct Tower {
+    /// By base.
+    pub standings: Vec<Standing>,
+    /// The signs of independent roots.
+    pub independent: u128,
+    /// How many independent roots have a radicand that contains others.
+    pub nested: u32,
+}
+
+impl Tower {
+    /// Examines the bases of `algebraic`, which was made from `graph`.
+    pub fn of(graph: &Graph, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) -> Self {
+        let bases = &algebraic.bases;
+        let mut tower =
+            Self { standings: vec![Standing::Deferred; bases.len()], independent: 0, nested: 0 };
+        tower.first_layer(algebraic, trial, digest);
+        tower.nested_layers(graph, algebraic, trial, digest);
+        tower
+    }
+
+    /// Whether a value contains nothing but independent roots.
+    pub fn is_clean(&self, algebraic: &Algebraic<'_>, value: Expr) -> bool {
+        algebraic.mask(value) & !self.independent == 0
+    }
+
+    /// Whether a value is the square root of an independent base.
+    pub fn is_independent_root(&self, algebraic: &Algebraic<'_>, value: Expr) -> bool {
+        algebraic.bases.iter().zip(&self.standings).any(|(base, standing)| {
+            *standing == Standing::Independent
+                && base.links.first().is_some_and(|(link, _)| *link == value)
+        })
+    }
+
+    fn admit(&mut self, algebraic: &Algebraic<'_>, base: usize) {
+        for (_, sign) in &algebraic.bases[base].links {
+            self.independent |= algebraic.bit(*sign);
+        }
+    }
+
+    /// Radicands without roots.
+    fn first_layer(&mut self, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) {
+        let bases = algebraic.bases.iter().enumerate();
+        let first: Vec<usize> = bases
+            .filter(|(_, base)| algebraic.mask(base.radicand) == 0)
+            .map(|(index, _)| index)
+            .collect();
+        if first.is_empty() || first.len() > MOST_FIRST {
+            return;
+        }
+        let radicands: Vec<Expr> =
+            first.iter().map(|index| algebraic.bases[*index].radicand).collect();
+        let characters = Characters::of(algebraic, trial, &radicands, digest);
+        let mut spaces: Vec<Space> =
+            characters.counts.iter().map(|count| Space::of_minus_one(*count)).collect();
+        for (own, index) in first.iter().enumerate() {
+            let standing = match characters.of_radicand(own) {
+                Character::Zero => Standing::Zero,
+                Character::Unreached => Standing::Unreached,
+                Character::Residues(residues) => {
+                    let mut extended = spaces.clone();
+                    let relations: Vec<Option<u128>> = extended
+                        .iter_mut()
+                        .zip(residues)
+                        .map(|(space, vector)| space.insert(*vector, own))
+                        .collect();
+                    match relations.into_iter().flatten().next() {
+                        None => {
+                            spaces = extended;
+                            Standing::Independent
+                        }
+                        Some(relation) => {
+                            let among = (0..own).filter(|k| relation >> k & 1 == 1);
+                            Standing::Dependent(among.map(|k| first[k]).collect())
+                        }
+                    }
+                }
+            };
+            if standing == Standing::Independent {
+                self.admit(algebraic, *index);
+            }
+            self.standings[*index] = standing;
+        }
+    }
+
+    /// Radicands that contain roots, in their order.
+    fn nested_layers(
+        &mut self,
+        graph: &Graph,
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        digest: Digest,
+    ) {
+        let is_nested = |index: &usize| algebraic.mask(algebraic.bases[*index].radicand) != 0;
+        let mut open = Vec::new();
+        // A root of a root is a factor; other nested roots are looked at once all else is clean.
+        for index in (0..algebraic.bases.len()).filter(is_nested) {
+            let base = &algebraic.bases[index];
+            if !self.may_become_clean(algebraic, base.radicand, &open) {
+                continue;
+            }
+            let has_factor = base.arguments.iter().any(|place| has_root_as_factor(graph, *place));
+            if has_factor && self.is_clean(algebraic, base.radicand) {
+                self.standings[index] = Standing::Split;
+            } else {
+                open.push(index);
+            }
+        }
+        open.truncate(MOST_NESTED as usize);
+        if open.is_empty() {
+            return;
+        }
+        let refusals = Refusals::of(algebraic, trial, &open, digest);
+        for (own, index) in open.iter().enumerate() {
+            if !self.is_clean(algebraic, algebraic.bases[*index].radicand) {
+                continue;
+            }
+            self.standings[*index] = refusals.standing(own);
+            if self.standings[*index] == Standing::Independent {
+                self.admit(algebraic, *index);
+                self.nested += 1;
+            }
+        }
+    }
+
+    /// Whether a value contains independent roots and nested ones that are open, and no others.
+    fn may_become_clean(&self, algebraic: &Algebraic<'_>, value: Expr, open: &[usize]) -> bool {
+        let signs = open.iter().flat_map(|index| &algebraic.bases[*index].links);
+        let open = signs.fold(0, |mask, (_, sign)| mask | algebraic.bit(*sign));
+        algebraic.mask(value) & !(self.independent | open) == 0
+    }
+}
+
+/// Whether the value at a place is a product with a root among its factors.
+fn has_root_as_factor(graph: &Graph, place: usize) -> bool {
+    let (mut open, mut seen) = (vec![place], FxHashSet::default());
+    while let Some(place) = open.pop() {
+        if !seen.insert(place) {
+            continue;
+        }
+        match graph.step(place) {
+            Step::Unary(Function::Sqrt, _) => return true,
+            Step::Power(a, exponent) => match exponent.to_integer() {
+                None => return true,
+                Some(_) => open.push(a),
+            },
+            Step::Unary(Function::Neg | Function::Recip, a) => open.push(a),
+            Step::Binary(Operation::Mul, a, b) => open.extend([a, b]),
+            _ => {}
+        }
+    }
+    false
+}

@@ -1,0 +1,206 @@
+//! Whether a level set that is solved for some variables is met in full: where what is divided by
+//! vanishes together with what is left there is a part that the solution leaves out.
+//!
+//! x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is another part of it.
+
+use super::bench::Bench;
+use super::sampler::{Sampler, extent};
+use crate::case::Case;
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
+use crate::level::{Pivot, Solution};
+use crate::mechanics::{Draw, Phase};
+use crate::number::Enclosing;
+use crate::number::mixed::{Mixed, Number};
+use crate::number::rational::Rational;
+use crate::proof::{Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero};
+use crate::scalar::Scalar;
+
+impl Bench<'_> {
+    /// Why states may leave out a part of their place, if that is so.
+    pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
+        let Some(solution) = sampler.solution() else { return Ok(None) };
+        let mut open = Vec::new();
+        for (index, pivot) in sampler.pivots().iter().enumerate() {
+            if !self.is_number(sampler, pivot.slope)? && !self.is_number(sampler, pivot.whole)? {
+                open.push(index);
+            }
+        }
+        if open.is_empty() {
+            return Ok(None);
+        }
+        let space = Space::of(self.case, sampler, solution)?;
+        open.retain(|index| !space.is_definite(&space.pivots[*index]));
+        // Factors of one equation that is left do no harm if they have no common factor.
+        if let [index] = open[..]
+            && self.has_no_factor(sampler, &space, solution, index)
+        {
+            return Ok(None);
+        }
+        let texts: Vec<String> = open
+            .iter()
+            .flat_map(|index| &space.pivots[*index].equations)
+            .map(|index| format!("`{}`", self.case.model.level[*index].text))
+            .collect();
+        Ok((!texts.is_empty()).then(|| {
+            format!(
+                "the level may fall apart: {} {} solved where what is divided by is not 0, and may \
+                 hold elsewhere too; state each part in a case of its own, or give [level.chart]",
+                texts.join(" and "),
+                if texts.len() == 1 { "is" } else { "are" },
+            )
+        }))
+    }
+
+    /// Whether the slopes and the rest of a linear equation are known to have no common factor, as
+    /// functions of coordinates that are free.
+    fn has_no_factor(
+        &self,
+        sampler: &Sampler,
+        space: &Space,
+        solution: &Solution,
+        index: usize,
+    ) -> bool {
+        let (seed, drawn) = (self.options.seed, &sampler.pivots()[index].entries);
+        let own = &space.pivots[index];
+        if own.entries.is_empty() {
+            return false;
+        }
+        let first = sampler.parameter_draws();
+        let reached = space.graph.reached(own.entries.iter().copied());
+        let made = solution.components();
+        let is_made = |(place, reached): (usize, &bool)| match space.graph.step(place) {
+            Step::Input(input) if *reached => {
+                input.checked_sub(first).is_some_and(|component| made.contains(&component))
+            }
+            _ => false,
+        };
+        match reached.iter().enumerate().any(is_made) {
+            false => are_coprime(&space.graph, &own.entries, seed),
+            true => {
+                are_polynomials(sampler.graph(), drawn) && are_coprime(sampler.graph(), drawn, seed)
+            }
+        }
+    }
+
+    /// Whether a value is one number other than 0 at all states, as |γ|² is on the sphere; by
+    /// continuity it is that at all points of the level.
+    fn is_number(&self, sampler: &Sampler, value: Expr) -> Result<bool, Fault> {
+        let (graph, domain) = (sampler.graph(), Mixed::new(256));
+        if let Some(constant) = graph.constant_value(value) {
+            return Ok(!constant.is_zero());
+        }
+        let tape = Tape::new(graph, &[value]);
+        let mut evaluator = Evaluator::new(&tape, domain);
+        evaluator.run(&sampler.drawn(&domain, 1, 0));
+        let guess = match evaluator.output(0) {
+            Number::Exact(number) => Some(number.clone()),
+            value => Mixed::enclosure(value, 0).and_then(|(mid, _)| simple(mid)),
+        };
+        let Some(number) = guess.filter(|number| !number.is_zero()) else { return Ok(false) };
+        let reached = graph.reached([value]);
+        let (graph, difference) = record(graph.inputs(), |inputs| {
+            let values = graph.replay(&reached, inputs, |_, _, _| None);
+            Some(values[graph.place(value)]? - Expr::rational(&number))
+        })?;
+        let Some(difference) = difference else { return Ok(false) };
+        let (extents, sources) = (sampler.extents(), sampler.sources());
+        let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
+        let outcomes = prover.prove(&graph, &[Group::of(vec![difference])])?;
+        Ok(outcomes.iter().all(|outcome| outcome.is_zero()))
+    }
+}
+
+/// What must not vanish, as values of the coordinates of phase space.
+///
+/// Values at states that are made do not tell: those may come near a point of the level without
+/// reaching it, as a stereographic projection comes near its pole.
+struct Space {
+    graph: Graph,
+    pivots: Vec<Pivot>,
+    /// The level functions and their opposites, neither of which is negative on the level.
+    level: Vec<Expr>,
+    extents: Vec<Extent>,
+}
+
+impl Space {
+    fn of(case: &Case, sampler: &Sampler, solution: &Solution) -> Result<Self, Fault> {
+        let (model, first) = (&case.model, sampler.parameter_draws());
+        let (graph, (pivots, level)) = record(first + model.dimension(), |inputs| {
+            let (parameters, state) = model.make_parameters(inputs);
+            let phase = Phase::new(model, &parameters, state);
+            let equations = model.level.iter().zip(sampler.kept()).filter(|(_, kept)| **kept);
+            let level = equations.flat_map(|(equation, _)| {
+                let value = phase.level_function(&equation.function);
+                [value, -value]
+            });
+            let level: Vec<Expr> = level.collect();
+            (solution.pivots(model, &parameters, state), level)
+        })?;
+        let mut extents = sampler.extents();
+        extents.truncate(first);
+        extents.extend(case.free_draws.iter().map(extent));
+        // A list of values lies between the least and the largest.
+        for (extent, draw) in extents.iter_mut().zip(sampler.recipes()).take(first) {
+            if let Draw::OneOf(values) = draw
+                && let (Some(least), Some(most)) = (values.iter().min(), values.iter().max())
+            {
+                *extent = Extent::between(least, most);
+            }
+        }
+        Ok(Self { graph, pivots, level, extents })
+    }
+
+    /// Whether a pivot is known to vanish at no real point of the level.
+    fn is_definite(&self, pivot: &Pivot) -> bool {
+        let slopes = [&pivot.minors[..], &[pivot.slope]].concat();
+        [&slopes[..], &[pivot.whole]].into_iter().any(|values| {
+            // The equations among what the pivot depends on first.
+            let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
+            let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
+            let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
+            let is_definite =
+                |level: &[Expr]| is_nowhere_zero(&self.graph, &self.extents, level, values);
+            is_definite(&near) || (near.len() < self.level.len() && is_definite(&self.level))
+        })
+    }
+
+    fn inputs_of(&self, value: Expr) -> Vec<usize> {
+        let reached = self.graph.reached([value]);
+        let inputs = self.graph.steps().zip(reached).filter_map(|(step, reached)| match step {
+            Step::Input(input) if reached => Some(input),
+            _ => None,
+        });
+        inputs.collect()
+    }
+}
+
+/// The fraction of small parts that a number nearly is, if it is nearly one.
+fn simple(value: f64) -> Option<Rational> {
+    const LARGEST: f64 = 1e4;
+    let (mut rest, mut before, mut last) = (value, (0.0, 1.0), (1.0, 0.0));
+    loop {
+        let whole = rest.floor();
+        (before, last) = (last, (whole * last.0 + before.0, whole * last.1 + before.1));
+        if last.1 > LARGEST || !last.0.is_finite() {
+            return None;
+        }
+        if (last.0 / last.1 - value).abs() <= 16.0 * f64::EPSILON * value.abs() {
+            return (last.0.abs() < 1e9).then(|| Rational::new(last.0 as i64, last.1 as i64));
+        }
+        rest = 1.0 / (rest - whole);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn simple_fractions_are_recognised() {
+        let fraction = |n, d| Some(Rational::new(n, d));
+        assert_eq!(simple(4.0 + 1e-15), fraction(4, 1));
+        assert_eq!(simple(-1.0 / 3.0), fraction(-1, 3));
+        assert_eq!(simple(22.0 / 7.0), fraction(22, 7));
+        assert_eq!(simple(std::f64::consts::PI), None);
+    }
+}

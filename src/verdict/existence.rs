@@ -1,0 +1,246 @@
+//! States at which it matters that a residual is not zero: a formula that has no value there says
+//! nothing, and a part of the states on which signs are chosen may hold none.
+
+use super::antiderivative_value;
+use super::bench::Bench;
+use super::evidence::{Verdict, Witness};
+use super::examine::Seen;
+use super::field::Where;
+use super::finding::Finding;
+use super::ladder::{BITS, Open, PRECISE_STATES};
+use super::recorded::Recorded;
+use super::sampler::{LANES, Sampler};
+use super::witness;
+use crate::graph::{Evaluator, Fault, Tape};
+use crate::number::Enclosing;
+use crate::number::ball::Ball;
+use crate::number::mixed::{Mixed, Number};
+use crate::number::precise::Precise;
+use crate::number::rational::Rational;
+use crate::proof::Part;
+
+/// States without a value in f64 that are looked at more closely.
+const MOST_MISSING: usize = 16;
+/// A claim is not confirmed where so large a share of the states is in doubt: one in this many.
+const MAX_DOUBTFUL: usize = 4;
+
+impl Bench<'_> {
+    /// Looks more closely at states of the first block at which f64 finds no value of what is
+    /// required: √0 has one.
+    pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        if sampler.is_numerical() {
+            return;
+        }
+        let unsettled = open.iter_mut().filter(|(_, finding)| finding.settled.is_none());
+        for (item, finding) in unsettled {
+            let missing = std::mem::take(&mut finding.missing);
+            if missing.is_empty() {
+                continue;
+            }
+            let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
+            let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
+            let looked = missing.len().min(MOST_MISSING);
+            let mut doubtful = 0;
+            for lane in &missing[..looked] {
+                let index = *lane as u64;
+                let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                let existing = layout.existing(&values, span);
+                let required = [layout.common.clone(), span.requirement.clone()];
+                let mut required = required.into_iter().flat_map(|range| values.range(range));
+                doubtful += usize::from(required.any(|value| *value == Number::Doubtful));
+                let seen = Seen { values: &values, existing: &existing };
+                let residual = span.residual.clone();
+                if self.seek_witness(sampler, index, residual.clone(), &seen, BITS[0], finding) {
+                    break;
+                }
+                let residual = values.existing(&[residual]);
+                if existing[0] && residual[0] {
+                    finding.undefined = None;
+                }
+            }
+            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * LANES && !finding.is_zero {
+                finding.blurred.get_or_insert_with(|| {
+                    format!(
+                        "at {doubtful} of {looked} states it is not known whether the formula has a \
+                         value"
+                    )
+                });
+            }
+        }
+    }
+
+    /// Refutes claims that are no identities in prime fields, once a state is known at which that
+    /// matters; with a witness where one is found.
+    pub(super) fn real_states(
+        &self,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), Fault> {
+        let unsettled = open.iter_mut().filter(|(_, finding)| {
+            finding.settled.is_none() && finding.is_nonzero() && finding.undefined.is_none()
+        });
+        for (item, finding) in unsettled {
+            for found in std::mem::take(&mut finding.nonzero) {
+                if self.settle_at(item, sampler, &found, finding) {
+                    break;
+                }
+                finding.nonzero.push(found);
+            }
+        }
+        Ok(())
+    }
+
+    /// Refutes a claim by a state in one of the parts.
+    fn settle_at(
+        &self,
+        item: &Recorded<'_>,
+        sampler: &Sampler,
+        found: &Where,
+        finding: &mut Finding,
+    ) -> bool {
+        let chosen = sampler.with(&found.fixed);
+        let exists = match found.parts.proper() {
+            None => self.drawn_state(item, &chosen, None, finding),
+            Some(parts) => {
+                parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), finding))
+                    || parts.iter().any(|part| self.state_inside(item, &chosen, part, finding))
+            }
+        };
+        if exists && finding.settled.is_none() {
+            let kind = item.claim.kind.name();
+            finding.settled = Some(Verdict::Refuted);
+            finding.evidence.method = "prime field";
+            finding.evidence.reason = Some(format!(
+                "modulo a prime the residual of this {kind} is not 0, so it is no identity"
+            ));
+        }
+        exists
+    }
+
+    /// Whether a state that is drawn lies in a part, with all that is required; a witness settles
+    /// the claim.
+    fn drawn_state(
+        &self,
+        item: &Recorded<'_>,
+        sampler: &Sampler,
+        part: Option<&Part>,
+        finding: &mut Finding,
+    ) -> bool {
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
+        let span = &layout.spans[0];
+        let member = part.map(Membership::of);
+        let mut known = None;
+        for block in 0..self.blocks() {
+            let start = block * LANES as u64;
+            let values = run.at(&Ball::<LANES>, &sampler.balls(start));
+            let mut existing = layout.existing(&values, span);
+            if let Some(member) = &member {
+                member.restrict(sampler, &Ball::<LANES>, start, &mut existing);
+            }
+            if let Some(lane) = existing.iter().position(|exists| *exists) {
+                known = Some(start + lane as u64);
+                break;
+            }
+        }
+        let domain = Mixed::new(BITS[0]);
+        let exists = |index: &u64| {
+            let values = run.at(&domain, &sampler.states(&domain, 1, *index));
+            let mut existing = layout.existing(&values, span);
+            if let Some(member) = &member {
+                member.restrict(sampler, &domain, *index, &mut existing);
+            }
+            existing[0]
+        };
+        let Some(index) = known.or_else(|| (0..PRECISE_STATES).find(exists)) else { return false };
+        finding.evidence.method = "ball of many bits";
+        for bits in BITS {
+            let domain = Precise::new(bits);
+            let values = run.at(&domain, &sampler.states(&domain, 1, index));
+            let existing = layout.existing(&values, span);
+            let seen = Seen { values: &values, existing: &existing };
+            if self.seek_witness(sampler, index, span.residual.clone(), &seen, bits, finding) {
+                break;
+            }
+        }
+        true
+    }
+
+    /// Whether a state is found in a part by dividing the ranges of what is drawn; a witness settles
+    /// the claim.
+    fn state_inside(
+        &self,
+        item: &Recorded<'_>,
+        sampler: &Sampler,
+        part: &Part,
+        finding: &mut Finding,
+    ) -> bool {
+        let Some(point) = part.point(&sampler.extents()) else { return false };
+        let numbers: Option<Vec<Rational>> = sampler
+            .recipes()
+            .iter()
+            .zip(&point)
+            .map(|(draw, x)| draw.only().or_else(|| Rational::from_f64(*x)))
+            .collect();
+        let Some(numbers) = numbers else { return false };
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
+        let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
+        let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
+        if !layout.existing(&values, span)[0] {
+            return false;
+        }
+        let residuals = values.range(span.residual.clone());
+        let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
+        if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {
+            let digits = away.and_then(|value| Mixed::beyond_f64(value, 0));
+            let printed = sampler.printed_from(&numbers, BITS[0]);
+            let witness = witness::witness(self.case, None, &printed, (mid, rad));
+            let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
+            finding.evidence.witness = Some(Witness { digits, ..witness });
+            finding.evidence.method = "ball of many bits";
+            finding.settled = Some(Verdict::Refuted);
+            finding.rung("ball of many bits", found);
+        }
+        true
+    }
+}
+
+/// The signs that make a part of the states.
+struct Membership<'p> {
+    part: &'p Part,
+    tape: Tape,
+}
+
+impl<'p> Membership<'p> {
+    fn of(part: &'p Part) -> Self {
+        Self { part, tape: Tape::new(&part.graph, &part.positive) }
+    }
+
+    /// Leaves those states that are known to lie in the part.
+    fn restrict<D: Enclosing + Clone>(
+        &self,
+        sampler: &Sampler,
+        domain: &D,
+        start: u64,
+        existing: &mut [bool],
+    ) {
+        let mut inputs = sampler.drawn(domain, D::LANES, start);
+        for (input, positive) in &self.part.signs {
+            let Some(block) = inputs.get(*input) else { continue };
+            for (lane, exists) in existing.iter_mut().enumerate() {
+                let sign = D::enclosure(block, lane).map(|(mid, _)| mid > 0.0);
+                *exists = *exists && sign == Some(*positive);
+            }
+        }
+        let further = self.part.graph.inputs().saturating_sub(inputs.len());
+        inputs.extend((0..further).map(|k| domain.constant(&antiderivative_value(k))));
+        let mut evaluator = Evaluator::new(&self.tape, domain.clone());
+        evaluator.run(&inputs);
+        for block in evaluator.outputs() {
+            for (lane, exists) in existing.iter_mut().enumerate() {
+                let is_positive = D::excludes_zero(block, lane)
+                    && D::enclosure(block, lane).is_some_and(|(mid, _)| mid > 0.0);
+                *exists = *exists && is_positive;
+            }
+        }
+    }
+}

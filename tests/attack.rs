@@ -1,0 +1,96 @@
+//! Random claims of known truth: no verdict on them is wrong.
+//!
+//! Scenes and claims are grown, rewritten and spoilt by a generator of its own; what is true of them is
+//! found by an oracle that shares nothing with the verifier: floats of 640 bits with their own notion of
+//! what has a value, at states in every cell of signs that it finds. A wrong verdict is made as small as
+//! possible and printed as a file, with the variables that repeat it.
+//!
+//! | variable | |
+//! |---|---|
+//! | `LIOUVILLE_ATTACK=1000000` | so many cases, in place of 8 200 with 10 000 claims |
+//! | `LIOUVILLE_ATTACK_SEED=7` | others |
+//! | `LIOUVILLE_ATTACK_ONLY=123` | one of them |
+//! | `LIOUVILLE_ATTACK_SHOW=10` | how many wrong verdicts of each class are shown |
+
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+
+#[path = "attack/claim.rs"]
+mod claim;
+#[path = "attack/derive.rs"]
+mod derive;
+#[path = "attack/draw.rs"]
+mod draw;
+#[path = "attack/expr.rs"]
+mod expr;
+#[path = "attack/flow.rs"]
+mod flow;
+#[path = "attack/grow.rs"]
+mod grow;
+#[path = "attack/interval.rs"]
+mod interval;
+#[path = "attack/jet.rs"]
+mod jet;
+#[path = "attack/levels.rs"]
+mod levels;
+#[path = "attack/limits.rs"]
+mod limits;
+#[path = "attack/oracle.rs"]
+mod oracle;
+#[path = "attack/own.rs"]
+mod own;
+#[path = "attack/print.rs"]
+mod print;
+#[path = "attack/random.rs"]
+mod random;
+#[path = "attack/real.rs"]
+mod real;
+#[path = "attack/rewrite.rs"]
+mod rewrite;
+#[path = "attack/run.rs"]
+mod run;
+#[path = "attack/scene.rs"]
+mod scene;
+#[path = "attack/scout.rs"]
+mod scout;
+#[path = "attack/sheets.rs"]
+mod sheets;
+#[path = "attack/shrink.rs"]
+mod shrink;
+#[path = "attack/spoil.rs"]
+mod spoil;
+#[path = "attack/table.rs"]
+mod table;
+#[path = "attack/told.rs"]
+mod told;
+#[path = "attack/wrong.rs"]
+mod wrong;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    // A panic of the verifier is a finding, not the end.
+    std::panic::set_hook(Box::new(|_| {}));
+    let trials = vec![
+        Trial::test("derivatives are what differences show", own::derivatives),
+        Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
+        Trial::test("enclosures hold what is printed", own::enclosures),
+        Trial::test("the oracle knows what is known", own::known_truths),
+        Trial::test("a case depends on its number alone", own::addresses),
+        Trial::test("zeros in towers of roots are within the bound", sheets::random_towers),
+        Trial::test("principal roots go beyond the bound", sheets::principal_roots),
+        Trial::test("dependent roots are on two components", sheets::dependent_roots),
+        Trial::test("no verdict on a random claim is wrong", attack),
+    ];
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+fn attack() -> Result<(), Failed> {
+    let plan = run::Plan::of_environment();
+    let outcome = run::run(&plan);
+    println!("{}", outcome.text);
+    match outcome.wrong {
+        0 => Ok(()),
+        n => Err(Failed::from(format!("{n} wrong verdicts"))),
+    }
+}

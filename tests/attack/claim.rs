@@ -1,0 +1,284 @@
+//! Claims, as text and as what the oracle finds at a state.
+
+use super::expr::{Tree, neg};
+use super::jet::{Jet, Place};
+use super::print::Hand;
+use super::real::{
+    Found, Lack, Real, difference, height, is_zero, modulus, nearest, number, sum, whole,
+};
+use super::scene::{Origin, Scene};
+
+/// A claim about a scene.
+#[derive(Clone, Debug)]
+pub enum Claim {
+    Identity(Tree, Tree),
+    Integral(Tree),
+    Rate(Tree, Tree),
+    Density(Tree),
+    /// F with its cofactor.
+    Relation(Tree, Tree),
+    SymmetryField(Vec<(usize, Tree)>),
+    Independent(Vec<Tree>),
+    /// A function, its limit, and the parameter that tends to 0 from above.
+    Limit(Tree, Tree, usize),
+}
+
+/// What is found at a state.
+#[derive(Clone, Debug, PartialEq)]
+pub enum At {
+    /// The residual is 0.
+    Zero,
+    /// It is not, by about so much.
+    Off(f64),
+    /// There is no residual.
+    Without(Lack),
+}
+
+impl Claim {
+    /// The word of the statement.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Claim::Identity(..) => "identity",
+            Claim::Integral(_) => "integral",
+            Claim::Rate(..) => "rate",
+            Claim::Density(_) => "density",
+            Claim::Relation(..) => "invariant-relation",
+            Claim::SymmetryField(_) => "symmetry-field",
+            Claim::Independent(_) => "independent",
+            Claim::Limit(..) => "limit",
+        }
+    }
+
+    /// Is one state at which the residual is not 0 what is claimed?
+    pub fn is_negated(&self) -> bool {
+        matches!(self, Claim::Independent(_))
+    }
+
+    /// All formulas.
+    pub fn trees(&self) -> Vec<&Tree> {
+        match self {
+            Claim::Identity(a, b) | Claim::Rate(a, b) | Claim::Relation(a, b) => vec![a, b],
+            Claim::Limit(a, b, _) => vec![a, b],
+            Claim::Integral(a) | Claim::Density(a) => vec![a],
+            Claim::SymmetryField(parts) => parts.iter().map(|(_, tree)| tree).collect(),
+            Claim::Independent(list) => list.iter().collect(),
+        }
+    }
+
+    /// The same claim about other formulas.
+    pub fn with_trees(&self, trees: &[Tree]) -> Self {
+        let tree = |k: usize| trees[k].clone();
+        match self {
+            Claim::Identity(..) => Claim::Identity(tree(0), tree(1)),
+            Claim::Rate(..) => Claim::Rate(tree(0), tree(1)),
+            Claim::Relation(..) => Claim::Relation(tree(0), tree(1)),
+            Claim::Limit(_, _, by) => Claim::Limit(tree(0), tree(1), *by),
+            Claim::Integral(_) => Claim::Integral(tree(0)),
+            Claim::Density(_) => Claim::Density(tree(0)),
+            Claim::SymmetryField(parts) => {
+                let place = |(k, (place, _)): (usize, &(usize, Tree))| (*place, tree(k));
+                Claim::SymmetryField(parts.iter().enumerate().map(place).collect())
+            }
+            Claim::Independent(_) => Claim::Independent(trees.to_vec()),
+        }
+    }
+
+    /// The body of its table.
+    pub fn body(&self, names: &[String], hand: Hand) -> String {
+        let text = |tree: &Tree| hand.text(tree, names);
+        match self {
+            Claim::Identity(a, b) => format!("identity = \"{} = {}\"", text(a), text(b)),
+            Claim::Integral(a) => format!("integral = \"{}\"", text(a)),
+            Claim::Rate(a, b) => format!("rate = \"{}\"\nequals = \"{}\"", text(a), text(b)),
+            Claim::Density(a) => format!("density = \"{}\"", text(a)),
+            Claim::Relation(a, b) => {
+                format!("invariant-relation = \"{}\"\ncofactor = \"{}\"", text(a), text(b))
+            }
+            Claim::SymmetryField(parts) => {
+                let part = |(place, tree): &(usize, Tree)| {
+                    format!("{} = \"{}\"", names[*place], text(tree))
+                };
+                let parts: Vec<String> = parts.iter().map(part).collect();
+                format!("symmetry-field = {{ {} }}", parts.join(", "))
+            }
+            Claim::Independent(list) => {
+                let list: Vec<String> =
+                    list.iter().map(|tree| format!("\"{}\"", text(tree))).collect();
+                format!("independent = [{}]", list.join(", "))
+            }
+            Claim::Limit(a, b, by) => {
+                let (a, b) = (text(a), text(b));
+                format!("limit = \"{a}\"\nequals = \"{b}\"\nparameter = \"{}\"", names[*by])
+            }
+        }
+    }
+
+    /// What is found at a state with these values of the symbols.
+    pub fn at(&self, scene: &Scene, values: &[Found<Real>]) -> At {
+        let found = match self {
+            Claim::Limit(a, b, by) => return limit(a, b, *by, scene, values),
+            _ => self.residuals(scene, values),
+        };
+        match found {
+            Err(lack) => At::Without(lack),
+            Ok(list) => {
+                let largest = list.iter().max_by_key(|x| height(x)).filter(|x| !is_zero(x));
+                match (largest, scene.lack_elsewhere(values)) {
+                    (_, Err(lack)) => At::Without(lack),
+                    (None, Ok(())) => At::Zero,
+                    (Some(largest), Ok(())) => At::Off(nearest(&modulus(largest))),
+                }
+            }
+        }
+    }
+
+    fn residuals(&self, scene: &Scene, values: &[Found<Real>]) -> Found<Vec<Real>> {
+        let states = scene.states();
+        let place = Place { values, along: &states };
+        let flow = || -> Found<Vec<Jet>> {
+            let rate = |at: &usize| match scene.rate(*at) {
+                Some(rate) => place.jet(rate),
+                None => Ok(Jet { value: whole(0), slopes: vec![whole(0); states.len()] }),
+            };
+            states.iter().map(rate).collect()
+        };
+        let along = |of: &Jet, by: &[Jet]| -> Found<Real> {
+            of.slopes
+                .iter()
+                .zip(by)
+                .try_fold(whole(0), |total, (slope, rate)| sum(&total, &(slope * &rate.value)))
+        };
+        match self {
+            Claim::Identity(a, b) => {
+                let plain = Place { values, along: &[] };
+                let (a, b) = super::real::both(plain.value(a), plain.value(b))?;
+                Ok(vec![difference(&a, &b)?])
+            }
+            Claim::Integral(f) => Ok(vec![along(&place.jet(f)?, &flow()?)?]),
+            Claim::Rate(f, g) => {
+                let (f, g) = super::real::both(place.jet(f), place.value(g))?;
+                Ok(vec![difference(&along(&f, &flow()?)?, &g)?])
+            }
+            Claim::Relation(f, cofactor) => {
+                let (f, cofactor) = super::real::both(place.jet(f), place.value(cofactor))?;
+                Ok(vec![difference(&along(&f, &flow()?)?, &(cofactor * &f.value))?])
+            }
+            Claim::Density(f) => {
+                let (f, flow) = (place.jet(f)?, flow()?);
+                let rate = super::real::quotient(&along(&f, &flow)?, &f.value)?;
+                let diverging =
+                    |total: Real, (k, rate): (usize, &Jet)| sum(&total, &rate.slopes[k]);
+                Ok(vec![flow.iter().enumerate().try_fold(rate, diverging)?])
+            }
+            Claim::SymmetryField(parts) => {
+                let flow = flow()?;
+                let zero = || Jet { value: whole(0), slopes: vec![whole(0); states.len()] };
+                let own = |at: &usize| match parts.iter().find(|(place, _)| place == at) {
+                    Some((_, tree)) => place.jet(tree),
+                    None => Ok(zero()),
+                };
+                let field: Vec<Jet> = states.iter().map(own).collect::<Found<_>>()?;
+                let mut found = Vec::new();
+                for (u, v) in field.iter().zip(&flow) {
+                    found.push(difference(&along(v, &field)?, &along(u, &flow)?)?);
+                }
+                for gradient in gradients(scene, &place)? {
+                    found.push(along(&gradient, &field)?);
+                }
+                Ok(found)
+            }
+            Claim::Independent(list) => {
+                let mut rows: Vec<Vec<Real>> =
+                    gradients(scene, &place)?.into_iter().map(|jet| jet.slopes).collect();
+                for tree in list {
+                    rows.push(place.jet(tree)?.slopes);
+                }
+                let full = rank(rows.clone())? == rows.len();
+                Ok(vec![whole(i64::from(full))])
+            }
+            Claim::Limit(..) => Err(Lack::Decision),
+        }
+    }
+}
+
+/// The level functions with their gradients.
+fn gradients(scene: &Scene, place: &Place<'_>) -> Found<Vec<Jet>> {
+    let equations = scene.level.iter().flat_map(|level| &level.equations);
+    equations.map(|(a, b)| place.jet(&super::expr::add(a, &neg(b)))).collect()
+}
+
+/// The rank of some rows.
+fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
+    let mut found = 0;
+    let columns = rows.first().map_or(0, Vec::len);
+    while found < rows.len() {
+        let all = (found..rows.len()).flat_map(|r| (0..columns).map(move |c| (r, c)));
+        let Some((r, c)) = all.max_by_key(|(r, c)| height(&rows[*r][*c])) else { break };
+        if is_zero(&rows[r][c]) {
+            break;
+        }
+        rows.swap(found, r);
+        let (above, below) = rows.split_at_mut(found + 1);
+        let pivot = &above[found];
+        for row in below {
+            let factor = &row[c] / &pivot[c];
+            for (column, (entry, by)) in row.iter_mut().zip(pivot).enumerate() {
+                *entry = match column == c {
+                    true => whole(0),
+                    false => difference(entry, &(&factor * by))?,
+                };
+            }
+        }
+        found += 1;
+    }
+    Ok(found)
+}
+
+/// Does a function tend to its limit, from each side on which it has values?
+fn limit(a: &Tree, b: &Tree, by: usize, scene: &Scene, values: &[Found<Real>]) -> At {
+    let sides = [1, -1].map(|side| from_one_side(a, b, (by, side), scene, values));
+    match sides {
+        [At::Without(Lack::Value), side] | [side, At::Without(Lack::Value)] => side,
+        [At::Zero, At::Zero] => At::Zero,
+        [At::Off(above), At::Off(below)] => At::Off(above.max(below)),
+        // Sides that differ: which of them is meant is not said.
+        _ => At::Without(Lack::Decision),
+    }
+}
+
+/// The same at the steps 10^-12, 10^-24, 10^-36 on one side.
+fn from_one_side(
+    a: &Tree,
+    b: &Tree,
+    (by, side): (usize, i64),
+    scene: &Scene,
+    values: &[Found<Real>],
+) -> At {
+    let mut gaps: Vec<f64> = Vec::new();
+    let mut scale: f64 = 1.0;
+    for tens in [-12, -24, -36] {
+        let mut values = values.to_vec();
+        values[by] = Ok(number(super::expr::Number { top: side, bottom: 1, tens }));
+        for (place, symbol) in scene.symbols.iter().enumerate() {
+            if let Origin::Formula(tree) = &symbol.origin {
+                values[place] = Place { values: &values, along: &[] }.value(tree);
+            }
+        }
+        let place = Place { values: &values, along: &[] };
+        let found = super::real::both(place.value(a), place.value(b));
+        let gap = found.and_then(|(a, b)| {
+            scale = scale.max(nearest(&modulus(&b)));
+            difference(&a, &b)
+        });
+        match gap {
+            Ok(gap) => gaps.push(nearest(&modulus(&gap))),
+            Err(lack) => return At::Without(lack),
+        }
+    }
+    let [_, near, nearer] = gaps[..] else { return At::Without(Lack::Decision) };
+    match () {
+        () if nearer <= 1e-7 * scale && nearer <= near => At::Zero,
+        () if nearer >= 1e-3 * scale && nearer >= 0.5 * near => At::Off(nearer),
+        () => At::Without(Lack::Decision),
+    }
+}

@@ -1,0 +1,212 @@
+//! Values and derivatives of expressions, by the oracle's own forward differentiation.
+
+use super::expr::{Expr, Function, Tree};
+use super::real::{
+    Found, Lack, Real, both, difference, exactly, exp, is_zero, log, modulus, nearest, number,
+    quotient, root, sign, sum, to_the, whole,
+};
+
+/// A value with its partial derivatives.
+#[derive(Clone, Debug)]
+pub struct Jet {
+    pub value: Real,
+    pub slopes: Vec<Real>,
+}
+
+/// Values of the symbols, and which of them derivatives are taken by.
+pub struct Place<'a> {
+    pub values: &'a [Found<Real>],
+    pub along: &'a [usize],
+}
+
+/// Points beside a state at which a function is looked at that vanishes there.
+const BESIDE: i64 = 3;
+
+impl Place<'_> {
+    /// The value alone.
+    pub fn value(&self, tree: &Tree) -> Found<Real> {
+        Place { values: self.values, along: &[] }.jet(tree).map(|jet| jet.value)
+    }
+
+    /// Value and derivatives.
+    pub fn jet(&self, tree: &Tree) -> Found<Jet> {
+        match &**tree {
+            Expr::Number(known) => Ok(self.constant(number(*known))),
+            Expr::Symbol(place) => {
+                let slope = |by: &usize| whole(i64::from(by == place));
+                let slopes = self.along.iter().map(slope).collect();
+                Ok(Jet { value: self.values[*place].clone()?, slopes })
+            }
+            Expr::Neg(a) => self.jet(a).map(|a| scaled(&a, &whole(-1))),
+            Expr::Add(a, b) => {
+                let (a, b) = both(self.jet(a), self.jet(b))?;
+                combined(&a, &b, sum)
+            }
+            Expr::Sub(a, b) => {
+                let (a, b) = both(self.jet(a), self.jet(b))?;
+                combined(&a, &b, difference)
+            }
+            Expr::Mul(a, b) => {
+                let (a, b) = both(self.jet(a), self.jet(b))?;
+                product(&a, &b)
+            }
+            Expr::Div(a, b) => {
+                let (a, b) = both(self.jet(a), self.jet(b))?;
+                let inverse = quotient(&whole(1), &b.value)?;
+                let slope = -(&inverse * &inverse);
+                product(&a, &chained(&b, inverse, &slope))
+            }
+            Expr::Power(a, top, 1) => {
+                let inner = self.jet(a)?;
+                let value = to_the(&inner.value, *top)?;
+                let slope = match top {
+                    0 => whole(0),
+                    n => whole(*n) * to_the(&inner.value, n - 1)?,
+                };
+                Ok(chained(&inner, value, &slope))
+            }
+            Expr::Power(a, top, bottom) => {
+                let inner = self.jet(a)?;
+                self.fractional(a, &inner, *top, *bottom)
+            }
+            Expr::PowerTo(a, b) => {
+                let (a, b) = both(self.jet(a), self.jet(b))?;
+                match sign(&a.value) {
+                    -1 => return Err(Lack::Value),
+                    // 0^b is 0 for b > 0; whether that is a value is a matter of taste.
+                    0 => return Err(Lack::Decision),
+                    _ => {}
+                }
+                let logarithm = chained(&a, log(&a.value)?, &quotient(&whole(1), &a.value)?);
+                let exponent = product(&b, &logarithm)?;
+                let value = exp(&exponent.value)?;
+                Ok(chained(&exponent, value.clone(), &value))
+            }
+            Expr::Of(function, a) => {
+                let inner = self.jet(a)?;
+                self.of(*function, a, &inner)
+            }
+            Expr::Norm(parts) => self.norm(tree, parts),
+        }
+    }
+
+    fn constant(&self, value: Real) -> Jet {
+        Jet { value, slopes: vec![whole(0); self.along.len()] }
+    }
+
+    /// 0 with derivatives 0 where `of` vanishes around the place as well; no derivative otherwise.
+    fn corner(&self, of: &Tree) -> Found<Jet> {
+        if self.along.is_empty() {
+            return Ok(self.constant(whole(0)));
+        }
+        for step in 1..=BESIDE {
+            let mut values = self.values.to_vec();
+            for (k, place) in self.along.iter().enumerate() {
+                // Directions in general position, and steps that f64 would still see.
+                let turn = (step * 7 + k as i64 * 5) % 11 - 5;
+                let by = exactly((turn as f64 + 0.37) * 2f64.powi(-40));
+                values[*place] = values[*place].clone().map(|x| x + by);
+            }
+            let beside = Place { values: &values, along: &[] }.value(of)?;
+            if !is_zero(&beside) {
+                return Err(Lack::Value);
+            }
+        }
+        Ok(self.constant(whole(0)))
+    }
+
+    fn of(&self, function: Function, a: &Tree, inner: &Jet) -> Found<Jet> {
+        let x = &inner.value;
+        let (value, slope) = match function {
+            Function::Root if is_zero(x) => return self.corner(a),
+            Function::Root => {
+                let value = root(x)?;
+                let slope = quotient(&whole(1), &(&value * whole(2)))?;
+                (value, slope)
+            }
+            Function::Modulus if is_zero(x) => return self.corner(a),
+            Function::Modulus => (modulus(x), whole(i64::from(sign(x)))),
+            Function::Exp => {
+                let value = exp(x)?;
+                (value.clone(), value)
+            }
+            Function::Log => (log(x)?, quotient(&whole(1), x)?),
+            Function::Sin | Function::Cos if is_zero(x) => match function {
+                Function::Sin => (whole(0), whole(1)),
+                _ => (whole(1), whole(0)),
+            },
+            Function::Sin | Function::Cos if nearest(x).abs() > 1e6 => return Err(Lack::Decision),
+            Function::Sin => (x.sin(), x.cos()),
+            Function::Cos => (x.cos(), -x.sin()),
+            Function::Atan if is_zero(x) => (whole(0), whole(1)),
+            Function::Atan => (x.atan(), whole(1) / (whole(1) + x * x)),
+        };
+        Ok(chained(inner, value, &slope))
+    }
+
+    /// x^(top/bottom), for x > 0; at 0 too where roots alone make it.
+    fn fractional(&self, a: &Tree, inner: &Jet, top: i64, bottom: i64) -> Found<Jet> {
+        let x = &inner.value;
+        match sign(x) {
+            -1 => return Err(Lack::Value),
+            0 if top < 0 => return Err(Lack::Value),
+            0 if bottom == 2 => return self.corner(a),
+            0 => return Err(Lack::Decision),
+            _ => {}
+        }
+        let base = match bottom {
+            2 => root(x)?,
+            4 => root(&root(x)?)?,
+            8 => root(&root(&root(x)?)?)?,
+            _ => exp(&(log(x)? / whole(bottom)))?,
+        };
+        let value = to_the(&base, top)?;
+        let slope = &value * whole(top) / (x * whole(bottom));
+        Ok(chained(inner, value, &slope))
+    }
+
+    fn norm(&self, whole_norm: &Tree, parts: &[Tree; 3]) -> Found<Jet> {
+        let mut total = self.constant(whole(0));
+        let mut lack = None;
+        for part in parts {
+            match self.jet(part) {
+                Ok(part) => total = combined(&total, &product(&part, &part)?, sum)?,
+                Err(Lack::Value) => return Err(Lack::Value),
+                Err(found) => lack = Some(found),
+            }
+        }
+        match lack {
+            Some(lack) => Err(lack),
+            None if is_zero(&total.value) => self.corner(whole_norm),
+            None => {
+                let value = root(&total.value)?;
+                let slope = quotient(&whole(1), &(&value * whole(2)))?;
+                Ok(chained(&total, value, &slope))
+            }
+        }
+    }
+}
+
+/// f(a), f' being `slope`.
+fn chained(a: &Jet, value: Real, slope: &Real) -> Jet {
+    Jet { value, slopes: a.slopes.iter().map(|by| times(by, slope)).collect() }
+}
+
+fn scaled(a: &Jet, by: &Real) -> Jet {
+    Jet { value: &a.value * by, slopes: a.slopes.iter().map(|slope| times(slope, by)).collect() }
+}
+
+fn times(a: &Real, b: &Real) -> Real {
+    if is_zero(a) || is_zero(b) { whole(0) } else { a * b }
+}
+
+fn combined(a: &Jet, b: &Jet, by: fn(&Real, &Real) -> Found<Real>) -> Found<Jet> {
+    let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(|(a, b)| by(a, b)).collect();
+    Ok(Jet { value: by(&a.value, &b.value)?, slopes: slopes? })
+}
+
+fn product(a: &Jet, b: &Jet) -> Found<Jet> {
+    let slope = |(x, y): (&Real, &Real)| sum(&times(x, &b.value), &times(&a.value, y));
+    let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(slope).collect();
+    Ok(Jet { value: times(&a.value, &b.value), slopes: slopes? })
+}

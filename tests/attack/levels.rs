@@ -1,0 +1,310 @@
+//! Level sets whose branches the attack knows: graphs, products, spheres, lines, empty ones.
+
+use std::rc::Rc;
+
+use super::claim::Claim;
+use super::draw::Made;
+use super::expr::{
+    Expr, Number, Tree, add, div, modulus, mul, neg, node, ratio, replaced, root, square, sub,
+    symbol, whole,
+};
+use super::flow::Known;
+use super::grow::Garden;
+use super::random::Stream;
+use super::rewrite::{Rewritten, rewritten};
+use super::scene::{Level, Origin, Scene, Symbol};
+use super::spoil::{spoilt, unsigned};
+
+const X: usize = 0;
+const Y: usize = 1;
+const Z: usize = 2;
+
+fn wide(n: i64) -> Origin {
+    Origin::State(Number { top: -n, bottom: 1, tens: 0 }, Number { top: n, bottom: 1, tens: 0 })
+}
+
+/// A scene on a level, with claims.
+pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
+    let own = |name: &str, origin: Origin| Symbol { name: name.to_string(), origin };
+    let mut scene = Scene::default();
+    for name in ["x", "y", "z"] {
+        let origin = match stream.below(4) {
+            0 => {
+                let (low, high) = super::draw::range(stream);
+                Origin::State(low, high)
+            }
+            1 => wide(20),
+            _ => wide(2),
+        };
+        scene.symbols.push(own(name, origin));
+    }
+    let (level, round) = match stream.below(10) {
+        0..=2 => (graph(&mut scene, stream), false),
+        3..=4 => (product(&mut scene, stream), false),
+        5 => (sphere(stream), true),
+        6..=7 => charted(&mut scene, stream),
+        8 => (lines(stream), false),
+        _ => (empty(stream), false),
+    };
+    // A rotation keeps the circles about the z axis and the spheres.
+    let turns = round && stream.once_in(2);
+    if turns {
+        scene.field = vec![(X, symbol(Y)), (Y, neg(&symbol(X)))];
+    }
+    scene.level = Some(level);
+    let known = Known {
+        integrals: match turns {
+            true => vec![add(&square(&symbol(X)), &square(&symbol(Y))), symbol(Z)],
+            false => vec![symbol(X), symbol(Y), symbol(Z)],
+        },
+        density: whole(1),
+        relation: (whole(1), whole(0)),
+        symmetries: vec![scene.field.clone()],
+    };
+    let count = if stream.once_in(6) { 2 } else { 1 };
+    let made = |stream: &mut Stream| {
+        let mut made = claim(&scene, &known, stream);
+        // What is true on the level by construction need not be so off it.
+        if stream.once_in(8) {
+            (made.everywhere, made.vanishes) = (true, false);
+        }
+        made
+    };
+    let made = (0..count).map(|_| made(stream)).collect();
+    (scene, made)
+}
+
+/// x as a function of y and z, typed in several ways.
+fn graph(scene: &mut Scene, stream: &mut Stream) -> Level {
+    let garden = Garden { scene, symbols: vec![Y, Z], functions: false, roots: true };
+    let value = match stream.below(6) {
+        0 => neg(&root(&symbol(Y))),
+        1 => root(&add(&symbol(Y), &modulus(&symbol(Y)))),
+        2 => add(&root(&symbol(Y)), &symbol(Z)),
+        3 => modulus(&symbol(Y)),
+        _ => garden.tree(stream, 2),
+    };
+    let x = symbol(X);
+    let equation = match stream.below(4) {
+        0 => (sub(&x, &value), whole(0)),
+        1 => {
+            let factor = add(&whole(1), &square(&symbol(Z)));
+            (mul(&factor, &x), mul(&factor, &value))
+        }
+        2 => (add(&value, &whole(1)), add(&x, &whole(1))),
+        _ => (x, value.clone()),
+    };
+    Level { equations: vec![equation], branches: vec![vec![(X, value)]], chart: None }
+}
+
+/// A product of two factors, each of which may vanish.
+fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
+    let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
+    // Where a point is on a circle.
+    let t = symbol(scene.symbols.len());
+    if let Origin::State(low, high) = wide(6) {
+        let origin = Origin::Input(low, high);
+        scene.symbols.push(Symbol { name: "t".to_string(), origin });
+    }
+    let value = match stream.below(4) {
+        0 => whole(0),
+        1 => square(&y),
+        2 => whole(1),
+        _ => mul(&y, &z),
+    };
+    let first = sub(&x, &value);
+    let circle = |at: i64, radius: Tree| {
+        let below = add(&whole(1), &square(&t));
+        let along = div(&sub(&whole(1), &square(&t)), &below);
+        let across = div(&mul(&whole(2), &t), &below);
+        let branch = vec![
+            (Y, add(&whole(at), &mul(&radius, &along))),
+            (Z, add(&whole(at), &mul(&radius, &across))),
+        ];
+        let centre = whole(at);
+        let distance = add(&square(&sub(&y, &centre)), &square(&sub(&z, &centre)));
+        (sub(&distance, &square(&radius)), vec![branch])
+    };
+    let (second, mut branches) = match stream.below(6) {
+        0 => circle(0, ratio(1, 100)),
+        1 => circle(1, ratio(1, 10)),
+        2 => circle(0, whole(1)),
+        3 => (y.clone(), vec![vec![(Y, whole(0))]]),
+        4 => (sub(&y, &whole(1)), vec![vec![(Y, whole(1))]]),
+        // No second branch.
+        _ => (add(&whole(1), &square(&y)), Vec::new()),
+    };
+    branches.push(vec![(X, value.clone())]);
+    let equation = match stream.once_in(2) {
+        true => (mul(&first, &second), whole(0)),
+        false => (mul(&x, &second), mul(&value, &second)),
+    };
+    Level { equations: vec![equation], branches, chart: None }
+}
+
+/// The unit sphere or a cylinder by its equation, a hyperbola.
+fn sphere(stream: &mut Stream) -> Level {
+    let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
+    let (function, value, rest) = match stream.below(3) {
+        0 => {
+            let all = add(&add(&square(&x), &square(&y)), &square(&z));
+            (all, whole(1), sub(&sub(&whole(1), &square(&y)), &square(&z)))
+        }
+        1 => (add(&square(&x), &square(&y)), whole(2), sub(&whole(2), &square(&y))),
+        _ => (add(&square(&x), &square(&y)), ratio(1, 4), sub(&ratio(1, 4), &square(&y))),
+    };
+    let branches = vec![vec![(X, root(&rest))], vec![(X, neg(&root(&rest)))]];
+    Level { equations: vec![(function, value)], branches, chart: None }
+}
+
+/// A sphere, a cylinder or a graph with a typed chart.
+fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
+    // The image of a chart lies in the declared ranges.
+    for symbol in &mut scene.symbols {
+        symbol.origin = wide(50);
+    }
+    for name in ["u", "v"] {
+        let (low, high) = super::draw::range(stream);
+        scene.symbols.push(Symbol { name: name.to_string(), origin: Origin::Input(low, high) });
+    }
+    let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
+    let (u, v) = (symbol(3), symbol(4));
+    let shape = stream.below(4);
+    let (equation, chart) = match shape {
+        0 => {
+            let below = add(&add(&whole(1), &square(&u)), &square(&v));
+            let chart = vec![
+                (X, div(&mul(&whole(2), &u), &below)),
+                (Y, div(&mul(&whole(2), &v), &below)),
+                (Z, div(&sub(&sub(&whole(1), &square(&u)), &square(&v)), &below)),
+            ];
+            ((add(&add(&square(&x), &square(&y)), &square(&z)), whole(1)), chart)
+        }
+        1 => {
+            let below = add(&whole(1), &square(&u));
+            let chart = vec![
+                (X, div(&mul(&whole(2), &u), &below)),
+                (Y, div(&sub(&whole(1), &square(&u)), &below)),
+                (Z, v),
+            ];
+            ((add(&square(&x), &square(&y)), whole(1)), chart)
+        }
+        2 => return (curve(&u, &v), false),
+        _ => {
+            let (a, b) = (add(&u, &modulus(&u)), root(&square(&add(&v, &whole(1)))));
+            let chart = vec![(X, add(&a, &b)), (Y, u), (Z, v)];
+            ((x, add(&add(&y, &modulus(&y)), &modulus(&add(&z, &whole(1))))), chart)
+        }
+    };
+    let branches = vec![chart.clone()];
+    (Level { equations: vec![equation], branches, chart: Some(chart) }, shape < 2)
+}
+
+/// The plane z = 0 with a chart of a parabola, whose large terms cancel.
+fn curve(u: &Tree, v: &Tree) -> Level {
+    let along = add(u, v);
+    let nothing =
+        sub(&square(&sub(u, v)), &add(&sub(&square(u), &mul(&whole(2), &mul(u, v))), &square(v)));
+    let large = mul(&Rc::new(Expr::Number(Number { top: 1, bottom: 1, tens: 12 })), &nothing);
+    let chart = vec![(X, along.clone()), (Y, add(&square(&along), &large)), (Z, mul(&whole(0), u))];
+    let plane = vec![(Z, whole(0))];
+    Level { equations: vec![(symbol(Z), whole(0))], branches: vec![plane], chart: Some(chart) }
+}
+
+/// Two linear equations in the same variables.
+fn lines(stream: &mut Stream) -> Level {
+    let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
+    let k = *stream.pick(&[1, 2, 3]);
+    let first = add(&add(&x, &mul(&whole(k), &y)), &mul(&whole(3), &z));
+    let second = add(&x, &y);
+    // (k − 1) y = −3z; for k = 1 z = 0 is left, and x = −y.
+    let branch = match k {
+        1 => vec![(Z, whole(0)), (X, neg(&y))],
+        _ => {
+            let value = div(&mul(&whole(-3), &z), &whole(k - 1));
+            vec![(Y, value.clone()), (X, neg(&value))]
+        }
+    };
+    Level {
+        equations: vec![(first, whole(0)), (second, whole(0))],
+        branches: vec![branch],
+        chart: None,
+    }
+}
+
+/// No real points, or none in the ranges.
+fn empty(stream: &mut Stream) -> Level {
+    let (x, y) = (symbol(X), symbol(Y));
+    let (equation, branches) = match stream.below(3) {
+        0 => ((add(&square(&x), &square(&y)), whole(-1)), Vec::new()),
+        1 => {
+            let value = add(&y, &whole(50));
+            ((sub(&x, &value), whole(0)), vec![vec![(X, value)]])
+        }
+        _ => {
+            let value = root(&sub(&whole(-1), &square(&y)));
+            ((x, value.clone()), vec![vec![(X, value)]])
+        }
+    };
+    Level { equations: vec![equation], branches, chart: None }
+}
+
+/// A claim on the level: in one half of them some variables are replaced by what they are there.
+fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
+    if stream.once_in(3) {
+        let mut made = super::draw::claim(scene, known, stream);
+        // What commutes in space may leave the level.
+        made.vanishes &= !matches!(made.claim, Claim::SymmetryField(_));
+        return made;
+    }
+    let garden =
+        Garden { scene, symbols: vec![X, Y, Z], functions: false, roots: !stream.once_in(3) };
+    let ranges = scene.intervals();
+    let depth = 1 + stream.below(2);
+    let tree = garden.tree(stream, depth);
+    let level = scene.level.as_ref();
+    let equation = level.and_then(|level| level.equations.first()).cloned();
+    let mut other = tree.clone();
+    let mut turned = false;
+    if let Some((left, right)) = &equation {
+        for index in (0..other.size()).rev() {
+            if node(&other, index).is_some_and(|part| part == *left) && !stream.once_in(3) {
+                other = replaced(&other, index, right);
+                turned = true;
+            }
+        }
+        if !turned {
+            let (a, b) = (add(&tree, left), add(&other, right));
+            return compared(scene, a, rewritten(&b, &ranges, stream, 2), &garden, stream);
+        }
+    }
+    let other = rewritten(&other, &ranges, stream, 3);
+    compared(scene, tree, other, &garden, stream)
+}
+
+/// Two expressions that are the same on the level, or nearly.
+fn compared(
+    scene: &Scene,
+    left: Tree,
+    right: Rewritten,
+    garden: &Garden<'_>,
+    stream: &mut Stream,
+) -> Made {
+    let (tree, exact) = match stream.below(6) {
+        0 => (spoilt(&right.tree, garden, stream), false),
+        1 => (unsigned(&right.tree, garden, stream), false),
+        _ => (right.tree, right.exact),
+    };
+    let branches = scene.level.as_ref().map_or(&[][..], |level| &level.branches);
+    // What only the oracle draws is not known to claims.
+    let typed =
+        |(_, value): &&(usize, Tree)| (Z + 1..scene.symbols.len()).all(|place| !value.has(place));
+    match (stream.below(8), branches.iter().flatten().find(typed)) {
+        // True on one branch.
+        (0, Some((place, value))) => {
+            Made::new(Claim::Identity(symbol(*place), value.clone()), false)
+        }
+        (1, _) => Made::new(Claim::Integral(sub(&left, &tree)), false),
+        _ => Made::new(Claim::Identity(left, tree), exact),
+    }
+}

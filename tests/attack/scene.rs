@@ -1,0 +1,344 @@
+//! A system as the attack knows it: symbols with ranges, a field, a level, and its own states.
+
+use super::expr::{Expr, Number, Tree};
+use super::interval::Interval;
+use super::jet::Place;
+use super::print::Hand;
+use super::random::Stream;
+use super::real::{Found, Lack, Real, exactly, number, sign};
+use super::scout;
+
+/// Where the values of a symbol come from.
+#[derive(Clone, Debug)]
+pub enum Origin {
+    /// A state variable with its range.
+    State(Number, Number),
+    /// A parameter drawn from a range.
+    Range(Number, Number),
+    /// An input of a typed chart.
+    Input(Number, Number),
+    /// A parameter with one value.
+    Fixed(Number),
+    /// A parameter with a list of values.
+    List(Vec<Number>),
+    /// A parameter made from those before it.
+    Formula(Tree),
+}
+
+/// A name with its origin.
+#[derive(Clone, Debug)]
+pub struct Symbol {
+    pub name: String,
+    pub origin: Origin,
+}
+
+/// A level set, with all its branches as the attack knows them.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// Both sides of each equation.
+    pub equations: Vec<(Tree, Tree)>,
+    /// What each branch makes of what is drawn; together they are the whole level.
+    pub branches: Vec<Vec<(usize, Tree)>>,
+    /// A chart that is typed.
+    pub chart: Option<Vec<(usize, Tree)>>,
+}
+
+/// A system.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    pub symbols: Vec<Symbol>,
+    /// The rates of state variables; what is not named stands still.
+    pub field: Vec<(usize, Tree)>,
+    pub level: Option<Level>,
+}
+
+/// A state by the numbers that it is drawn from.
+#[derive(Clone, Debug)]
+pub struct Point {
+    branch: usize,
+    picks: Vec<usize>,
+    /// Where each symbol is in its range, from 0 to 1.
+    cube: Vec<f64>,
+}
+
+impl Point {
+    /// The point half way between two of one branch and one choice of lists.
+    pub fn between(&self, other: &Self) -> Option<Self> {
+        let same = self.branch == other.branch && self.picks == other.picks;
+        let middle = self.cube.iter().zip(&other.cube).map(|(a, b)| f64::midpoint(*a, *b));
+        same.then(|| Self { cube: middle.collect(), ..self.clone() })
+    }
+}
+
+impl Scene {
+    pub fn names(&self) -> Vec<String> {
+        self.symbols.iter().map(|symbol| symbol.name.clone()).collect()
+    }
+
+    /// The places of the state variables.
+    pub fn states(&self) -> Vec<usize> {
+        let is_state = |place: &usize| matches!(self.symbols[*place].origin, Origin::State(..));
+        (0..self.symbols.len()).filter(is_state).collect()
+    }
+
+    /// Does a typed chart fill the level?
+    pub fn is_filled(&self) -> bool {
+        let fills = |level: &Level| match &level.chart {
+            Some(chart) => level.branches.first() == Some(chart),
+            None => true,
+        };
+        self.level.as_ref().is_none_or(fills)
+    }
+
+    /// Does an expression depend on a parameter?
+    pub fn has_parameter(&self, tree: &Tree) -> bool {
+        let is_state = |place: usize| matches!(self.symbols[place].origin, Origin::State(..));
+        (0..self.symbols.len()).any(|place| !is_state(place) && tree.has(place))
+    }
+
+    /// The rate of a state variable, if it has one.
+    pub fn rate(&self, place: usize) -> Option<&Tree> {
+        self.field.iter().find(|(own, _)| *own == place).map(|(_, rate)| rate)
+    }
+
+    /// Where each symbol can be.
+    pub fn intervals(&self) -> Vec<Interval> {
+        let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);
+        let mut found: Vec<Interval> = Vec::new();
+        for symbol in &self.symbols {
+            let own = match &symbol.origin {
+                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
+                    (value(a), value(b))
+                }
+                Origin::Fixed(n) => (value(n), value(n)),
+                Origin::List(list) => list
+                    .iter()
+                    .map(value)
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                        (low.min(x), high.max(x))
+                    }),
+                Origin::Formula(tree) => super::interval::range(tree, &found)
+                    .unwrap_or((f64::NEG_INFINITY, f64::INFINITY)),
+            };
+            found.push(own);
+        }
+        found
+    }
+
+    /// A random point: anywhere, or near the ends of ranges.
+    pub fn point(&self, stream: &mut Stream, near_ends: bool) -> Point {
+        let branches = self.level.as_ref().map_or(1, |level| level.branches.len());
+        let pick = |symbol: &Symbol, stream: &mut Stream| match &symbol.origin {
+            Origin::List(list) => stream.below(list.len()),
+            _ => 0,
+        };
+        let branch = stream.below(branches);
+        let picks = self.symbols.iter().map(|symbol| pick(symbol, stream)).collect();
+        let coordinate = |stream: &mut Stream| match near_ends && stream.once_in(2) {
+            false => stream.unit(),
+            true => {
+                let off = 10f64.powf(-9.0 * stream.unit());
+                if stream.once_in(2) { off } else { 1.0 - off }
+            }
+        };
+        let cube = self.symbols.iter().map(|_| coordinate(stream)).collect();
+        Point { branch, picks, cube }
+    }
+
+    /// The values of all symbols at a point; `None` where it is no state.
+    pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
+        let within = |a: &Number, b: &Number, place: usize| {
+            let (low, high) = (number(*a), number(*b));
+            let width = &high - &low;
+            Ok(low + width * exactly(point.cube[place]))
+        };
+        let mut values: Vec<Found<Real>> = Vec::new();
+        for (place, symbol) in self.symbols.iter().enumerate() {
+            let value = match &symbol.origin {
+                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
+                    within(a, b, place)
+                }
+                Origin::Fixed(n) => Ok(number(*n)),
+                Origin::List(list) => Ok(number(list[point.picks[place]])),
+                Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
+            };
+            values.push(value);
+        }
+        let Some(level) = &self.level else { return Some(values) };
+        for (place, tree) in level.branches.get(point.branch)? {
+            let value = Place { values: &values, along: &[] }.value(tree).ok()?;
+            if !self.is_in_range(*place, &value) {
+                return None;
+            }
+            values[*place] = Ok(value);
+        }
+        Some(values)
+    }
+
+    /// Is the value inside the declared range, both ends with it?
+    pub fn is_in_range(&self, place: usize, value: &Real) -> bool {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) => {
+                sign(&(value - number(*a))) >= 0 && sign(&(number(*b) - value)) >= 0
+            }
+            _ => true,
+        }
+    }
+
+    /// Do intervals show that no state lies on the level?
+    pub fn is_empty(&self) -> bool {
+        let ranges = self.intervals();
+        let misses = |(place, tree): &(usize, Tree)| {
+            let (low, high) = ranges[*place];
+            super::interval::range(tree, &ranges).is_some_and(|(a, b)| b < low || high < a)
+        };
+        let is_empty =
+            |level: &Level| level.branches.iter().all(|branch| branch.iter().any(misses));
+        self.level.as_ref().is_some_and(is_empty)
+    }
+
+    /// The same scene in the whole space.
+    pub fn without_level(&self) -> Self {
+        Self { level: None, ..self.clone() }
+    }
+
+    /// The same scene on each branch of its level.
+    pub fn branches(&self) -> Vec<Self> {
+        let Some(level) = &self.level else { return vec![self.clone()] };
+        let on = |branch: &Vec<(usize, Tree)>| {
+            let level = Level { branches: vec![branch.clone()], ..level.clone() };
+            Self { level: Some(level), ..self.clone() }
+        };
+        level.branches.iter().map(on).collect()
+    }
+
+    /// The same scene for each choice of listed values.
+    pub fn unlisted(&self) -> Vec<Self> {
+        let mut all = vec![self.clone()];
+        for (place, symbol) in self.symbols.iter().enumerate() {
+            let Origin::List(list) = &symbol.origin else { continue };
+            let fixed = |scene: &Self, value: &Number| {
+                let mut scene = scene.clone();
+                scene.symbols[place].origin = Origin::Fixed(*value);
+                scene
+            };
+            all = all
+                .iter()
+                .flat_map(|scene| list.iter().map(move |value| fixed(scene, value)))
+                .collect();
+        }
+        all
+    }
+
+    /// Is it outside, and not one of the ends? Whether those belong to a range is not asked.
+    pub fn is_out_of_range(&self, place: usize, value: &Real) -> bool {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) => {
+                sign(&(value - number(*a))) < 0 || sign(&(number(*b) - value)) < 0
+            }
+            _ => false,
+        }
+    }
+
+    /// The same in f64.
+    pub fn rough_values(&self, point: &Point) -> Option<Vec<f64>> {
+        let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);
+        let mut values: Vec<f64> = Vec::new();
+        for (place, symbol) in self.symbols.iter().enumerate() {
+            let found = match &symbol.origin {
+                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
+                    value(a) + (value(b) - value(a)) * point.cube[place]
+                }
+                Origin::Fixed(n) => value(n),
+                Origin::List(list) => value(&list[point.picks[place]]),
+                Origin::Formula(tree) => scout::value(tree, &values).unwrap_or(f64::NAN),
+            };
+            values.push(found);
+        }
+        let Some(level) = &self.level else { return Some(values) };
+        for (place, tree) in level.branches.get(point.branch)? {
+            let found = scout::value(tree, &values)?;
+            if let Origin::State(a, b) = &self.symbols[*place].origin
+                && !(found > value(a) && found < value(b))
+            {
+                return None;
+            }
+            values[*place] = found;
+        }
+        Some(values)
+    }
+
+    /// Does what a claim does not mention have a value as well?
+    pub fn lack_elsewhere(&self, values: &[Found<Real>]) -> Found<()> {
+        let place = Place { values, along: &[] };
+        let elsewhere = values.iter().map(|value| value.clone().map(|_| ()));
+        let rates = self.field.iter().map(|(_, rate)| place.value(rate).map(|_| ()));
+        match elsewhere.chain(rates).all(|found| found.is_ok()) {
+            true => Ok(()),
+            false => Err(Lack::Decision),
+        }
+    }
+
+    /// The case file with these claims, each the body of a table.
+    pub fn text(&self, claims: &[String], hand: Hand) -> String {
+        let names = self.names();
+        let quoted = |tree: &Tree| format!("\"{}\"", hand.text(tree, &names));
+        let plain = |n: &Number| Hand(2).text(&std::rc::Rc::new(Expr::Number(*n)), &names);
+        let range = |a: &Number, b: &Number| format!("\"{}..{}\"", plain(a), plain(b));
+        let mut text = String::from("title = \"t\"\n");
+        let parameter = |symbol: &Symbol| match &symbol.origin {
+            Origin::Range(a, b) => Some(range(a, b)),
+            Origin::Fixed(n) => Some(format!("\"{}\"", plain(n))),
+            Origin::List(list) => {
+                let list: Vec<String> = list.iter().map(plain).collect();
+                Some(format!("\"one of {}\"", list.join(", ")))
+            }
+            Origin::Formula(tree) => Some(quoted(tree)),
+            Origin::State(..) | Origin::Input(..) => None,
+        };
+        let parameters: Vec<(&String, String)> = self
+            .symbols
+            .iter()
+            .filter_map(|symbol| Some((&symbol.name, parameter(symbol)?)))
+            .collect();
+        if !parameters.is_empty() {
+            text.push_str("[parameters]\n");
+        }
+        for (name, value) in parameters {
+            text.push_str(&format!("\"{name}\" = {value}\n"));
+        }
+        text.push_str("[state]\n");
+        for symbol in &self.symbols {
+            if let Origin::State(a, b) = &symbol.origin {
+                text.push_str(&format!("{} = {}\n", symbol.name, range(a, b)));
+            }
+        }
+        text.push_str("[field]\n");
+        for place in self.states() {
+            let rate = self.rate(place).map_or("\"0\"".to_string(), quoted);
+            text.push_str(&format!("\"{}'\" = {rate}\n", names[place]));
+        }
+        if let Some(level) = &self.level {
+            let side = |(a, b): &(Tree, Tree)| {
+                format!("\"{} = {}\"", hand.text(a, &names), hand.text(b, &names))
+            };
+            let equations: Vec<String> = level.equations.iter().map(side).collect();
+            text.push_str(&format!("[level]\nequations = [{}]\n", equations.join(", ")));
+            if let Some(chart) = &level.chart {
+                let input = |symbol: &Symbol| match &symbol.origin {
+                    Origin::Input(a, b) => Some(format!("{} = {}", symbol.name, range(a, b))),
+                    _ => None,
+                };
+                let inputs: Vec<String> = self.symbols.iter().filter_map(input).collect();
+                text.push_str(&format!("[level.chart]\ninputs = {{ {} }}\n", inputs.join(", ")));
+                for (place, tree) in chart {
+                    text.push_str(&format!("{} = {}\n", names[*place], quoted(tree)));
+                }
+            }
+        }
+        for claim in claims {
+            text.push_str(&format!("[[claim]]\n{claim}\nexpect = \"open\"\n"));
+        }
+        text
+    }
+}

@@ -1,0 +1,150 @@
+//! What the verifier says of a case, in this process.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Options, Verdict, Witness, judge};
+use num_bigint::BigInt;
+
+use super::jet::Place;
+use super::real::{Found, Lack, Real, difference, height, is_zero, whole};
+use super::scene::{Origin, Scene};
+
+/// What is said of a claim.
+#[derive(Clone, Debug)]
+pub enum Told {
+    Report(Box<ClaimReport>),
+    /// The file cannot be read.
+    Unreadable(String),
+    /// The case cannot be judged.
+    Unjudged(String),
+    Panicked(String),
+}
+
+impl Told {
+    /// The verdict, where there is one.
+    pub fn verdict(&self) -> Option<Verdict> {
+        match self {
+            Told::Report(report) => Some(report.verdict),
+            _ => None,
+        }
+    }
+
+    /// In one word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Told::Report(report) => report.verdict.word(),
+            Told::Unreadable(_) => "unreadable",
+            Told::Unjudged(_) => "error",
+            Told::Panicked(_) => "panic",
+        }
+    }
+
+    /// With its grounds.
+    pub fn grounds(&self) -> String {
+        match self {
+            Told::Unreadable(error) | Told::Unjudged(error) | Told::Panicked(error) => {
+                format!("{}: {error}", self.word())
+            }
+            Told::Report(report) => {
+                let evidence = &report.evidence;
+                let mut told = format!("{} by {}", report.verdict.word(), evidence.method);
+                if let Some(witness) = &evidence.witness {
+                    told.push_str(&format!(
+                        " at {} {:?}, residual {:e}",
+                        witness.state, witness.parameters, witness.residual
+                    ));
+                }
+                for line in evidence.reason.iter().chain(&evidence.silence) {
+                    told.push_str(&format!("; {line}"));
+                }
+                told
+            }
+        }
+    }
+}
+
+/// What is said of each of `count` claims of a case.
+pub fn told(text: &str, seed: u64, count: usize) -> Vec<Told> {
+    let all = |told: Told| vec![told; count];
+    let judged = catch_unwind(AssertUnwindSafe(|| {
+        let case = match Case::parse(text, &[]) {
+            Ok(case) => case,
+            Err(error) => return all(Told::Unreadable(error.to_string())),
+        };
+        match judge(&case, &Options { seed, ..Options::default() }) {
+            Ok(report) => {
+                report.claims.into_iter().map(|claim| Told::Report(Box::new(claim))).collect()
+            }
+            Err(error) => all(Told::Unjudged(error.to_string())),
+        }
+    }));
+    judged.unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| text.to_string()));
+        all(Told::Panicked(text.unwrap_or_default()))
+    })
+}
+
+/// A witness as values of the scene's symbols, and how far it is from the level: `None` where a
+/// number cannot be read, or is outside its range.
+pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, Real)> {
+    let given = |name: &str| -> Option<&str> {
+        let of_state = witness.state.split_whitespace().find_map(|part| {
+            part.split_once('=').filter(|(own, _)| *own == name).map(|(_, value)| value)
+        });
+        of_state.or_else(|| witness.parameters.get(name).map(String::as_str))
+    };
+    let mut values: Vec<Found<Real>> = Vec::new();
+    for (place, symbol) in scene.symbols.iter().enumerate() {
+        let value = match &symbol.origin {
+            Origin::Fixed(n) => Ok(super::real::number(*n)),
+            Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
+            Origin::Input(..) => Err(Lack::Decision),
+            Origin::State(..) | Origin::Range(..) | Origin::List(_) => {
+                let value = read(given(&symbol.name)?)?;
+                if scene.is_out_of_range(place, &value) {
+                    return None;
+                }
+                Ok(value)
+            }
+        };
+        values.push(value);
+    }
+    let mut off = whole(0);
+    for (a, b) in scene.level.iter().flat_map(|level| &level.equations) {
+        let place = Place { values: &values, along: &[] };
+        let gap = difference(&place.value(a).ok()?, &place.value(b).ok()?).ok()?;
+        if height(&gap) > height(&off) {
+            off = gap;
+        }
+    }
+    Some((values, off))
+}
+
+/// Is a residual more than what the distance from the level explains?
+pub fn exceeds(residual: f64, off: &Real) -> bool {
+    is_zero(off) || residual > 1e-8
+}
+
+/// `-0.39`, `3/7`, `1.5e-7`
+pub fn read(text: &str) -> Option<Real> {
+    let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+    super::real::quotient(&decimal(above)?, &decimal(below)?).ok()
+}
+
+fn decimal(text: &str) -> Option<Real> {
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: BigInt = format!("{before}{after}").parse().ok()?;
+    let exponent = exponent.parse::<i32>().ok()? - i32::try_from(after.len()).ok()?;
+    let mut value = whole(0);
+    for letter in digits.magnitude().to_string().bytes() {
+        value = value * whole(10) + whole(i64::from(letter - b'0'));
+    }
+    if digits.sign() == num_bigint::Sign::Minus {
+        value = -value;
+    }
+    let tens = super::real::to_the(&whole(10), i64::from(exponent.abs())).ok()?;
+    Some(if exponent < 0 { value / tens } else { value * tens })
+}

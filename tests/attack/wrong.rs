@@ -1,0 +1,255 @@
+//! Verdicts against the truth.
+
+use std::borrow::Cow;
+
+use liouville::verdict::{ClaimReport, Independence, Sign, Verdict};
+
+use super::claim::{At, Claim};
+use super::draw::Made;
+use super::oracle::{Survey, evenly, in_cells, searched, signs};
+use super::random::Stream;
+use super::real::Lack;
+use super::scene::Scene;
+use super::told::{Told, exceeds, witnessed};
+
+/// What can be wrong with a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Wrong {
+    /// Proved, and there is a state at which it fails.
+    ProvedFalse,
+    /// Proved, and there is no state at which it has a value.
+    ProvedVoid,
+    /// Refuted, and it holds at all states that were found.
+    RefutedTrue,
+    /// Refuted, and there is no state at which it has a value.
+    RefutedVoid,
+    /// Refuted by a state at which it holds, though it fails elsewhere.
+    IdleWitness,
+    /// Refuted by a state at which it has no value or that is none, though it fails elsewhere.
+    NoWitness,
+    /// Confirmed, and it fails on more than a fiftieth of the range.
+    ConfirmedFalse,
+    /// Confirmed, and there is no state at which it has a value.
+    ConfirmedVoid,
+    /// Said to hold everywhere, and it fails off the level.
+    NotEverywhere,
+    /// The sign of a density is another.
+    OtherSign,
+    /// An integral is said to be new, or constant, and is not.
+    OtherNovelty,
+    /// The program panicked.
+    Panicked,
+    /// A file in the language of the guide was not read.
+    Unreadable,
+    /// A case that is right is refused.
+    Refused,
+    /// Not the verifier's fault: what is the same by construction is not.
+    Instrument,
+}
+
+impl Wrong {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Wrong::ProvedFalse => "proved, and it fails at a state",
+            Wrong::ProvedVoid => "proved, and it has no value anywhere",
+            Wrong::RefutedTrue => "refuted, and it holds",
+            Wrong::RefutedVoid => "refuted, and it has no value anywhere",
+            Wrong::IdleWitness => "refuted by a state at which it holds",
+            Wrong::NoWitness => "refuted by a state at which it has no value, or that is none",
+            Wrong::ConfirmedFalse => "confirmed, and it fails on a large part of the range",
+            Wrong::ConfirmedVoid => "confirmed, and it has no value anywhere",
+            Wrong::NotEverywhere => "said to hold everywhere, and it fails off the level",
+            Wrong::OtherSign => "a density with a sign that is another",
+            Wrong::OtherNovelty => "an integral that is said to be new or constant, and is not",
+            Wrong::Panicked => "a panic",
+            Wrong::Unreadable => "a file that should be read",
+            Wrong::Refused => "a case that is right is refused",
+            Wrong::Instrument => "an error of the instrument: true by construction, and it fails",
+        }
+    }
+}
+
+/// What is true of a claim, as far as it was looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Truth {
+    Holds,
+    Fails,
+    Void,
+    Unsure,
+}
+
+/// The share of the range on which a confirmed claim may fail.
+const SHARE: f64 = 0.02;
+
+/// The truth about a claim, and what is wrong with a verdict on it.
+pub fn weighed(
+    scene: &Scene,
+    made: &Made,
+    told: &Told,
+    stream: &mut Stream,
+) -> (Truth, Option<Wrong>) {
+    match told {
+        Told::Panicked(_) => return (Truth::Unsure, Some(Wrong::Panicked)),
+        // Numbers that divide by zero are refused as text.
+        Told::Unreadable(error) if error.contains("divides by zero") => return (Truth::Void, None),
+        Told::Unreadable(_) => return (Truth::Unsure, Some(Wrong::Unreadable)),
+        // A chart of less than the level is rightly refused.
+        Told::Unjudged(_) if !scene.is_filled() => return (Truth::Unsure, None),
+        Told::Unjudged(_) | Told::Report(_) => {}
+    }
+    let claim = &made.claim;
+    let filled = scene.is_filled();
+    let scene = match made.everywhere {
+        true => Cow::Owned(scene.without_level()),
+        false => Cow::Borrowed(scene),
+    };
+    let survey = surveyed(&scene, claim, told, stream);
+    let truth = truth(&scene, claim, &survey);
+    if made.vanishes && survey.off > 0 {
+        return (truth, Some(Wrong::Instrument));
+    }
+    let wrong = match told {
+        Told::Report(report) => against(&scene, claim, truth, report, stream)
+            .or_else(|| beside(&scene, claim, report, stream)),
+        // The motion stays on the level by construction.
+        Told::Unjudged(error) if truth != Truth::Void && filled => {
+            let complaints = ["the chart", "not invariant"];
+            complaints.iter().any(|words| error.contains(words)).then_some(Wrong::Refused)
+        }
+        _ => None,
+    };
+    (truth, wrong)
+}
+
+/// As thorough a look as the verdict asks for.
+fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> Survey {
+    let says_zero = match told.verdict() {
+        Some(Verdict::Proved) => !claim.is_negated(),
+        Some(Verdict::Refuted) => claim.is_negated(),
+        _ => false,
+    };
+    if matches!(told.verdict(), None | Some(Verdict::Undecided)) && !claim.is_negated() {
+        return evenly(scene, claim, stream, 24);
+    }
+    let survey = searched(scene, claim, stream, if says_zero { 2 } else { 1 });
+    let doubtful = match told.verdict() {
+        Some(Verdict::Refuted) if !claim.is_negated() => survey.off == 0,
+        Some(Verdict::Proved) if claim.is_negated() => survey.off == 0,
+        None | Some(Verdict::Undecided) => false,
+        _ => survey.off == 0 && survey.zero == 0,
+    };
+    if !doubtful {
+        return survey;
+    }
+    // A wrong verdict is told after a search that is thorough enough for thin cells.
+    let survey = searched(scene, claim, stream, 6);
+    if survey.off > 0 { survey } else { searched(scene, claim, stream, 30) }
+}
+
+/// What is wrong with a verdict.
+fn against(
+    scene: &Scene,
+    claim: &Claim,
+    truth: Truth,
+    report: &ClaimReport,
+    stream: &mut Stream,
+) -> Option<Wrong> {
+    match (report.verdict, truth) {
+        (Verdict::Proved, Truth::Fails) => Some(Wrong::ProvedFalse),
+        (Verdict::Proved, Truth::Void) => Some(Wrong::ProvedVoid),
+        (Verdict::Refuted, Truth::Void) => Some(Wrong::RefutedVoid),
+        (Verdict::Confirmed, Truth::Void) => Some(Wrong::ConfirmedVoid),
+        (Verdict::Refuted, truth) if !claim.is_negated() => {
+            // What is found at the witness; nothing where it is no state.
+            let there = report.evidence.witness.as_ref().map(|witness| {
+                let (values, off) = witnessed(scene, witness)?;
+                match claim.at(scene, &values) {
+                    At::Off(residual) if !exceeds(residual, &off) => None,
+                    At::Without(Lack::Value) => None,
+                    at => Some(at),
+                }
+            });
+            match (truth, there) {
+                (_, Some(Some(At::Off(_)))) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
+                (Truth::Fails, Some(Some(At::Without(_)))) => None,
+                // The smaller residuals of a rounded state on a level say nothing.
+                (Truth::Fails, Some(_)) if scene.level.is_some() => None,
+                // A limit has no state.
+                (Truth::Fails, Some(_)) if matches!(claim, Claim::Limit(..)) => None,
+                (Truth::Fails, Some(Some(At::Zero))) => Some(Wrong::IdleWitness),
+                (Truth::Fails, Some(None)) => Some(Wrong::NoWitness),
+                _ => Some(Wrong::RefutedTrue),
+            }
+        }
+        (Verdict::Refuted, Truth::Holds) => Some(Wrong::RefutedTrue),
+        (Verdict::Confirmed, Truth::Fails) => {
+            let share = evenly(scene, claim, stream, 150);
+            (share.off >= 6 && share.share() > SHARE).then_some(Wrong::ConfirmedFalse)
+        }
+        _ => None,
+    }
+}
+
+/// What is wrong with what is said beside a verdict that a claim holds.
+fn beside(
+    scene: &Scene,
+    claim: &Claim,
+    report: &ClaimReport,
+    stream: &mut Stream,
+) -> Option<Wrong> {
+    let evidence = &report.evidence;
+    if claim.is_negated() || !matches!(report.verdict, Verdict::Proved | Verdict::Confirmed) {
+        return None;
+    }
+    let widest = evidence.holds.iter().any(|place| place == "everywhere");
+    if widest && scene.level.is_some() && report.verdict == Verdict::Proved {
+        let space = scene.without_level();
+        if searched(&space, claim, stream, 1).off > 0 {
+            return Some(Wrong::NotEverywhere);
+        }
+    }
+    match (claim, evidence.sign, evidence.independence) {
+        // The sign is that at fixed parameters.
+        (Claim::Density(density), Some(sign), _) if !scene.has_parameter(density) => {
+            let (positive, negative) = signs(scene, density, stream, 200, false);
+            let share = |count: usize| count as f64 / (positive + negative).max(1) as f64;
+            let wrong = match sign {
+                Sign::Positive => share(negative) > 0.05,
+                Sign::Negative => share(positive) > 0.05,
+                Sign::Changes if positive.min(negative) == 0 => {
+                    let (above, below) = signs(scene, density, stream, 400, true);
+                    positive + negative >= 100 && (above + positive).min(below + negative) == 0
+                }
+                Sign::Changes => false,
+            };
+            wrong.then_some(Wrong::OtherSign)
+        }
+        (Claim::Integral(f), _, Some(independence)) => {
+            let survey = in_cells(scene, &Claim::Independent(vec![f.clone()]), stream, 1);
+            let wrong = match independence {
+                Independence::Independent => {
+                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0
+                }
+                Independence::Constant | Independence::General => survey.off > 0,
+            };
+            wrong.then_some(Wrong::OtherNovelty)
+        }
+        _ => None,
+    }
+}
+
+fn truth(scene: &Scene, claim: &Claim, survey: &Survey) -> Truth {
+    // A level of which no state was found may have some all the same.
+    let is_seen = survey.lacking > 0 || scene.level.is_none() || scene.is_empty();
+    let clear = survey.unsure <= survey.zero / 2;
+    match (survey.off > 0, survey.zero > 0) {
+        (true, _) if claim.is_negated() => Truth::Holds,
+        (true, _) => Truth::Fails,
+        (false, true) if !clear => Truth::Unsure,
+        (false, true) if claim.is_negated() => Truth::Fails,
+        (false, true) => Truth::Holds,
+        (false, false) if survey.is_void() && is_seen => Truth::Void,
+        (false, false) => Truth::Unsure,
+    }
+}
