@@ -17,7 +17,7 @@ pub struct Equation {
 }
 
 impl Equation {
-    fn of<'m>(self, model: &'m Model) -> &'m LevelEquation {
+    fn of(self, model: &Model) -> &LevelEquation {
         &model.level[self.index]
     }
 

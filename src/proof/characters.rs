@@ -129,7 +129,7 @@ impl Space {
             return Some(members);
         }
         self.rows.push((vector, members | 1 << member));
-        self.rows.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        self.rows.sort_unstable_by_key(|row| std::cmp::Reverse(row.0));
         None
     }
 }

@@ -208,6 +208,7 @@ fn common_divisor(m: &Modulus, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
 mod tests {
     use super::*;
     use crate::graph::record;
+    use num_dual::DualNum;
 
     fn coprime(build: impl FnOnce(&[Expr]) -> Vec<Expr>) -> bool {
         let (graph, values) = record(3, build).expect("records");

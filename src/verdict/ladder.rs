@@ -314,7 +314,7 @@ impl Bench<'_> {
         let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
         let is_defined = |index| {
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
-            values.existing(&[0..outputs.len()])[0]
+            values.existing(std::slice::from_ref(&(0..outputs.len())))[0]
         };
         item.context.quadrature_defects.is_empty() && (0..PRECISE_STATES).any(is_defined)
     }
