@@ -210,7 +210,7 @@ fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
             let span = root.find(&equation.text).map(|start| start..start + equation.text.len());
             let message = format!("`{}` contains an ∫, whose constant is open", equation.text);
             let remedy = "write the antiderivative out".to_string();
-            return Err(Mistake::new(span, Problem::Other { message, remedy }).late());
+            return Err(Mistake::new(span, Problem::Sense { message, remedy }));
         }
     }
     Ok(())

@@ -1,5 +1,7 @@
 //! `[[claim]]`: what is claimed, where, and what is expected.
 
+use std::ops::Range;
+
 use super::error::{Mistake, Problem};
 use super::field::sides;
 use super::formulas::formula;
@@ -71,16 +73,21 @@ pub fn read(
     match claim.kind.objection(model).filter(|_| context.is_whole) {
         None => Ok(claim),
         Some(objection) => {
-            let entries = Entries { section, model };
-            let name = claim.kind.name();
-            Err(entries.complaint(name, objection.message, objection.remedy).late())
+            let span = place_of(section, claim.kind.name());
+            let (message, remedy) = (objection.message, objection.remedy.to_string());
+            Err(Mistake::at(span, Problem::Sense { message, remedy }))
         }
     }
 }
 
+/// The place of a key's value, or of its table.
+fn place_of(section: &Section<'_>, key: &'static str) -> Range<usize> {
+    section.value(key).map_or(section.span.clone(), |value| value.span())
+}
+
 /// The complaint that a claim changes a number that sizes and indices are made of.
 fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
-    let span = section.value(key).map_or(section.span.clone(), |value| value.span());
+    let span = place_of(section, key);
     let message =
         format!("`{name}` stands in a size, an index or a power of a matrix, and cannot change");
     let remedy = "use another parameter in the place of the one".to_string();
@@ -104,12 +111,10 @@ pub fn read_motion(
     };
     let starts_on_section = matches!(kind.beginning(), Beginning::Section(_));
     if context.plan.is_none() && starts_on_section && context.is_whole {
-        return Err(section
-            .complaint(Problem::Other {
-                message: "the motion starts on a section, and the case has none".to_string(),
-                remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
-            })
-            .late());
+        return Err(section.complaint(Problem::Sense {
+            message: "the motion starts on a section, and the case has none".to_string(),
+            remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
+        }));
     }
     Ok(MotionClaim {
         name: name(section, kind.text(), taken)?,
@@ -233,7 +238,7 @@ impl Reader for Entries<'_, '_> {
     }
 
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
-        let span = self.section.value(key).map_or(self.section.span.clone(), |value| value.span());
+        let span = place_of(self.section, key);
         Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
     }
 }

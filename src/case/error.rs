@@ -34,8 +34,6 @@ pub struct Mistake {
     pub line: Option<u32>,
     /// The column in which they begin, from 1.
     pub column: Option<u32>,
-    /// Is it looked for only where all is of the right kind?
-    pub(super) is_late: bool,
 }
 
 /// What is wrong with a case file.
@@ -138,6 +136,14 @@ pub enum Problem {
     /// A parameter that is not a number, a list or a range.
     #[error("{0}")]
     Parameter(String),
+    /// All is of the right kind, and makes no sense together.
+    #[error("{message}")]
+    Sense {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        remedy: String,
+    },
     /// Anything else, with its remedy.
     #[error("{message}")]
     Other {
@@ -194,12 +200,7 @@ impl Mistake {
 
     /// A problem at a place, where that is known.
     pub(super) fn new(span: Option<Range<usize>>, problem: Problem) -> Self {
-        Self { problem, span, line: None, column: None, is_late: false }
-    }
-
-    /// The same, looked for only where all is of the right kind.
-    pub(super) fn late(self) -> Self {
-        Self { is_late: true, ..self }
+        Self { problem, span, line: None, column: None }
     }
 
     /// The name that is not known, where that is the trouble.
@@ -226,6 +227,7 @@ impl Mistake {
             }
             Problem::MissingKey { remedy, .. }
             | Problem::Incomplete { remedy, .. }
+            | Problem::Sense { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
             Problem::Cycle(..) => Some("write one of them out".to_string()),
             Problem::BadName { .. } => Some("give it another name".to_string()),

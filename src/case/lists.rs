@@ -50,12 +50,12 @@ fn of_kind(attempt: &Attempt) -> usize {
 /// Could the mistake come from the kind of a name?
 fn may_be_of_kind(mistake: &Mistake) -> bool {
     match &mistake.problem {
-        _ if mistake.is_late => false,
         Problem::Formula(error) => error.unknown_name().is_none(),
         Problem::UnknownKey { .. }
         | Problem::BadName { .. }
         | Problem::WrongType { .. }
         | Problem::Parameter(_)
+        | Problem::Sense { .. }
         | Problem::Cycle(..) => false,
         _ => true,
     }

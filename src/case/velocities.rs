@@ -19,8 +19,8 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> 
         let message = format!("the rate of `{name}` is not linear in the velocities");
         let remedy = "the equations of motion hold for x' = Σ wᵢ Xᵢ(x): take other quasi-velocities, \
                       or give all rates in [field] of a system of your own";
-        let problem = Problem::Other { message, remedy: remedy.to_string() };
-        return Err(Mistake::new(place_of_rate(root, name), problem).late());
+        let problem = Problem::Sense { message, remedy: remedy.to_string() };
+        return Err(Mistake::new(place_of_rate(root, name), problem));
     }
     let warning = |index: &usize| {
         format!(

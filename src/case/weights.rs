@@ -70,7 +70,7 @@ fn checked(
     formula.check_weights(weights).map_err(|error| {
         let remedy = "if this is meant, set check-weights = false at the top of the file";
         let problem =
-            Problem::Other { message: error.message().to_string(), remedy: remedy.to_string() };
+            Problem::Sense { message: error.message().to_string(), remedy: remedy.to_string() };
         let span = error.span();
         // the file may hold a part of the formula: the body of a family
         let whole = root.find(formula.text()).map(|start| start + span.start..start + span.end);
@@ -78,7 +78,7 @@ fn checked(
             let text = formula.text().get(span.clone())?;
             root.find(text).map(|start| start..start + text.len())
         };
-        Mistake::new(whole.or_else(part), problem).late()
+        Mistake::new(whole.or_else(part), problem)
     })
 }
 
