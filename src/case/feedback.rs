@@ -55,7 +55,7 @@ pub fn none(
         let uses = reading.vocabulary.uses(&formula, &reading.abbreviations);
         if let Some(entry) = uses.into_iter().find(is_determined) {
             let message = format!("`{key}` depends on `{}`, which it determines", entry.name);
-            let problem = Problem::Other { message, remedy: remedy.to_string() };
+            let problem = Problem::Sense { message, remedy: remedy.to_string() };
             let place = section.text(key)?.map_or(section.span.clone(), |text| text.span);
             return Err(Mistake::at(place, problem));
         }
