@@ -136,6 +136,11 @@ impl Region<'_> {
         self.is_empty_on(&reached)
     }
 
+    /// The same, by bounds on all of them together.
+    pub fn is_empty_at_sight(&self) -> bool {
+        self.bounds(&self.reached(&[]), &self.whole()).is_none()
+    }
+
     fn is_empty_on(&self, reached: &[usize]) -> bool {
         let mut parts = vec![(self.whole(), 0)];
         let mut looked = 0;

@@ -128,7 +128,7 @@ impl Explorer<'_> {
         let no_classes = Classes::default();
         let inputs = self.prover.extents;
         let region = Region { graph, inputs, facts: &known, classes: &no_classes };
-        if region.is_empty() {
+        if region.is_empty_at_sight() {
             return Ok(Next::Empty(None));
         }
         let algebraic = self.prover.lower(graph, &cell.values, self.sources, self.digest)?;
@@ -331,7 +331,7 @@ impl Explorer<'_> {
         let findings: Vec<Option<Finding>> =
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
         let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
-        if cell.is_part() && !findings.iter().all(is_zero) {
+        if !cell.is_part() || !findings.iter().all(is_zero) {
             // Whether there is such a cell at all is worth knowing now.
             let classes = Classes::of(algebraic, trial, tower, self.digest);
             let inputs = self.prover.extents;

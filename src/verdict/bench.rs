@@ -40,7 +40,7 @@ impl Bench<'_> {
         let drawn: Vec<&Balls<LANES>> = states.iter().collect();
         if (0..LANES).all(|lane| !defined(&drawn, lane)) {
             let found = LANES as u64;
-            return Err(match sampler.is_numerical() {
+            return Err(match sampler.is_numerical() || sampler.solution().is_some() {
                 true => JudgeError::Unreachable(found),
                 false => JudgeError::Overflow(found),
             });

@@ -128,14 +128,13 @@ impl<'c> Scene<'c> {
         let sampler = Sampler::new(case, &level, seed)?;
         let free = model.free_components();
         let drawn = sampler.printed(index, f64::MANTISSA_DIGITS);
+        // A state that is given may exist where the one that is drawn does not.
+        let drawn = &drawn[..if state.is_some() { free } else { drawn.len() }];
         let mut point: Vec<Rational> = drawn
             .iter()
             .map(|text| text.parse().map_err(|_| JudgeError::Unreachable(1)))
             .collect::<Result<_, _>>()?;
-        if let Some(state) = state {
-            point.truncate(free);
-            point.extend_from_slice(state);
-        }
+        point.extend_from_slice(state.unwrap_or_default());
         let mut counts = Vec::new();
         let (graph, outputs) = record(point.len(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
