@@ -160,7 +160,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("exponent = \"zero\"\ntime = 10", "has no `start`"),
         ("exponent = \"zero\"\nstart = [1]\ntime = 10", "two coordinates"),
         ("exponent = \"zero\"\nstart = [1, 0]\nstate = {}\ntime = 10", "one start"),
-        ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "one statement"),
+        ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "makes 2 statements"),
         ("exponent = \"zero\"\nstart = [1, 0]\ntime = 10\nwhere = \"level\"", "`where`"),
         ("periodic-point = [\"x\", 0]", "is no number"),
         ("periodic-point = [1, 0]\nmodulus = 1\nmultiplier = 2", "complex or real"),
