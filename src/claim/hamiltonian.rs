@@ -1,6 +1,6 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
-use super::{Jets, Reader, Statement, difference, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, trace_of_quotient};
@@ -74,6 +74,18 @@ fn defects<'f>(jet: &Jet<'_, Expr>, functions: impl Iterator<Item = &'f Formula>
     functions.flat_map(of_one).chain(variables.given_blocks().flat_map(of_one)).collect()
 }
 
+/// The new variables vary independently: what is said of them is then said of all their values.
+fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condition {
+    let images = of(jet.phase.model()).images.iter();
+    let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
+    let need = Need::Rank { rank: rows.len(), rows };
+    Condition { need, otherwise: otherwise.to_string(), is_essential }
+}
+
+/// What is told of a bracket that is looked at where the new variables obey a relation.
+const ON_A_PART: &str = "the new variables obey a relation, and what is said of their bracket holds \
+                         where they do: give as many as vary independently";
+
 impl Statement for Hamiltonian {
     const NAME: &'static str = "hamiltonian";
     const COMPANIONS: &'static [&'static str] = &["multiplier"];
@@ -98,8 +110,21 @@ impl Statement for Hamiltonian {
         residual
     }
 
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![they_vary(jet, "the new variables obey a relation", false)]
+    }
+
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
         defects(jet, [&self.hamiltonian].into_iter().chain(&self.multiplier))
+    }
+}
+
+impl Casimir {
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(there);
+        let mut residual = turned(&tensor, &slope(there, &self.0));
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
     }
 }
 
@@ -114,11 +139,19 @@ impl Statement for Casimir {
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
-        let there = variables.point(&jet.phase);
-        let tensor = variables.tensor(&there);
-        let mut residual = turned(&tensor, &slope(&there, &self.0));
-        residual.extend(variables.symmetric_part(&tensor));
-        residual
+        self.at(variables, &variables.point(&jet.phase))
+    }
+
+    fn residual_of_values(
+        &self,
+        variables: &Variables,
+        there: &Phase<'_, Expr>,
+    ) -> Option<Vec<Expr>> {
+        Some(self.at(variables, there))
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![they_vary(jet, ON_A_PART, true)]
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
@@ -126,19 +159,9 @@ impl Statement for Casimir {
     }
 }
 
-impl Statement for JacobiIdentity {
-    const NAME: &'static str = "jacobi-identity";
-    const AT_IMAGES: bool = true;
-
-    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        bracket_is_given(from, Self::NAME)?;
-        from.word(Self::NAME, "holds").map(|()| Self)
-    }
-
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-        let variables = of(jet.phase.model());
-        let there = variables.point(&jet.phase);
-        let tensor = variables.tensor(&there);
+impl JacobiIdentity {
+    fn at<T: Scalar>(variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(there);
         let n = tensor.len();
         // slopes[l] is ∂P/∂y_l
         let slopes: Vec<Vec<Vec<T>>> = (0..n)
@@ -157,6 +180,33 @@ impl Statement for JacobiIdentity {
             }
         }
         residual
+    }
+}
+
+impl Statement for JacobiIdentity {
+    const NAME: &'static str = "jacobi-identity";
+    const AT_IMAGES: bool = true;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        bracket_is_given(from, Self::NAME)?;
+        from.word(Self::NAME, "holds").map(|()| Self)
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        Self::at(variables, &variables.point(&jet.phase))
+    }
+
+    fn residual_of_values(
+        &self,
+        variables: &Variables,
+        there: &Phase<'_, Expr>,
+    ) -> Option<Vec<Expr>> {
+        Some(Self::at(variables, there))
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![they_vary(jet, ON_A_PART, true)]
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {

@@ -1,6 +1,8 @@
 //! Identities: two formulas are the same, as they stand or as a rate.
 
-use super::{Context, Reader, Statement, difference};
+use num_dual::DualNum;
+
+use super::{Condition, Context, Need, Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
@@ -121,7 +123,22 @@ impl Statement for Relation {
         Some(Self { cofactor, ..self.clone() })
     }
 
-    /// κ with a pole on F = 0 keeps nothing: (x + 1) = ((x + 1)/x) x.
+    /// κ with a pole on all of F = 0 keeps nothing: x' = 1 = (1/x) x.
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let function = jet.phase.scalar(&self.function);
+        let factor = jet.phase.evaluate_literally(&self.cofactor).components();
+        let inverse = jet.phase.scalar(&self.cofactor).recip();
+        let condition = |factor| {
+            Condition {
+            need: Need::ValueOnZeros { function, factor, inverse },
+            otherwise: "it is not known that the cofactor has a value where F = 0: cancel what it divides by"
+                .to_string(),
+            is_essential: true,
+        }
+        };
+        factor.into_iter().map(condition).collect()
+    }
+
     fn remark(&self, model: &Model) -> Option<String> {
         let moves = |symbol| model.vocabulary.entry(symbol).reach > Reach::Parameters;
         let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);

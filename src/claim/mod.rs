@@ -4,6 +4,7 @@
 //! reports are written once for all of them.
 
 mod components;
+mod condition;
 mod criterion;
 mod density;
 mod fixed_point;
@@ -22,11 +23,12 @@ mod transformation;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, rejection};
+use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
 pub use components::Components;
+pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
 pub use density::Density;
 pub use fixed_point::FixedPoint;
@@ -187,6 +189,20 @@ impl Kind {
     /// Whether an integral is more than a function of what every case conserves.
     pub fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
         of_each!(self, statement => statement.novelty(jet, kept))
+    }
+
+    /// What the claim takes for granted beside its residual.
+    pub fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+        of_each!(self, statement => statement.conditions(jet, kept))
+    }
+
+    /// The residual at given values of the new variables, where it depends on nothing else.
+    pub fn residual_of_values(
+        &self,
+        variables: &Variables,
+        there: &Phase<'_, Expr>,
+    ) -> Option<Vec<Expr>> {
+        of_each!(self, statement => statement.residual_of_values(variables, there))
     }
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.

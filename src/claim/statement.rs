@@ -1,10 +1,10 @@
 //! What every kind of claim has to say about itself.
 
-use super::{Context, Novelty, Reader};
+use super::{Condition, Context, Novelty, Reader};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
+use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
 /// Which derivatives of the formulas that it is about a claim contains.
@@ -90,6 +90,16 @@ pub trait Statement: Clone {
     /// The gradients by which an integral or a density is new.
     fn slopes(&self, _: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
         Vec::new()
+    }
+
+    /// What it takes for granted beside the residual.
+    fn conditions(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        Vec::new()
+    }
+
+    /// The residual at given values of the new variables, where it depends on nothing else.
+    fn residual_of_values(&self, _: &Variables, _: &Phase<'_, Expr>) -> Option<Vec<Expr>> {
+        None
     }
 
     /// Why it cannot be claimed of this model, if it cannot.

@@ -1,6 +1,6 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::{Jets, Reader, Statement, difference, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
@@ -120,6 +120,17 @@ impl Statement for Symmetry {
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
         let time = from.formula("time", Some(Type::Scalar))?;
+        let moves = |time: &Formula| {
+            let names = &from.model().vocabulary;
+            names.with_abbreviations(time, &from.model().abbreviations).iter().any(|formula| {
+                let mut reaches = formula.symbols().map(|symbol| names.entry(symbol).reach);
+                reaches.any(|reach| reach > Reach::Parameters)
+            })
+        };
+        if time.as_ref().is_some_and(moves) {
+            let message = "`time` depends on the state, and t → λt has a number λ".to_string();
+            return Err(from.complaint("time", message, "write λ by numbers and parameters"));
+        }
         if time.as_ref().is_some_and(|time| vanishes(from.model(), time)) {
             let message = "`time` is 0, and t → 0 is no change of time".to_string();
             return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
@@ -133,6 +144,21 @@ impl Statement for Symmetry {
 
     fn changes(&self) -> Vec<usize> {
         self.map.parameters.iter().map(|(index, _)| *index).collect()
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+        let columns = jet.along_axes().iter().map(|phase| self.map.image(phase));
+        let columns: Vec<_> = columns.collect();
+        let rank = columns.len();
+        let row = |k: usize| columns.iter().map(|column| column[k].eps).collect();
+        let mut rows: Vec<Vec<Expr>> = (0..rank).map(row).collect();
+        // On a level it is enough that no direction along it is lost.
+        rows.extend(jet.level_gradients(kept));
+        vec![Condition {
+            need: Need::Rank { rows, rank },
+            otherwise: "the map cannot be inverted".to_string(),
+            is_essential: false,
+        }]
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
@@ -220,6 +246,15 @@ impl Statement for Map {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.images.iter().chain(&self.multiplier).collect()
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let rows: Vec<_> = self.images.iter().flat_map(|image| jet.gradients(image)).collect();
+        vec![Condition {
+            need: Need::Rank { rank: rows.len(), rows },
+            otherwise: "the new variables obey a relation".to_string(),
+            is_essential: false,
+        }]
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {

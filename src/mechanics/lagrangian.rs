@@ -15,8 +15,9 @@
 use num_dual::Dual;
 
 use super::calculus::{dot, solve_positive};
+use super::configuration::Configuration;
 use super::model::Variable;
-use super::phase::{Configuration, Phase};
+use super::phase::Phase;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 

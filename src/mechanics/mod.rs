@@ -5,6 +5,7 @@ mod ball;
 mod body;
 pub mod calculus;
 mod chart;
+mod configuration;
 mod draws;
 mod flat_base;
 mod lagrangian;
@@ -24,13 +25,14 @@ mod vocabulary;
 pub use ball::{BallOnSurface, Surface};
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart};
+pub use configuration::Configuration;
 pub use draws::Draws;
 pub use flat_base::FlatBase;
 pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{
     LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
 };
-pub use phase::{Configuration, Phase};
+pub use phase::Phase;
 pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
 pub use recipe::{Draw, Line, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};

@@ -32,7 +32,7 @@ pub fn report(
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
-        evidence.remark = claim.kind.remark(&case.model);
+        evidence.remark = evidence.remark.or_else(|| claim.kind.remark(&case.model));
     }
     if !holds {
         evidence.independence = None;

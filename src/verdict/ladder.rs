@@ -51,7 +51,8 @@ impl Bench<'_> {
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, finding)| finding.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
-        self.settle_signs(&sampler, holding.into_iter())?;
+        self.settle_conditions(&sampler, &mut holding)?;
+        self.settle_signs(&sampler, holding.into_iter().filter(|(_, finding)| finding.holds()))?;
         Ok(())
     }
 

@@ -8,6 +8,7 @@
 mod bench;
 mod branches;
 mod conclude;
+mod conditions;
 mod coverage;
 mod evidence;
 mod examine;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::physics;
 use super::run::Values;
 use crate::case::{Claim, Expect};
-use crate::claim::{Context, Novelty, Place, quadrature_defects};
+use crate::claim::{Condition, Context, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, rejection};
@@ -20,6 +20,7 @@ pub struct Recorded<'c> {
     pub requirement: Vec<Expr>,
     pub context: Context,
     pub novelty: Novelty,
+    pub conditions: Vec<Condition>,
     pub wider: Vec<Wider>,
 }
 
@@ -55,6 +56,7 @@ impl<'c> Recorded<'c> {
                 Expect::Fails => Novelty::default(),
                 _ => claim.kind.novelty(jet, &claim.place.kept),
             },
+            conditions: claim.kind.conditions(jet, &claim.place.kept),
             wider: wider
                 .into_iter()
                 .map(|place| Wider {

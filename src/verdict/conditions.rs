@@ -1,0 +1,152 @@
+//! What claims that hold take for granted.
+
+use super::bench::Bench;
+use super::field::{Field, combinations};
+use super::finding::undecide;
+use super::ladder::Open;
+use super::recorded::Recorded;
+use super::sampler::{Sampler, extent};
+use crate::claim::Need;
+use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::mechanics::Phase;
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+use crate::proof::{Extent, Group, Outcome, Prover, are_coprime, is_nowhere_zero};
+use crate::scalar::Scalar;
+
+impl Bench<'_> {
+    /// Leaves those claims open that mean nothing without a condition which is not known to be met,
+    /// and remarks others.
+    pub(super) fn settle_conditions(
+        &self,
+        sampler: &Sampler,
+        holding: &mut Open<'_, '_>,
+    ) -> Result<(), Fault> {
+        if sampler.is_numerical() {
+            return Ok(());
+        }
+        for (item, finding) in holding.iter_mut() {
+            for condition in &item.conditions {
+                let otherwise = condition.otherwise.clone();
+                let failure = match &condition.need {
+                    Need::Rank { rows, rank } => {
+                        let ranks = Field::new(self, sampler).ranks(rows, &[rows.len()])?;
+                        let found = ranks.and_then(|ranks| ranks.first().copied());
+                        let short = found.filter(|found| found < rank);
+                        short.map(|found| {
+                            format!("{otherwise}: {found} of {rank} dimensions are left")
+                        })
+                    }
+                    Need::ValueOnZeros { function, factor, inverse } => {
+                        let is_met =
+                            self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
+                        (!is_met).then_some(otherwise)
+                    }
+                };
+                match (failure, condition.is_essential) {
+                    (None, _) => {}
+                    (Some(failure), false) => finding.evidence.remark = Some(failure),
+                    (Some(failure), true) if !self.holds_of_all_values(item)? => {
+                        undecide(finding, failure);
+                    }
+                    (Some(_), true) => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a claim about new variables is proved for all values of theirs, related or not.
+    fn holds_of_all_values(&self, item: &Recorded<'_>) -> Result<bool, Fault> {
+        let model = &self.case.model;
+        let Some(variables) = model.variables.as_deref() else { return Ok(false) };
+        let draws = model.parameter_draws();
+        let inputs = draws.len() + variables.model.dimension();
+        let (graph, residual) = record(inputs, |inputs| {
+            let (parameters, values) = model.make_parameters(inputs);
+            let there = Phase::new(&variables.model, &parameters, values);
+            item.claim.kind.residual_of_values(variables, &there)
+        })?;
+        let (Some(residual), Some(combinations)) = (residual, combinations(&draws)) else {
+            return Ok(false);
+        };
+        let extents: Vec<Extent> = draws.iter().map(extent).collect();
+        let prover = Prover { sources: &[], extents: &extents, seed: self.options.seed };
+        for fixed in combinations {
+            let (graph, residual) = with_fixed(&graph, &residual, &fixed)?;
+            let outcomes = prover.prove(&graph, &[Group::of(residual)])?;
+            if !outcomes.iter().all(Outcome::is_zero) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether a factor is known to have a value at almost every zero of a function: what it divides
+    /// by has no factor in common with the function, or no zero.
+    fn has_value_on_zeros(
+        &self,
+        sampler: &Sampler,
+        function: Expr,
+        factor: Expr,
+        inverse: Expr,
+    ) -> Result<bool, Fault> {
+        let mut outputs = vec![function, inverse];
+        outputs.extend(poles(self.graph, factor));
+        if outputs.len() == 2 {
+            return Ok(true);
+        }
+        let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
+        let extents = sampler.extents();
+        for fixed in combinations {
+            let (graph, groups) =
+                sampler.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
+            let group = groups.concat();
+            let (function, poles) = (group[0], &group[2..]);
+            // In lowest terms it may divide by less than is written.
+            if are_coprime(&graph, &group[..2], self.options.seed) {
+                continue;
+            }
+            if !poles.iter().all(|pole| self.are_apart(&graph, &extents, function, *pole)) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn are_apart(&self, graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> bool {
+        are_coprime(graph, &[function, pole], self.options.seed)
+            || (is_nowhere_zero(graph, extents, &[], &[function, pole])
+                && !is_nowhere_zero(graph, extents, &[], &[function]))
+    }
+}
+
+/// The same values of a graph with some of its inputs fixed.
+fn with_fixed(
+    graph: &Graph,
+    values: &[Expr],
+    fixed: &[Option<Rational>],
+) -> Result<(Graph, Vec<Expr>), Fault> {
+    let reached = graph.reached(values.iter().copied());
+    record(graph.inputs(), |inputs| {
+        let number = |(k, input): (usize, &Expr)| {
+            fixed.get(k).and_then(Option::as_ref).map_or(*input, Expr::rational)
+        };
+        let inputs: Vec<Expr> = inputs.iter().enumerate().map(number).collect();
+        let made = graph.replay(&reached, &inputs, |_, _, _| None);
+        values.iter().filter_map(|value| made[graph.place(*value)]).collect()
+    })
+}
+
+/// The values that must not be 0 where another has a value that is bounded nearby.
+fn poles(graph: &Graph, value: Expr) -> Vec<Expr> {
+    let reached = graph.reached([value]);
+    let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
+    let pole = |(step, _): (Step<'_>, &bool)| match step {
+        Step::Unary(Function::Recip | Function::Ln, a) => Some(a),
+        Step::Power(a, exponent) if exponent.is_negative() => Some(a),
+        Step::Binary(Operation::Pow, a, _) => Some(a),
+        _ => None,
+    };
+    steps.filter_map(pole).map(|place| graph.at(place)).collect()
+}
