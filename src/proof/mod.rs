@@ -18,6 +18,7 @@
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod bounds;
+mod branches;
 mod cells;
 mod chance;
 mod characters;

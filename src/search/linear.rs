@@ -3,6 +3,7 @@
 
 use super::SearchError;
 use super::echelon::Echelon;
+use super::local::sign;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Graph, Tape};
@@ -149,6 +150,7 @@ impl Functions {
                 let first = values.first().and_then(|value| self.modulus.rational(value));
                 [first.unwrap_or(0); LANES]
             }
+            Some(Draw::Sign) => std::array::from_fn(|_| sign(&self.modulus, &mut self.chance)),
             _ => std::array::from_fn(|_| self.chance.element(&self.modulus)),
         }
     }

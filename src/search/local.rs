@@ -180,6 +180,11 @@ pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64
     draws.iter().map(value).collect()
 }
 
+/// 1 or -1
+pub fn sign(m: &Modulus, chance: &mut Chance) -> u64 {
+    if chance.coin() { m.one() } else { m.sub(0, m.one()) }
+}
+
 fn zero() -> Expr {
     Expr::rational(&Rational::from(0))
 }

@@ -9,6 +9,7 @@
 
 mod ansatz;
 mod ask;
+mod branches;
 mod conditions;
 mod counts;
 mod densities;
@@ -318,6 +319,7 @@ pub fn search(
             conditions::conditions(case, wanted, effort, report, progress)
         })?;
     }
+    branches::withdraw(case, effort, &mut report)?;
     Ok(report)
 }
 

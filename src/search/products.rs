@@ -4,18 +4,22 @@ use num_dual::Dual;
 
 use super::SearchError;
 use super::ask::{holds, judged};
+use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::{Effort, Report, ask};
 use crate::case::Case;
 use crate::formula::Formula;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::Phase;
-use crate::number::prime::{Prime, UNDEFINED};
-use crate::number::rational::Rational;
-use crate::proof::{Chance, reconstruct};
+use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::proof::Chance;
 
 /// The highest degree that is recognised.
 const MOST: usize = 16;
+/// Points of a line at which slopes are taken.
+const POINTS: usize = 2 * MOST + 8;
+/// Lines that are tried, as roots exist on some only.
+const TRIALS: usize = 64;
 
 /// Independent integrals with their degrees in the velocities.
 #[derive(Clone, Debug, Default)]
@@ -96,75 +100,76 @@ impl Generators {
     }
 }
 
-/// The degree of a formula in the velocities at a random point modulo a prime; nothing if it is no
-/// polynomial in them, or has no value there.
+/// The degree of a formula in the velocities; nothing if it is no polynomial in them, or no value of
+/// its slope is known modulo a prime.
+///
+/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which are
+/// linear equations for the coefficients of P. The logarithm's slope is a rational function where F
+/// has factors that no field knows, as exponentials of the positions.
 fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
     let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
     let Ok(formula) = Formula::parse(formula, &model.vocabulary) else { return Ok(None) };
     let all = model.vocabulary.with_abbreviations(&formula, &model.abbreviations);
     let draws = model.parameter_draws();
-    let inputs = draws.len() + coordinates.count() + 1;
-    let (graph, (outputs, moving)) = record(inputs, |inputs| {
+    let inputs = draws.len() + coordinates.count() + coordinates.velocities + 1;
+    let (graph, (slope, moving)) = record(inputs, |inputs| {
         let (given, point) = inputs.split_at(draws.len());
-        let (scale, point) = (point[point.len() - 1], &point[..point.len() - 1]);
         let (parameters, _) = model.make_parameters(given);
-        let (positions, velocities) = point.split_at(coordinates.positions);
-        let at = |factors: Vec<Dual<Expr>>| {
-            let positions = positions.iter().map(|q| Dual::from_re(*q));
-            let lifted: Vec<Dual<Expr>> = positions.chain(factors).collect();
-            let parameters: Vec<Dual<Expr>> =
-                parameters.iter().map(|p| Dual::from_re(*p)).collect();
-            (coordinates.state(&lifted), parameters)
-        };
-        let (state, lifted) = at(velocities.iter().map(|w| Dual::new(*w, *w)).collect());
-        let growing = Phase::new(model, &lifted, &state);
-        // (w,∂ ln F/∂w) = n for a homogeneous F
-        let growth = formula.logarithmic_derivative(&mut |symbol| growing.value(symbol));
+        let (positions, rest) = point.split_at(coordinates.positions);
+        let (start, rest) = rest.split_at(coordinates.velocities);
+        let (along, s) = rest.split_at(coordinates.velocities);
+        let velocities = start.iter().zip(along).map(|(w, u)| Dual::new(*w + s[0] * *u, *u));
+        let positions = positions.iter().map(|q| Dual::from_re(*q));
+        let state = coordinates.state(&positions.chain(velocities).collect::<Vec<_>>());
+        let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
+        let moved = Phase::new(model, &parameters, &state);
+        let slope = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         // An ∫ whose variable changes with the velocities has a degree that is not seen here.
-        let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| growing.value(s)));
+        let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| moved.value(s)));
         let moving: Vec<Expr> = integrals.map(|(_, variable)| variable.eps).collect();
-        let (state, lifted) = at(velocities.iter().map(|w| Dual::from_re(*w * scale)).collect());
-        ([growth, Phase::new(model, &lifted, &state).scalar(&formula).re], moving)
+        (slope, moving)
     })?;
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
     let mut chance = Chance::new(seed, 42);
     let modulus = chance.prime(&[3, 5], &[2, 3]);
-    let tape = Tape::new(&graph, &outputs);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; MOST]));
-    for _ in 0..64 {
-        let mut values: Vec<[u64; MOST]> =
-            (0..inputs - 1).map(|_| [chance.element(&modulus); MOST]).collect();
+    let tape = Tape::new(&graph, &[slope]);
+    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; POINTS]));
+    for _ in 0..TRIALS {
+        let mut values: Vec<[u64; POINTS]> =
+            (1..inputs).map(|_| [chance.element(&modulus); POINTS]).collect();
         values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
+        values.resize(graph.inputs(), [modulus.one(); POINTS]);
         evaluator.run(&values);
-        let found: Vec<[u64; MOST]> = evaluator.outputs().copied().collect();
-        let homogeneous = (found[0][1] != UNDEFINED)
-            .then(|| reconstruct(found[0][1], &modulus))
-            .flatten()
-            .and_then(|degree: Rational| degree.to_integer())
-            .filter(|degree| (0..MOST as i64).contains(degree));
-        if let Some(degree) = homogeneous {
-            return Ok(u32::try_from(degree).ok());
-        }
-        if !found[1].contains(&UNDEFINED) {
-            return Ok(polynomial_degree(found[1].to_vec(), |a, b| modulus.sub(a, b)));
+        let slopes = evaluator.output(0);
+        if !slopes.contains(&UNDEFINED) {
+            return Ok(polynomial_degree(slopes, &modulus));
         }
     }
     Ok(None)
 }
 
-/// The degree of the polynomial with these values at 0, 1, 2, …: after so many differences it is a
-/// constant.
-fn polynomial_degree(mut values: Vec<u64>, minus: impl Fn(u64, u64) -> u64) -> Option<u32> {
-    for degree in 0..values.len() as u32 - 1 {
-        if values.iter().all(|value| value == &values[0]) {
-            return Some(degree);
-        }
-        values = values.windows(2).map(|pair| minus(pair[1], pair[0])).collect();
+/// The degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if it is one.
+fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
+    let mut echelon = Echelon::new(MOST + 1, *m);
+    for (s, slope) in slopes.iter().enumerate() {
+        let s = m.integer(s as u64);
+        // P' - P (ln F)', with the coefficients of P from the highest down
+        let entry = |power: u64| {
+            let slope_of_power = match power {
+                0 => 0,
+                _ => m.mul(m.integer(power), m.power(s, power - 1)),
+            };
+            m.sub(slope_of_power, m.mul(*slope, m.power(s, power)))
+        };
+        echelon.push((0..=MOST as u64).rev().map(entry).collect());
     }
-    None
+    match &echelon.null_space()[..] {
+        [only] => only.iter().rev().rposition(|entry| *entry != 0).map(|degree| degree as u32),
+        _ => None,
+    }
 }
 
 #[cfg(test)]
@@ -183,12 +188,23 @@ mod tests {
     }
 
     #[test]
-    fn degrees_come_from_differences() {
-        let minus = |a: u64, b: u64| a.wrapping_sub(b);
-        let cubes = (0..8u64).map(|x| x * x * x + 5).collect();
-        assert_eq!(polynomial_degree(cubes, minus), Some(3));
-        assert_eq!(polynomial_degree(vec![7; 8], minus), Some(0));
-        let powers = (0..8).map(|x| 1 << x).collect();
-        assert_eq!(polynomial_degree(powers, minus), None, "2^x is no polynomial");
+    fn degrees_come_from_slopes_of_logarithms() {
+        let m = Chance::new(1, 42).prime(&[3, 5], &[2, 3]);
+        let of = |slope: &dyn Fn(u64) -> u64| {
+            let slopes: Vec<u64> = (0..POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
+            polynomial_degree(&slopes, &m)
+        };
+        let over = |a: u64, b: u64| m.mul(a, m.inverse(b));
+        let cube = |s: u64| m.add(m.mul(s, m.mul(s, s)), m.integer(5));
+        let slope = |s: u64| m.mul(m.integer(3), m.mul(s, s));
+        assert_eq!(of(&|s| over(slope(s), cube(s))), Some(3), "s³ + 5");
+        assert_eq!(of(&|_| 0), Some(0), "a constant");
+        assert_eq!(of(&|s| over(m.integer(2), s)), Some(2), "s²");
+        let twice = |s: u64| m.mul(m.integer(2), over(slope(s), cube(s)));
+        assert_eq!(of(&twice), Some(6), "(s³ + 5)²");
+        assert_eq!(of(&|s| over(m.one(), m.mul(m.integer(2), s))), None, "√s");
+        assert_eq!(of(&|s| m.sub(0, over(m.one(), s))), None, "1/s");
+        assert_eq!(of(&|s| m.sub(twice(s), over(m.one(), s))), None, "(s³ + 5)²/s");
+        assert_eq!(of(&|_| m.one()), None, "exp s");
     }
 }

@@ -8,7 +8,7 @@ use num_dual::Dual;
 
 use super::super::SearchError;
 use super::super::echelon::Echelon;
-use super::super::local::random;
+use super::super::local::{random, sign};
 use super::super::terms::{Term, recorded};
 use crate::case::Case;
 use crate::claim::Place;
@@ -101,6 +101,7 @@ pub struct System {
     tape: Tape,
     inputs: usize,
     parameters: Vec<Draw>,
+    draws: Vec<Draw>,
     derivations: Vec<Derivation>,
     /// How many outputs stand before the coordinates of the parameters.
     own: usize,
@@ -135,6 +136,7 @@ impl System {
             tape: Tape::new(&graph, &outputs.concat()),
             inputs: graph.inputs(),
             parameters: case.model.parameter_draws(),
+            draws: sampler.recipes().to_vec(),
             derivations: recording.derivations,
             own,
             coordinates: Vec::new(),
@@ -185,6 +187,9 @@ impl System {
             let inputs: Vec<[u64; LANES]> = (0..self.inputs)
                 .map(|input| match at.parameters.get(input) {
                     Some(value) => [*value; LANES],
+                    None if matches!(self.draws.get(input), Some(Draw::Sign)) => {
+                        std::array::from_fn(|_| sign(&at.modulus, &mut chance))
+                    }
                     None => std::array::from_fn(|_| chance.element(&at.modulus)),
                 })
                 .collect();

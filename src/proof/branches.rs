@@ -1,0 +1,72 @@
+//! Whether the roots and moduli that prime fields take are those of real numbers.
+//!
+//! Modulo p = 3 mod 4 the root of x is the one that is a square itself, and |x| is x or -x for the
+//! same reason. Of independent roots either sign is as good as the other; but √(x²) is x for half of
+//! all x modulo p, and for all real x > 0.
+
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use crate::number::prime::{Modulus, Prime, UNDEFINED};
+
+use super::cells::with_signs;
+use super::chance::{Chance, Stream};
+use super::digest::Digest;
+use super::trial::{Finding, LANES, points};
+use super::{Asked, Group, Prover, buckets};
+
+/// Blocks of points at which values are compared.
+const BLOCKS: usize = 16;
+
+impl Prover<'_> {
+    /// Whether values modulo primes are, at random points, those that some choice of the signs of
+    /// independent roots gives at all real inputs of the extents.
+    pub fn is_true_to_branches(&self, graph: &Graph, outputs: &[Expr]) -> Result<bool, Fault> {
+        let digest = Digest::of(self.seed, graph, &[outputs.to_vec()]);
+        let asked = Asked { graph, sources: self.sources_of(graph), digest };
+        let group = Group::of(outputs.to_vec());
+        let Some(bucket) = buckets(graph, &[group], &asked.sources).pop() else { return Ok(true) };
+        if bucket.special.is_empty() {
+            return Ok(true);
+        }
+        let mut chance = Chance::of(digest, Stream::Primes);
+        let moduli: [Modulus; LANES] = [chance.prime(&[3, 5], &[2, 3]); LANES];
+        let reached = graph.reached(outputs.iter().copied());
+        for leaf in self.explore(&asked, &[outputs], &bucket)?.leaves {
+            let cell = &leaf.cell;
+            let is_settled =
+                matches!(leaf.findings.first(), Some(Some(Finding::Zero(_) | Finding::NonZero)));
+            if !is_settled || cell.signs().next().is_some() {
+                return Ok(false);
+            }
+            let (there, made) = record(graph.inputs(), |inputs| {
+                let inputs = with_signs(inputs, cell.fixed.iter().copied());
+                let own = cell.graph.reached(cell.values.iter().copied());
+                let values = cell.graph.replay(&own, &inputs, |_, _, _| None);
+                let special = bucket.special.iter().zip(&cell.values);
+                let special: Vec<(usize, Option<Expr>)> = special
+                    .map(|(place, value)| (*place, values[cell.graph.place(*value)]))
+                    .collect();
+                let all = graph.replay(&reached, &inputs, |place, _, _| {
+                    special.iter().find(|(own, _)| *own == place).and_then(|(_, value)| *value)
+                });
+                outputs.iter().map(|output| all[graph.place(*output)]).collect::<Option<Vec<_>>>()
+            })?;
+            let Some(made) = made else { return Ok(false) };
+            let domain = Prime::new(moduli);
+            let tapes = [Tape::new(graph, outputs), Tape::new(&there, &made)];
+            let mut evaluators = tapes.each_ref().map(|tape| Evaluator::new(tape, domain.clone()));
+            for _ in 0..BLOCKS {
+                let point = points(&moduli, &asked.sources, &cell.fixed, &mut chance);
+                let [ours, theirs] = evaluators.each_mut().map(|evaluator| {
+                    evaluator.run(&point);
+                    evaluator.outputs().copied().collect::<Vec<_>>()
+                });
+                let lanes = ours.iter().flatten().zip(theirs.iter().flatten());
+                let differs = |(a, b): (&u64, &u64)| *a != UNDEFINED && *b != UNDEFINED && a != b;
+                if lanes.into_iter().any(differs) {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+}
