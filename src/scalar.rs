@@ -23,6 +23,20 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// `|x|`, with derivative `x x'/|x|`; not differentiable at 0.
     fn modulus(self) -> Self;
 
+    /// `asin x = 2 atan(x/(1 + √(1 - x²)))`, at ±1 too; with derivative `x'/√(1 - x²)`.
+    fn arcsine(self) -> Self {
+        let across = (Self::one() - self * self).sqrt();
+        (self / (Self::one() + across)).atan() * Self::from(2.0)
+    }
+
+    /// The angle of the point (x, self), `2 atan(y/(x + r))`, with derivative `(x y' - y x')/r²`.
+    ///
+    /// It has no value on the ray y = 0, x ≤ 0.
+    fn angle_from(self, x: Self) -> Self {
+        let r = (x * x + self * self).sqrt();
+        (self / (x + r)).atan() * Self::from(2.0)
+    }
+
     /// A function Λ of `variable` with Λ' = `integrand`, its constant left open.
     ///
     /// Only the derivative is used: dΛ = integrand · d variable. The value itself is a free symbol
@@ -81,6 +95,17 @@ impl<T: Scalar> Scalar for Dual<T> {
     fn modulus(self) -> Self {
         let value = self.re.modulus();
         Dual::new(value, self.eps * self.re / value)
+    }
+
+    fn arcsine(self) -> Self {
+        let slope = (T::one() - self.re * self.re).sqrt().recip();
+        Dual::new(self.re.arcsine(), self.eps * slope)
+    }
+
+    fn angle_from(self, x: Self) -> Self {
+        let square = x.re * x.re + self.re * self.re;
+        let slope = (x.re * self.eps - self.re * x.eps) / square;
+        Dual::new(self.re.angle_from(x.re), slope)
     }
 
     fn antiderivative(integrand: Self, variable: Self) -> Self {

@@ -168,7 +168,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("empty", String::new(), "the file is empty", "writing-a-case"),
         ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
         ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
-        ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "is no system", "rubber-plane"),
+        ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "unknown system", "rubber-plane"),
         (
             "key",
             format!("titel = 'x'\n{head}{body}"),
@@ -325,8 +325,8 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         (
             "two",
             turning("[[claim]]\nintegral = 'x'\ndensity = '1'"),
-            "one statement",
-            "give one of",
+            "this claim makes 2 statements",
+            "a [[claim]] for each",
         ),
         ("rate", field("[field]\n\"x'\" = 'y'\n"), "has no rate for `y`", "y'"),
     ];

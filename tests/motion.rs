@@ -80,7 +80,7 @@ fn ball(claim: &str) -> Result<Case, String> {
          I = [1, 2, 3]\n[body]\nshape = \"ball\"\n[section]\ng0 = \"0\"\nenergy = 10\n\
          [[claim]]\n{claim}\n"
     );
-    Case::parse(&text, &[]).map_err(|error| error.message())
+    Case::parse(&text, &[]).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("exponent = \"zero\"\ntime = 10", "has no `start`"),
         ("exponent = \"zero\"\nstart = [1]\ntime = 10", "two coordinates"),
         ("exponent = \"zero\"\nstart = [1, 0]\nstate = {}\ntime = 10", "one start"),
-        ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "one statement"),
+        ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "makes 2 statements"),
         ("exponent = \"zero\"\nstart = [1, 0]\ntime = 10\nwhere = \"level\"", "`where`"),
         ("periodic-point = [\"x\", 0]", "is no number"),
         ("periodic-point = [1, 0]\nmodulus = 1\nmultiplier = 2", "complex or real"),
@@ -176,6 +176,6 @@ fn wrong_input_is_refused_in_its_words() {
     }
     let bare = "title = \"top\"\nsystem = \"field\"\ncheck-weights = false\n[state]\nx = \"1..2\"\n\
                 [field]\n\"x'\" = \"-x\"\n[[claim]]\nexponent = \"zero\"\nstart = [1, 0]\ntime = 1\n";
-    let found = Case::parse(bare, &[]).expect_err("there is no section").message();
+    let found = Case::parse(bare, &[]).expect_err("there is no section").to_string();
     assert!(found.contains("the case has none"), "{found}");
 }

@@ -62,7 +62,7 @@ fn a_level_without_a_chart_has_no_sweep() {
     let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '-y'\n\
         \"y'\" = 'x'\n[level]\nequations = ['x⁴ + y⁴ + 2*x²*y² = 1']\n[[claim]]\n\
         integral = 'x² + y²'\n";
-    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{}", error.message()));
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}"));
     let found = Sweep::new(&case, &case.claims[0], 1);
     assert!(matches!(found, Err(SweepError::NoChart)), "{found:?}");
 }

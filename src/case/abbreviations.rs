@@ -1,66 +1,68 @@
-//! `[let]`: names for formulas that others use.
+//! `[let]`: names for formulas that others use, in any order.
 
-use super::body;
-use super::error::{CaseError, Problem};
+use super::error::{Mistake, Problem};
+use super::formulas::formula;
+use super::order::{Item, ItemKind, Stage};
+use super::parameters::named;
 use super::section::Text;
 use super::systems::Reading;
-use crate::formula::canonical_name;
+use crate::formula::{Formula, Type};
 use crate::mechanics::{Meaning, Reach};
 
 impl Reading<'_, '_> {
-    /// Reads `[let]`: each abbreviation may use those before it.
-    pub(super) fn read_abbreviations(&mut self) -> Result<(), CaseError> {
-        let Some(section) = self.root.section("let")? else { return Ok(()) };
-        let rates: Vec<String> =
-            self.state.variables.iter().map(|variable| format!("{}'", variable.name)).collect();
+    /// Notes the names of `[let]`; nothing is read yet.
+    pub(super) fn list_abbreviations(&mut self) {
+        let Some(section) = self.root.table("let") else { return };
         for (key, value) in section.entries() {
-            let text = section.as_text(key.get_ref(), value)?;
-            let uses = |name: &String| text.value.contains(name.as_str());
-            let unknown = |name: &String| self.vocabulary.find(name).is_none();
-            if rates.iter().any(|name| unknown(name) && uses(name)) || self.waiting.iter().any(uses)
-            {
-                self.waiting.push(key.get_ref().to_string());
-            } else {
-                self.abbreviate(key.get_ref(), key.span(), &text)?;
+            let Some(name) = self.mistakes().keep(named(key)) else { continue };
+            let known = self.items.iter().any(|item| item.name == name);
+            match self.mistakes().keep(section.as_text(key.get_ref(), value)) {
+                _ if known => self.taken(&name, key.span()),
+                None => self.mistakes().fail(&name),
+                Some(text) => {
+                    self.items.push(Item::new(name, key.span(), ItemKind::Abbreviation(text)));
+                }
             }
         }
-        Ok(())
     }
 
-    /// Reads the abbreviations that use rates.
-    pub(super) fn read_waiting(&mut self) -> Result<(), CaseError> {
-        let Some(section) = self.root.section("let")? else { return Ok(()) };
-        for (key, value) in section.entries() {
-            if self.waiting.iter().any(|name| name == key.get_ref().as_ref()) {
-                let text = section.as_text(key.get_ref(), value)?;
-                self.abbreviate(key.get_ref(), key.span(), &text)?;
-            }
-        }
-        Ok(())
+    fn taken(&self, name: &str, place: std::ops::Range<usize>) {
+        let (name, reason) = (name.to_string(), "it is taken already".to_string());
+        self.mistakes().add(Mistake::at(place, Problem::BadName { name, reason }));
     }
 
-    fn abbreviate(
+    /// Reads one abbreviation, if all that it uses is known.
+    pub(super) fn abbreviate(
         &mut self,
-        key: &str,
-        place: std::ops::Range<usize>,
+        item: usize,
         text: &Text,
-    ) -> Result<(), CaseError> {
-        let bad = |reason: &str| {
-            let (name, reason) = (key.to_string(), reason.to_string());
-            CaseError::at(place.clone(), Problem::BadName { name, reason })
+        stage: Stage,
+    ) -> Result<(), Mistake> {
+        let name = self.items[item].name.clone();
+        let hides = match self.vocabulary.find(&name).map(|entry| entry.meaning) {
+            None => false,
+            Some(Meaning::Quantity(_)) => true,
+            Some(_) => {
+                let (place, reason) = (self.items[item].key.clone(), "it is taken already");
+                let problem = Problem::BadName { name, reason: reason.to_string() };
+                return Err(Mistake::at(place, problem));
+            }
         };
-        let name = canonical_name(key)
-            .ok_or_else(|| bad("a name is letters, then digits, primes or _"))?;
-        match self.vocabulary.find(&name).map(|entry| entry.meaning) {
-            None => {}
-            Some(Meaning::Quantity(_)) => self.hidden.push(name.clone()),
-            Some(_) => return Err(bad("it is taken already")),
-        }
-        let read = body::formula(text, &self.vocabulary, &name, None, Reach::Phase)?;
+        let reach = if stage == Stage::Parameters { Reach::Parameters } else { Reach::Phase };
+        let read = formula(text, &self.vocabulary, &name, None, reach)?;
         let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
+        let kind = read.value_type();
         let meaning = Meaning::Abbreviation(self.abbreviations.len());
-        self.vocabulary.add(&name, meaning, read.value_type(), reach);
+        self.vocabulary.add(&name, meaning, kind, reach);
+        if (kind, reach) == (Type::Scalar, Reach::Parameters)
+            && let Ok(whole) = Formula::whole_number(read.text(), &self.vocabulary)
+        {
+            self.vocabulary.set_whole(&name, whole);
+        }
         self.abbreviations.push(read);
+        if hides {
+            self.hidden.push(name);
+        }
         Ok(())
     }
 }

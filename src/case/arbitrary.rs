@@ -13,7 +13,7 @@
 //! since dσ·v − v∘σ differentiates σ at x, and nothing at σ(x). Polynomials of degree k + l + 1 take
 //! any jets of orders k and l at two points, those of degree k any jet of order k at one.
 
-use super::error::CaseError;
+use super::error::Mistake;
 use super::parameters::{Setting, coefficients};
 use super::section::Section;
 use crate::claim::{Jets, STATEMENTS, jets};
@@ -29,15 +29,15 @@ pub struct Arbitrary<'a> {
 
 impl<'a> Arbitrary<'a> {
     /// Looks at what the file is going to claim.
-    pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Result<Self, CaseError> {
-        let claims = root.sections("claim")?;
+    pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Self {
+        let claims = root.tables("claim");
         let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(key).is_some());
         let needed = STATEMENTS.iter().filter(is_made).map(|key| jets(key)).max();
-        Ok(Self { settings, jets: needed.unwrap_or_default() })
+        Self { settings, jets: needed.unwrap_or_default() }
     }
 
     /// Any smooth surface.
-    pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
+    pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_sphere(degree, parameters.len());
         self.declare("h", &polynomial, parameters)?;
@@ -45,7 +45,7 @@ impl<'a> Arbitrary<'a> {
     }
 
     /// Any surface of revolution.
-    pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, CaseError> {
+    pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_interval(degree, parameters.len());
         self.declare("p", &polynomial, parameters)?;
@@ -57,7 +57,7 @@ impl<'a> Arbitrary<'a> {
         &self,
         axial: bool,
         parameters: &mut Vec<Parameter>,
-    ) -> Result<Potential, CaseError> {
+    ) -> Result<Potential, Mistake> {
         let degree = self.degree([2, 3, 4]);
         let polynomial = match axial {
             true => Polynomial::on_interval(degree, parameters.len()),
@@ -82,7 +82,7 @@ impl<'a> Arbitrary<'a> {
         prefix: &str,
         polynomial: &Polynomial,
         parameters: &mut Vec<Parameter>,
-    ) -> Result<(), CaseError> {
+    ) -> Result<(), Mistake> {
         let size = if self.jets == Jets::TwoPoints { 10 } else { 5 };
         let small = Range::between((-1, size), (1, size));
         coefficients(prefix, &polynomial.exponents, &small, self.settings, parameters)

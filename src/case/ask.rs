@@ -2,11 +2,13 @@
 
 use toml::de::DeTable;
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
+use super::claims::{self, Context};
+use super::error::{CaseError, Mistake, Problem};
+use super::formulas::formula;
+use super::mistakes::Mistakes;
 use super::parameters::named;
 use super::section::Section;
-use super::{Case, Claim, claims, variables};
+use super::{Case, Claim, toml_errors, variables};
 use crate::claim::jets;
 use crate::mechanics::{Meaning, Model, Reach};
 
@@ -42,36 +44,53 @@ impl Case {
     /// # Ok::<(), liouville::case::CaseError>(())
     /// ```
     pub fn ask(&self, text: &str) -> Result<Case, CaseError> {
-        let document = DeTable::parse(text).map_err(|error| {
-            let message = error.message().to_string();
-            CaseError { span: error.span(), problem: Problem::Toml { message, help: None } }
-        })?;
-        let root = Section::new("the question", document.get_ref(), 0..0, text);
-        root.allow(&KEYS)?;
+        let (document, errors) = DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            return Err(CaseError::new(toml_errors::mistakes(text, &errors), text));
+        }
+        let mistakes = Mistakes::default();
+        let asked = {
+            let root = Section::new("the question", document.get_ref(), 0..0, text, &mistakes);
+            self.asked(&root)
+        };
+        match mistakes.is_empty() {
+            true => Ok(asked),
+            false => Err(CaseError::new(mistakes.into_list(), text)),
+        }
+    }
+
+    fn asked(&self, root: &Section<'_>) -> Case {
+        root.allow(&KEYS);
         let mut asked = self.clone();
         asked.motions.clear();
-        if let Some(section) = root.section("let")? {
-            abbreviate(&section, &mut asked.model)?;
+        if let Some(section) = root.table("let") {
+            abbreviate(&section, &mut asked.model);
         }
-        if root.section("variables")?.is_some() {
+        if root.value("variables").is_some() {
             asked.model.variables = None;
-            variables::read(&root, &mut asked.model)?;
+            variables::read(root, &mut asked.model);
         }
+        let is_whole = root.mistakes().is_empty();
+        let plan = asked.section.as_ref();
+        let context = Context { model: &asked.model, is_whole, plan, source: "" };
         let (mut stated, mut names) = (Vec::new(), Vec::new());
-        for section in root.sections("claim")? {
-            let claim = claims::read(&section, &asked.model, &names, "")?;
-            self.check_degrees(&claim, &section)?;
-            names.push(claim.name.clone());
-            stated.push(claim);
+        for section in root.tables("claim") {
+            let claim = claims::read(&section, &context, &names);
+            let claim = claim.and_then(|claim| {
+                self.check_degrees(&claim, &section)?;
+                Ok(claim)
+            });
+            if let Some(claim) = root.keep(claim) {
+                names.push(claim.name.clone());
+                stated.push(claim);
+            }
         }
         asked.claims = stated;
-        Ok(asked)
+        asked
     }
-}
 
-impl Case {
     /// Arbitrary functions have the degree that the claims of the file need.
-    fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), CaseError> {
+    fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), Mistake> {
         let needed = |claim: &Claim| jets(claim.kind.name());
         let has = self.claims.iter().map(needed).max().unwrap_or_default();
         if needed(claim) <= has || !self.model.system.has_arbitrary_function() {
@@ -85,15 +104,20 @@ impl Case {
 }
 
 /// Adds abbreviations, each of which may use those before it.
-fn abbreviate(section: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
+fn abbreviate(section: &Section<'_>, model: &mut Model) {
     for (key, value) in section.entries() {
-        let name = named(key)?;
-        let text = section.as_text(key.get_ref(), value)?;
-        let read = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+        let read = named(key).and_then(|name| {
+            let text = section.as_text(key.get_ref(), value)?;
+            let read = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+            Ok((name, read))
+        });
+        let Some((name, read)) = section.keep(read) else {
+            section.mistakes().fail(key.get_ref());
+            continue;
+        };
         let reach = model.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
         let meaning = Meaning::Abbreviation(model.abbreviations.len());
         model.vocabulary.add(&name, meaning, read.value_type(), reach);
         model.abbreviations.push(read);
     }
-    Ok(())
 }

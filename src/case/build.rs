@@ -1,16 +1,21 @@
 //! From the text of a case file to a [`Case`].
 
+use std::collections::BTreeSet;
+
 use toml::de::DeTable;
 
-use super::error::{CaseError, Problem};
+use super::claims::{self, Context};
+use super::error::{CaseError, Mistake, Problem};
+use super::mistakes::Mistakes;
 use super::parameters::{self, Setting};
 use super::section::Section;
-use super::systems::{self, Parts};
+use super::state::TIME;
+use super::systems::{Parts, Reading};
 use super::{
-    Case, Column, TABLE_ROWS, claims, field, homogeneous, one_sided, poincare, shadows, variables,
-    velocities, weights,
+    Case, Claim, Column, MotionClaim, TABLE_ROWS, charts, homogeneous, lists, one_sided, poincare,
+    shadows, toml_errors, variables, velocities, weights,
 };
-use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, Vocabulary};
+use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
 /// The keys of a case file.
 const KEYS: [&str; 19] = [
@@ -35,58 +40,133 @@ const KEYS: [&str; 19] = [
     "claim",
 ];
 
+/// What a file leaves to be inferred from its formulas.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Assumed {
+    /// Time is a state variable.
+    pub time: bool,
+    /// Lists that are diagonal matrices; the others are vectors.
+    pub diagonal: BTreeSet<String>,
+}
+
+impl Assumed {
+    /// Is the list of this name a diagonal matrix?
+    pub fn is_diagonal(&self, name: &str) -> bool {
+        self.diagonal.contains(name)
+    }
+}
+
+/// What came of one way to read a file.
+pub struct Attempt {
+    case: Option<Case>,
+    /// What is wrong.
+    pub mistakes: Vec<Mistake>,
+    /// Parameters that are lists of numbers.
+    pub lists: Vec<String>,
+}
+
 pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
-    let document = DeTable::parse(text).map_err(|error| not_toml(text, &error))?;
+    let (document, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        return Err(CaseError::new(toml_errors::mistakes(text, &errors), text));
+    }
     if document.get_ref().is_empty() {
         return Err(CaseError::whole(Problem::Empty));
     }
-    let root = Section::new("the file", document.get_ref(), 0..0, text);
-    root.allow(&KEYS)?;
-    let title = root.required("title", "add title = \"what the case is about\"")?.value;
-    let source = root.text("source")?.map_or(String::new(), |source| source.value);
-    let notes = root.texts("note")?.into_iter().map(|note| note.value).collect();
-
-    let mut vocabulary = Vocabulary::default();
-    let given = root.section("parameters")?;
-    let parameters = parameters::read(given.as_ref(), settings, &mut vocabulary)?;
-    let names_of_parameters = vocabulary.clone();
-    let (system, mut parts) = systems::read(&root, vocabulary, parameters, settings)?;
-    parameters::unknown_setting(settings, &parts.model.parameters)?;
-    extend_support(&mut parts);
-    let mut warnings: Vec<String> = parts.hidden.iter().map(|n| shadows::warning(n)).collect();
-    warnings.extend(velocities::check(&root, &parts.model)?);
-    variables::read(&root, &mut parts.model)?;
-    no_open_level(&root, &parts.model)?;
-    if let Some(level) = root.section("level")? {
-        parts.chart = level_chart(&level, &parts, names_of_parameters)?;
-    } else if matches!(parts.model.system, System::Lagrangian(_)) && !parts.model.level.is_empty() {
-        parts.chart = Chart::Equations;
+    let read = |assumed: &Assumed| Attempt::new(text, document.get_ref(), settings, assumed);
+    let attempt = lists::settled(&|diagonal| {
+        let mut assumed = Assumed { time: false, diagonal: diagonal.clone() };
+        let attempt = read(&assumed);
+        assumed.time = attempt.lacks_time();
+        if assumed.time { read(&assumed) } else { attempt }
+    });
+    match attempt.case {
+        Some(case) if attempt.mistakes.is_empty() => Ok(case),
+        _ => Err(CaseError::new(attempt.mistakes, text)),
     }
-    warnings.extend(of_chart(&parts));
-    let section = poincare::read(&root)?;
-    let (mut claims, mut motions, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    for stated in root.sections("claim")? {
-        if claims::is_about_motion(&stated) {
-            let plan = section.as_ref();
-            let claim = claims::read_motion(&stated, &parts.model, plan, &names, &source)?;
-            names.push(claim.name.clone());
-            motions.push(claim);
-        } else {
-            let claim = claims::read(&stated, &parts.model, &names, &source)?;
-            names.push(claim.name.clone());
-            claims.push(claim);
+}
+
+impl Attempt {
+    fn new(text: &str, table: &DeTable<'_>, settings: &[Setting], assumed: &Assumed) -> Self {
+        let mistakes = Mistakes::default();
+        let mut lists = Vec::new();
+        let case = {
+            let root = Section::new("the file", table, 0..0, text, &mistakes);
+            read(&root, settings, assumed, &mut lists)
+        };
+        Self { case, mistakes: mistakes.into_list(), lists }
+    }
+
+    /// Does a formula use `t`, which nothing declares?
+    fn lacks_time(&self) -> bool {
+        self.mistakes.iter().any(|mistake| mistake.unknown_name() == Some(TIME))
+    }
+}
+
+/// Reads a file; where there are mistakes, what is given is of no use.
+fn read(
+    root: &Section<'_>,
+    settings: &[Setting],
+    assumed: &Assumed,
+    lists: &mut Vec<String>,
+) -> Option<Case> {
+    let mistakes = root.mistakes();
+    if !root.allow(&KEYS) && root.entries().iter().any(|(_, value)| value.get_ref().is_table()) {
+        // an unknown table may declare anything
+        let known = |key: &str| KEYS.contains(&key);
+        let declares = |(key, value): &(&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
+            let value: &&toml::Spanned<toml::de::DeValue<'_>> = value;
+            !known(key.get_ref()) && value.get_ref().is_table()
+        };
+        if root.entries().iter().any(declares) {
+            mistakes.blind();
         }
     }
-    let check = root.boolean("check-weights")?.unwrap_or(true);
-    let dimensions = root.section("dimensions")?;
-    if check {
-        weights::check(&root, &parts.model, dimensions.as_ref(), &claims)?;
+    let title = root.keep(root.required("title", "add title = \"what the case is about\""));
+    let source = root.keep(root.text("source")).flatten();
+    let source = source.map_or(String::new(), |source| source.value);
+    let notes = root.keep(root.texts("note")).unwrap_or_default();
+
+    let mut reading = Reading::new(root, settings, assumed);
+    reading.read_parameters();
+    lists.append(&mut reading.lists);
+    let (system, mut parts) = reading.read()?;
+    parameters::unknown_settings(root, settings, &parts.model.parameters);
+    let has_variables = variables::read(root, &mut parts.model);
+    // what was read so far is judged only if all of it is there
+    let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
+    let mut warnings = Vec::new();
+    if is_whole {
+        extend_support(&mut parts);
+        warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
+        root.keep(no_open_level(root, &parts.model));
     }
-    let column = column(&root)?;
-    let one_sided = one_sided::read(&root, &parts.model)?;
+    read_chart(root, &mut parts);
+    let section = poincare::read(root);
+    let plan_is_whole = section.is_some() || root.value("section").is_none();
+    let context = Context {
+        model: &parts.model,
+        is_whole: is_whole && plan_is_whole,
+        plan: section.as_ref(),
+        source: &source,
+    };
+    let (claims, motions) = read_claims(root, &context);
+    let check = root.keep(root.boolean("check-weights")).flatten().unwrap_or(true);
+    let dimensions = root.table("dimensions");
+    let column = root.keep(column(root)).flatten();
+    let one_sided = one_sided::read(root, &parts.model);
+    if check && is_whole {
+        weights::check(root, &parts.model, dimensions.as_ref(), &claims);
+    }
+    if !mistakes.is_empty() {
+        return None;
+    }
+    let hidden = parts.hidden.iter().map(|name| shadows::warning(name));
+    let alike = parts.alike.iter().cloned();
+    let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
     let Parts { model, chart, free_draws, .. } = parts;
-    Ok(Case {
-        title,
+    Some(Case {
+        title: title?.value,
         source,
         system,
         model,
@@ -97,20 +177,40 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
         column,
         section,
         one_sided,
-        notes,
+        notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
     })
 }
 
+/// The claims that can be read, those about motion apart.
+fn read_claims(root: &Section<'_>, context: &Context<'_>) -> (Vec<Claim>, Vec<MotionClaim>) {
+    let (mut claims, mut motions, mut names) = (Vec::new(), Vec::new(), Vec::new());
+    for stated in root.tables("claim") {
+        if claims::is_misspelt(&stated) {
+            continue;
+        }
+        if claims::is_about_motion(&stated) {
+            let claim = root.keep(claims::read_motion(&stated, context, &names));
+            names.extend(claim.iter().map(|claim| claim.name.clone()));
+            motions.extend(claim);
+        } else {
+            let claim = root.keep(claims::read(&stated, context, &names));
+            names.extend(claim.iter().map(|claim| claim.name.clone()));
+            claims.extend(claim);
+        }
+    }
+    (claims, motions)
+}
+
 /// A level set is not fixed by an equation whose constant is open.
-fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), CaseError> {
+fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
     for equation in &model.level {
         let LevelFunction::Formula(function) = &equation.function else { continue };
         if model.has_antiderivative(function) {
             let span = root.find(&equation.text).map(|start| start..start + equation.text.len());
             let message = format!("`{}` contains an ∫, whose constant is open", equation.text);
             let remedy = "write the antiderivative out".to_string();
-            return Err(CaseError { span, problem: Problem::Other { message, remedy } });
+            return Err(Mistake::new(span, Problem::Sense { message, remedy }));
         }
     }
     Ok(())
@@ -134,39 +234,35 @@ fn extend_support(parts: &mut Parts) {
     }
 }
 
-fn not_toml(text: &str, error: &toml::de::Error) -> CaseError {
-    let span = error.span();
-    let at = span.as_ref().and_then(|span| text.get(span.start..)).and_then(|s| s.chars().next());
-    let help = at.filter(|c| c.is_alphabetic() && !c.is_ascii()).map(|_| {
-        "a key that is not ASCII is quoted: \"μ\" = …; or write the letter's name: mu = …"
-            .to_string()
-    });
-    CaseError { span, problem: Problem::Toml { message: error.message().to_string(), help } }
-}
-
 /// The chart of a level set of the user's own: given, solved for, or none.
-fn level_chart(
-    section: &Section<'_>,
-    parts: &Parts,
-    names: Vocabulary,
-) -> Result<Chart, CaseError> {
-    let own = matches!(parts.model.system, System::Field(_) | System::Lagrangian(_));
-    if !own {
-        return Err(CaseError::at(
+fn read_chart(root: &Section<'_>, parts: &mut Parts) {
+    let is_lagrangian = matches!(parts.model.system, System::Lagrangian(_));
+    let Some(section) = root.table("level") else {
+        if is_lagrangian && !parts.model.level.is_empty() {
+            parts.chart = Chart::Equations;
+        }
+        return;
+    };
+    if !is_lagrangian && !matches!(parts.model.system, System::Field(_)) {
+        root.mistakes().add(Mistake::at(
             section.span.clone(),
             Problem::Other {
                 message: "the level set of this system is known".to_string(),
                 remedy: "remove [level]".to_string(),
             },
         ));
+        return;
     }
     section.value("equations");
-    let chart = match section.section("chart")? {
-        Some(chart) => field::chart(&chart, &parts.model, names)?,
-        None => Chart::Equations,
-    };
-    section.finish()?;
-    Ok(chart)
+    match root.keep(section.section("chart")).flatten() {
+        Some(chart) => {
+            if let Some(chart) = charts::chart(&chart, &parts.model, &parts.free_draws) {
+                parts.chart = chart;
+            }
+        }
+        None => parts.chart = Chart::Equations,
+    }
+    section.finish();
 }
 
 /// Which part of the level set a chart makes, where that may not be all of it.
@@ -179,7 +275,7 @@ fn of_chart(parts: &Parts) -> Vec<String> {
     }
 }
 
-fn column(root: &Section<'_>) -> Result<Option<Column>, CaseError> {
+fn column(root: &Section<'_>) -> Result<Option<Column>, Mistake> {
     let Some(section) = root.section("table")? else { return Ok(None) };
     let remedy = "write table = { number = 1, column = 2 }";
     let table = section.integer("number")?.ok_or_else(|| section.missing("number", remedy))?;
@@ -190,6 +286,29 @@ fn column(root: &Section<'_>) -> Result<Option<Column>, CaseError> {
             words.push((row.to_string(), text.value));
         }
     }
-    section.finish()?;
+    section.finish();
     Ok(Some(Column { table, column, words }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Case;
+
+    const FIELD: &str = "title = 't'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n";
+
+    #[test]
+    fn long_chains_of_names_take_no_deep_stack() {
+        let links: Vec<String> = (0..5000).map(|k| format!("b{} = 'b{k} + x'\n", k + 1)).collect();
+        for order in [links.concat(), links.iter().rev().cloned().collect()] {
+            let text = format!(
+                "{FIELD}[[claim]]\nrate = 'b5000'\nequals = 'b5000'\n[let]\nb0 = 'x'\n{order}"
+            );
+            let judged = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
+                let case = Case::parse(&text, &[]).expect("a case");
+                crate::verdict::judge(&case, &crate::verdict::Options::default()).map(|_| ())
+            });
+            let judged = judged.expect("a thread").join().expect("no stack overflows");
+            assert!(judged.is_ok(), "the chain is judged");
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! `[[claim]]`: what is claimed, where, and what is expected.
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
+use std::ops::Range;
+
+use super::error::{Mistake, Problem};
+use super::field::sides;
+use super::formulas::formula;
 use super::section::{Section, Text};
 use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
@@ -20,18 +23,40 @@ pub fn is_about_motion(section: &Section<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())
 }
 
+/// Does the claim state nothing because the key of its statement is misspelt? That is told then.
+pub fn is_misspelt(section: &Section<'_>) -> bool {
+    let states = |key: &&str| section.has(key);
+    if STATEMENTS.iter().chain(MOTIONS).any(states) {
+        return false;
+    }
+    !section.allow(&[STATEMENTS, MOTIONS, &COMMON].concat())
+}
+
+/// What claims are read with.
+pub struct Context<'c> {
+    /// The case that they are about.
+    pub model: &'c Model,
+    /// Was the case read without mistakes?
+    pub is_whole: bool,
+    /// The section of the case.
+    pub plan: Option<&'c SectionPlan>,
+    /// The source of claims that name none.
+    pub source: &'c str,
+}
+
 /// Reads one claim; `taken` holds the names of those before it.
 pub fn read(
     section: &Section<'_>,
-    model: &Model,
+    context: &Context<'_>,
     taken: &[String],
-    default_source: &str,
-) -> Result<Claim, CaseError> {
-    let kind = kind(section, model)?;
-    let (place, only_there) = place(section, model)?;
+) -> Result<Claim, Mistake> {
+    let model = context.model;
+    let kind = kind(section, context)?;
+    let (place, only_there) = place(section, context)?;
+    let base = kind.text().unwrap_or_else(|| kind.name().to_string());
     let claim = Claim {
-        name: name(section, kind.text().unwrap_or_else(|| kind.name().to_string()), taken)?,
-        source: section.text("source")?.map_or(default_source.to_string(), |text| text.value),
+        name: name(section, base, taken)?,
+        source: section.text("source")?.map_or(context.source.to_string(), |text| text.value),
         place,
         only_there,
         expect: expect(section)?,
@@ -39,65 +64,99 @@ pub fn read(
         note: section.text("note")?.map(|text| text.value),
         kind,
     };
-    Ok(claim)
+    let formulas = claim.kind.formulas();
+    let rigid = |index: &usize| model.is_rigid(*index, &formulas);
+    if let Some(index) = claim.kind.changes().into_iter().find(rigid) {
+        let name = &model.parameters[index].name;
+        return Err(rigid_parameter(section, claim.kind.name(), name));
+    }
+    match claim.kind.objection(model).filter(|_| context.is_whole) {
+        None => Ok(claim),
+        Some(objection) => {
+            let span = place_of(section, claim.kind.name());
+            let (message, remedy) = (objection.message, objection.remedy.to_string());
+            Err(Mistake::at(span, Problem::Sense { message, remedy }))
+        }
+    }
 }
 
-/// Reads one claim about motion; `plan` is the section of the case.
+/// The place of a key's value, or of its table.
+fn place_of(section: &Section<'_>, key: &'static str) -> Range<usize> {
+    section.value(key).map_or(section.span.clone(), |value| value.span())
+}
+
+/// The complaint that a claim changes a number that sizes and indices are made of.
+fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
+    let span = place_of(section, key);
+    let message =
+        format!("`{name}` stands in a size, an index or a power of a matrix, and cannot change");
+    let remedy = "use another parameter in the place of the one".to_string();
+    Mistake::at(span, Problem::Other { message, remedy })
+}
+
+/// Reads one claim about motion.
 pub fn read_motion(
     section: &Section<'_>,
-    model: &Model,
-    plan: Option<&SectionPlan>,
+    context: &Context<'_>,
     taken: &[String],
-    default_source: &str,
-) -> Result<MotionClaim, CaseError> {
+) -> Result<MotionClaim, Mistake> {
+    let model = context.model;
     let mut stated = MOTIONS.iter().chain(STATEMENTS).filter(|key| section.value(key).is_some());
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
-    section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat())?;
+    section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat());
     let entries = Entries { section, model };
     let kind = match (Motion::read(key, &entries), second) {
         (Some(kind), None) => kind?,
-        _ => return Err(one_statement(section, 2)),
+        _ => return Err(statements(section, 2)),
     };
-    if plan.is_none() && matches!(kind.beginning(), Beginning::Section(_)) {
-        return Err(section.complaint(Problem::Other {
+    let starts_on_section = matches!(kind.beginning(), Beginning::Section(_));
+    if context.plan.is_none() && starts_on_section && context.is_whole {
+        return Err(section.complaint(Problem::Sense {
             message: "the motion starts on a section, and the case has none".to_string(),
             remedy: "add [section] with g0 and energy, or give state = { … }".to_string(),
         }));
     }
     Ok(MotionClaim {
         name: name(section, kind.text(), taken)?,
-        source: section.text("source")?.map_or(default_source.to_string(), |text| text.value),
+        source: section.text("source")?.map_or(context.source.to_string(), |text| text.value),
         expect: expect(section)?,
         note: section.text("note")?.map(|text| text.value),
         kind,
     })
 }
 
-fn one_statement(section: &Section<'_>, given: usize) -> CaseError {
-    let message = format!("a claim makes one statement, and this one {given}");
-    let remedy = format!("give one of {}", [STATEMENTS, MOTIONS].concat().join(", "));
-    CaseError::at(section.span.clone(), Problem::Other { message, remedy })
+/// The complaint that a claim makes no statement, or several.
+fn statements(section: &Section<'_>, given: usize) -> Mistake {
+    let message = match given {
+        0 => "this claim states nothing".to_string(),
+        _ => format!("this claim makes {given} statements"),
+    };
+    let remedy = match given {
+        0 => format!("give one of {}", [STATEMENTS, MOTIONS].concat().join(", ")),
+        _ => "write a [[claim]] for each".to_string(),
+    };
+    Mistake::at(section.span.clone(), Problem::Other { message, remedy })
 }
 
-fn other(text: &Text, message: String, remedy: &str) -> CaseError {
-    CaseError::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
+fn other(text: &Text, message: String, remedy: &str) -> Mistake {
+    Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }
 
-fn kind(section: &Section<'_>, model: &Model) -> Result<Kind, CaseError> {
+fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     let given: Vec<&str> =
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
     let companions = given.first().map_or(&[][..], |key| Kind::companions(key));
-    section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat())?;
-    let entries = Entries { section, model };
-    let read = match given.as_slice() {
-        [key] => Kind::read(key, &entries),
-        _ => None,
-    };
-    let Some(kind) = read else { return Err(one_statement(section, given.len())) };
-    let kind = kind?;
-    match kind.objection(model) {
-        None => Ok(kind),
-        Some(objection) => Err(entries.complaint(kind.name(), objection.message, objection.remedy)),
+    section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
+    let entries = Entries { section, model: context.model };
+    match given.as_slice() {
+        ["density"] if section.text("density")?.is_some_and(|text| text.value == "exists") => {
+            let message = "a density is given by a formula".to_string();
+            let remedy = "write density = \"1\" or the like; or claim analytic-density = \"exists\" \
+                          or position-density = \"exists\"";
+            Err(entries.complaint("density", message, remedy))
+        }
+        [key] => Kind::read(key, &entries).unwrap_or_else(|| Err(statements(section, 0))),
+        _ => Err(statements(section, given.len())),
     }
 }
 
@@ -108,17 +167,17 @@ struct Entries<'e, 's> {
 }
 
 impl Reader for Entries<'_, '_> {
-    type Error = CaseError;
+    type Error = Mistake;
 
     fn model(&self) -> &Model {
         self.model
     }
 
-    fn text(&self, key: &'static str) -> Result<Option<String>, CaseError> {
+    fn text(&self, key: &'static str) -> Result<Option<String>, Mistake> {
         Ok(self.section.text(key)?.map(|text| text.value))
     }
 
-    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, CaseError> {
+    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, Mistake> {
         if self.section.value(key).is_none() {
             return Ok(None);
         }
@@ -131,12 +190,12 @@ impl Reader for Entries<'_, '_> {
         key: &'static str,
         kind: Option<Type>,
         scope: &Vocabulary,
-    ) -> Result<Option<Formula>, CaseError> {
+    ) -> Result<Option<Formula>, Mistake> {
         let Some(text) = self.section.text(key)? else { return Ok(None) };
         formula(&text, scope, &format!("`{key}`"), kind, Reach::Phase).map(Some)
     }
 
-    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, CaseError> {
+    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, Mistake> {
         if self.section.value(key).is_none() {
             return Ok(None);
         }
@@ -146,9 +205,9 @@ impl Reader for Entries<'_, '_> {
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 
-    fn equation(&self, key: &'static str) -> Result<(Formula, Formula), CaseError> {
+    fn equation(&self, key: &'static str) -> Result<(Formula, Formula), Mistake> {
         let text = self.section.text(key)?.ok_or_else(|| self.missing(key))?;
-        let Some((left, right)) = text.value.split_once('=') else {
+        let Some((left, right, second)) = sides(&text.value) else {
             let message = format!("`{key}` has two sides");
             return Err(other(&text, message, "write \"A = B\""));
         };
@@ -156,17 +215,17 @@ impl Reader for Entries<'_, '_> {
             Formula::parse(side, &self.model.vocabulary).map_err(|error| {
                 let span = error.span();
                 let place = text.locate(start + span.start..start + span.end);
-                CaseError::at(place, Problem::Formula(error))
+                Mistake::at(place, Problem::Formula(error))
             })
         };
-        Ok((read(left, 0)?, read(right, left.len() + 1)?))
+        Ok((read(left, 0)?, read(right, second)?))
     }
 
     fn table_in(
         &self,
         key: &'static str,
         scope: &Vocabulary,
-    ) -> Result<Option<Vec<(String, Formula)>>, CaseError> {
+    ) -> Result<Option<Vec<(String, Formula)>>, Mistake> {
         let Some(section) = self.section.section(key)? else { return Ok(None) };
         let mut entries = Vec::new();
         for (key, value) in section.entries() {
@@ -178,14 +237,14 @@ impl Reader for Entries<'_, '_> {
         Ok(Some(entries))
     }
 
-    fn complaint(&self, key: &'static str, message: String, remedy: &str) -> CaseError {
-        let span = self.section.value(key).map_or(self.section.span.clone(), |value| value.span());
-        CaseError::at(span, Problem::Other { message, remedy: remedy.to_string() })
+    fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
+        let span = place_of(self.section, key);
+        Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
     }
 }
 
 /// The name that is given, or `base`, numbered where it is taken.
-fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, CaseError> {
+fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
@@ -198,24 +257,36 @@ fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String,
     Ok(std::iter::once(base.clone()).chain(numbered).find(free).unwrap_or(base))
 }
 
-fn place(section: &Section<'_>, model: &Model) -> Result<(Place, bool), CaseError> {
+fn place(section: &Section<'_>, context: &Context<'_>) -> Result<(Place, bool), Mistake> {
+    let model = context.model;
     let Some(text) = section.text("where")? else { return Ok((Place::level(model), false)) };
-    match text.value.trim() {
-        "level" => Ok((Place::level(model), false)),
-        "level only" => Ok((Place::level(model), true)),
-        "everywhere" => Ok((Place::everywhere(model), false)),
-        equation => Place::equation(model, equation).map(|place| (place, false)).ok_or_else(|| {
-            let equations: Vec<&str> = model.level.iter().map(|e| e.text.as_str()).collect();
-            let remedy = format!(
-                "write \"level\", \"level only\", \"everywhere\", or one of the level's equations: {}",
-                equations.join("; ")
-            );
-            other(&text, format!("`{equation}` is no place of this case"), &remedy)
-        }),
+    let equation = match text.value.trim() {
+        "level" => return Ok((Place::level(model), false)),
+        "level only" => return Ok((Place::level(model), true)),
+        "everywhere" => return Ok((Place::everywhere(model), false)),
+        equation => equation,
+    };
+    match Place::equation(model, equation) {
+        Some(place) => Ok((place, false)),
+        // the level may have the equation, with a mistake in it
+        None if !context.is_whole => Ok((Place::level(model), false)),
+        None => {
+            let equations: Vec<String> =
+                model.level.iter().map(|equation| format!("\"{}\"", equation.text)).collect();
+            let remedy = match equations.as_slice() {
+                [] => "write \"everywhere\": this case has no level set".to_string(),
+                _ => format!(
+                    "write \"level\", \"level only\", \"everywhere\", or one of the level's \
+                     equations: {}",
+                    equations.join(", ")
+                ),
+            };
+            Err(other(&text, format!("`{equation}` is no place of this case"), &remedy))
+        }
     }
 }
 
-fn cell(section: &Section<'_>) -> Result<Option<String>, CaseError> {
+fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
@@ -225,7 +296,7 @@ fn cell(section: &Section<'_>) -> Result<Option<String>, CaseError> {
     }
 }
 
-fn expect(section: &Section<'_>) -> Result<Expect, CaseError> {
+fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
     let Some(text) = section.text("expect")? else { return Ok(Expect::Holds) };
     match text.value.as_str() {
         "holds" => Ok(Expect::Holds),
@@ -233,8 +304,8 @@ fn expect(section: &Section<'_>) -> Result<Expect, CaseError> {
         "open" => Ok(Expect::Open),
         found => Err(other(
             &text,
-            format!("`{found}` cannot be expected"),
-            "write \"holds\", \"fails\" or \"open\"",
+            format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
+            "write what the claim should come out as",
         )),
     }
 }

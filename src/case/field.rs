@@ -1,117 +1,126 @@
-//! `[state]`, `[field]`, `[level]`: a system of the user's own.
+//! `[field]` and `[level]`: rates, and the equations that they keep.
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
-use super::parameters::{Given, origin, state_draws};
+use super::error::{Mistake, Problem};
+use super::family::{Key, Rates, Unreadable};
+use super::formulas::formula;
 use super::section::{Section, Text};
-use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{
-    Chart, Draw, GivenChart, LevelEquation, LevelFunction, Meaning, Model, Reach, RootEquation,
-    Variable, Vocabulary,
-};
+use super::state::TIME;
+use crate::formula::{Formula, Type, excerpt};
+use crate::mechanics::{LevelEquation, LevelFunction, Reach, RootEquation, Variable, Vocabulary};
 
-/// State variables with the draws of their components.
-pub struct State {
-    /// The variables in order.
-    pub variables: Vec<Variable>,
-    /// One draw a component.
-    pub draws: Vec<Draw>,
-}
-
-/// Reads a table of names and ranges; `reach` is what it means to depend on them.
-pub fn state(
+/// Reads rates: the formulas of each variable whose rate is given, under its name with or without
+/// a prime; nothing where a mistake was made.
+pub fn given_rates(
     section: &Section<'_>,
-    vocabulary: &mut Vocabulary,
+    variables: &[Variable],
+    vocabulary: &Vocabulary,
     reach: Reach,
-) -> Result<State, CaseError> {
-    let mut state = State { variables: Vec::new(), draws: Vec::new() };
-    add_state(section, vocabulary, reach, &mut state)?;
-    Ok(state)
-}
-
-/// Reads further state variables.
-pub fn add_state(
-    section: &Section<'_>,
-    vocabulary: &mut Vocabulary,
-    reach: Reach,
-    state: &mut State,
-) -> Result<(), CaseError> {
+) -> Vec<GivenRate> {
+    let mut rates: Vec<Rates> = variables.iter().map(|_| Rates::default()).collect();
+    let mut broken = vec![false; variables.len()];
     for (key, value) in section.entries() {
-        let bad = |name: &str, reason: &str| {
-            let (name, reason) = (name.to_string(), reason.to_string());
-            CaseError::at(key.span(), Problem::BadName { name, reason })
+        let (index, read) = match Key::read(key.get_ref(), variables, vocabulary) {
+            Ok(found) => found,
+            Err(Unreadable::Unknown(name)) if section.mistakes().has_failed(&name) => continue,
+            Err(unreadable) => {
+                let problem = unknown_rate(key.get_ref(), unreadable, variables);
+                section.mistakes().add(Mistake::at(key.span(), problem));
+                continue;
+            }
         };
-        let name = canonical_name(key.get_ref())
-            .ok_or_else(|| bad(key.get_ref(), "a name is letters, then digits, primes or _"))?;
-        if vocabulary.find(&name).is_some() {
-            return Err(bad(&name, "it is taken already"));
+        let plain = read.name.clone();
+        match section.keep(section.as_text(key.get_ref(), value)) {
+            None => broken[index] = true,
+            Some(text) => {
+                if !rates[index].add(read, key.span(), text) {
+                    let reason = format!("the rate of `{plain}` is given twice");
+                    let name = key.get_ref().to_string();
+                    section
+                        .mistakes()
+                        .add(Mistake::at(key.span(), Problem::BadName { name, reason }));
+                }
+            }
         }
-        let remedy = "write \"-2..2\", \"vector(-1..1)\" or \"matrix(-1..1)\"";
-        let wrong = |message: String| {
-            CaseError::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
-        };
-        let given: Given = origin(&name, value).map_err(wrong)?;
-        let (kind, draws) = state_draws(&given).ok_or_else(|| {
-            wrong(format!("`{name}` needs the range that its states are drawn from"))
-        })?;
-        vocabulary.add(&name, Meaning::State(state.variables.len()), kind, reach);
-        state.variables.push(Variable { name, kind });
-        state.draws.extend(draws);
     }
-    Ok(())
+    let read = |((variable, rates), broken): ((&Variable, Rates), bool)| match rates.is_empty() {
+        true if broken => GivenRate::Broken,
+        true => GivenRate::Missing,
+        false => match section.keep(rates.formulas(variable, vocabulary, reach)) {
+            Some(formulas) => GivenRate::Given(formulas),
+            None => GivenRate::Broken,
+        },
+    };
+    variables.iter().zip(rates).zip(broken).map(read).collect()
 }
 
-/// Reads the rates: one formula a state variable, under its name with or without a prime.
+/// What a file says of a rate.
+pub enum GivenRate {
+    /// Formulas whose components, one after the other, are the rate.
+    Given(Vec<Formula>),
+    /// It is given with a mistake.
+    Broken,
+    /// Nothing.
+    Missing,
+}
+
+fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Problem {
+    let (message, remedy) = match unreadable {
+        Unreadable::Message(message, remedy) => (message, remedy.to_string()),
+        Unreadable::Unknown(_) => {
+            let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
+            let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
+            (format!("`{}` is the rate of no state variable", excerpt(key)), remedy)
+        }
+    };
+    Problem::Other { message, remedy }
+}
+
+/// Reads the rates of all variables; nothing if one is missing, or wrong.
 pub fn rates(
     section: &Section<'_>,
     variables: &[Variable],
     vocabulary: &Vocabulary,
-) -> Result<Vec<Formula>, CaseError> {
-    let mut rates: Vec<Option<Formula>> = vec![None; variables.len()];
-    for (key, value) in section.entries() {
-        let name = canonical_name(key.get_ref()).unwrap_or_default();
-        let plain = name.strip_suffix('\'').unwrap_or(&name);
-        let Some(index) = variables.iter().position(|variable| variable.name == plain) else {
-            let message = format!("`{}` is the rate of no state variable", key.get_ref());
-            let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
-            let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
-            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+) -> Option<Vec<Formula>> {
+    let given = given_rates(section, variables, vocabulary, Reach::Phase);
+    let mut all = Some(Vec::new());
+    for (variable, rate) in variables.iter().zip(given) {
+        let formulas = match rate {
+            GivenRate::Given(formulas) => Some(formulas),
+            GivenRate::Broken => None,
+            GivenRate::Missing if variable.name == TIME && variable.kind == Type::Scalar => {
+                section.keep(one(vocabulary).map(|one| vec![one]))
+            }
+            GivenRate::Missing => {
+                let name = &variable.name;
+                section.mistakes().add(section.complaint(Problem::Other {
+                    message: format!("[field] has no rate for `{name}`"),
+                    remedy: format!("add \"{name}'\" = \"…\""),
+                }));
+                None
+            }
         };
-        if rates[index].is_some() {
-            let reason = format!("the rate of `{plain}` is given twice");
-            let name = key.get_ref().to_string();
-            return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
+        match (&mut all, formulas) {
+            (Some(all), Some(formulas)) => all.extend(formulas),
+            _ => all = None,
         }
-        let text = section.as_text(key.get_ref(), value)?;
-        let what = format!("the rate of {plain}");
-        let kind = Some(variables[index].kind);
-        rates[index] = Some(formula(&text, vocabulary, &what, kind, Reach::Phase)?);
     }
-    let missing = rates.iter().position(Option::is_none).map(|index| &variables[index].name);
-    match missing {
-        None => Ok(rates.into_iter().flatten().collect()),
-        Some(name) => Err(CaseError::at(
-            section.span.clone(),
-            Problem::Other {
-                message: format!("[field] has no rate for `{name}`"),
-                remedy: format!("add \"{name}'\" = \"…\""),
-            },
-        )),
-    }
+    all
 }
 
-/// Reads `equations = ["(γ,γ) = 1", …]`.
-pub fn equations(
-    section: &Section<'_>,
-    vocabulary: &Vocabulary,
-) -> Result<Vec<LevelEquation>, CaseError> {
+/// The rate of time.
+fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
+    Formula::parse("1", vocabulary).map_err(|error| Mistake::whole(Problem::Formula(error)))
+}
+
+/// Reads `equations = ["(γ,γ) = 1", …]`; nothing for those that are wrong.
+pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
     let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
-    Ok(read.map(|(text, function)| equation(text, function, vocabulary)).collect())
+    Some(read.map(|(text, function)| level_equation(text, function, vocabulary)).collect())
 }
 
 /// An equation of the level, with its sides where one of them is a root.
-pub fn equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
-    let root = text.split_once('=').and_then(|(left, right)| {
+pub fn level_equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
+    let root = sides(&text).and_then(|(left, right, _)| {
         let left = Formula::parse(left, vocabulary).ok()?;
         let right = Formula::parse(right, vocabulary).ok()?;
         let ((radicand, is_modulus), other_side) = match (left.radicand(), right.radicand()) {
@@ -125,101 +134,62 @@ pub fn equation(text: String, function: Formula, vocabulary: &Vocabulary) -> Lev
 }
 
 /// Reads a list of equations: the text, and the difference of both sides, which may depend on no
-/// more than `reach`.
+/// more than `reach`; nothing if one is wrong.
 pub fn equations_in(
     section: &Section<'_>,
     key: &'static str,
     vocabulary: &Vocabulary,
     reach: Reach,
-) -> Result<Vec<(String, Formula)>, CaseError> {
-    let mut level = Vec::new();
-    for text in section.texts(key)? {
-        let Some((left, right)) = text.value.split_once('=') else {
-            let message = format!("each of `{key}` has two sides");
-            let remedy = "write \"(γ,γ) = 1\"".to_string();
-            return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
-        };
-        let read = |side: &str, start: usize| {
-            let span = text.locate(start..start + side.len());
-            Formula::parse(side, vocabulary).map_err(|error| {
-                let inner = error.span();
-                let place = text.locate(start + inner.start..start + inner.end);
-                CaseError::at(place, Problem::Formula(error))
-            })?;
-            Ok::<_, CaseError>(span)
-        };
-        read(left, 0)?;
-        read(right, left.len() + 1)?;
-        let difference = match right.trim() {
-            "0" => left.trim().to_string(),
-            _ => format!("({left}) − ({right})"),
-        };
-        let difference = Text::made(difference, text.span.clone());
-        let scalar = Some(Type::Scalar);
-        let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
-        level.push((text.value.trim().to_string(), function));
-    }
-    Ok(level)
+) -> Option<Vec<(String, Formula)>> {
+    let texts = section.keep(section.texts(key))?;
+    let read: Vec<Option<(String, Formula)>> =
+        texts.iter().map(|text| section.keep(equation(text, key, vocabulary, reach))).collect();
+    read.into_iter().collect()
 }
 
-/// Reads `[level.chart]`: inputs with ranges, and a formula for each state variable.
-///
-/// `names` holds the parameters alone; the chart's formulas see them and the inputs.
-pub fn chart(
-    section: &Section<'_>,
-    model: &Model,
-    mut names: Vocabulary,
-) -> Result<Chart, CaseError> {
-    let inputs = section
-        .section("inputs")?
-        .ok_or_else(|| section.missing("inputs", "a chart needs inputs = { u = \"-2..2\", … }"))?;
-    let State { variables, draws } = state(&inputs, &mut names, Reach::Phase)?;
-    let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
-    let mut abbreviations = Vec::new();
-    for (key, value) in section.entries() {
-        if key.get_ref() == "inputs" {
-            continue;
+/// Both sides of an equation, with the place where the right one begins.
+pub fn sides(text: &str) -> Option<(&str, &str, usize)> {
+    let mut depth = 0;
+    for (place, letter) in text.char_indices() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            // inside brackets it is a condition on indices
+            '=' if depth == 0 => return Some((&text[..place], &text[place + 1..], place + 1)),
+            _ => {}
         }
-        let name = canonical_name(key.get_ref()).unwrap_or_default();
-        let Some(index) = model.state.iter().position(|variable| variable.name == name) else {
-            let message = format!("`{}` is no state variable", key.get_ref());
-            let remedy = "a chart gives a formula for each state variable".to_string();
-            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
+    }
+    None
+}
+
+fn equation(
+    text: &Text,
+    key: &str,
+    vocabulary: &Vocabulary,
+    reach: Reach,
+) -> Result<(String, Formula), Mistake> {
+    let Some((left, right, second)) = sides(&text.value) else {
+        let message = format!("each of `{key}` has two sides");
+        let remedy = match key {
+            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"",
+            _ => "write \"(γ,γ) = 1\"",
         };
-        let text = section.as_text(key.get_ref(), value)?;
-        let kind = model.state[index].kind;
-        let read = formula(&text, &names, &name, Some(kind), Reach::Phase)?;
-        // The formulas that follow may use this variable.
-        names.add(&name, Meaning::Abbreviation(abbreviations.len()), kind, Reach::Phase);
-        abbreviations.push(read.clone());
-        formulas[index] = Some(read);
-    }
-    // A state variable of an input's name is that input.
-    for (formula, own) in formulas.iter_mut().zip(&model.state) {
-        let is_input = variables.iter().any(|v| v.name == own.name && v.kind == own.kind);
-        if formula.is_none() && is_input {
-            *formula = Formula::parse(&own.name, &names).ok();
-        }
-    }
-    if let Some(index) = formulas.iter().position(Option::is_none) {
-        let name = &model.state[index].name;
-        return Err(CaseError::at(
-            section.span.clone(),
-            Problem::Other {
-                message: format!("the chart has no formula for `{name}`"),
-                remedy: format!("add {name} = \"…\" under [level.chart]"),
-            },
-        ));
-    }
-    let model = Model {
-        vocabulary: names,
-        state: variables,
-        abbreviations,
-        level: Vec::new(),
-        extension: Vec::new(),
-        variables: None,
-        ..model.clone()
+        let remedy = remedy.to_string();
+        return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     };
-    let formulas = formulas.into_iter().flatten().collect();
-    Ok(Chart::Given(Box::new(GivenChart { model, draws, formulas })))
+    for (side, start) in [(left, 0), (right, second)] {
+        Formula::parse(side, vocabulary).map_err(|error| {
+            let inner = error.span();
+            let place = text.locate(start + inner.start..start + inner.end);
+            Mistake::at(place, Problem::Formula(error))
+        })?;
+    }
+    let difference = match right.trim() {
+        "0" => left.trim().to_string(),
+        _ => format!("({left}) − ({right})"),
+    };
+    let difference = Text::made(difference, text.span.clone());
+    let scalar = Some(Type::Scalar);
+    let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
+    Ok((text.value.trim().to_string(), function))
 }

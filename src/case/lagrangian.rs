@@ -1,92 +1,123 @@
 //! `[lagrangian]`: kinetic energy, potential, constraints.
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
-use super::field;
+use super::error::{Mistake, Problem};
+use super::field::{self, GivenRate};
+use super::formulas::{formula, inside};
 use super::section::{Section, Text};
+use super::state::TIME;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary};
 
-fn other(text: &Text, message: String, remedy: &str) -> CaseError {
-    CaseError::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
+fn other(text: &Text, message: String, remedy: &str) -> Mistake {
+    Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }
 
-/// Reads it; state and abbreviations are declared, and the level becomes the constraints.
+/// Reads it; state and abbreviations are declared, and the level becomes the constraints. Nothing
+/// where there is a mistake.
 pub fn read(
     reading: &mut Reading<'_, '_>,
     section: &Section<'_>,
     vakonomic: bool,
-) -> Result<System, CaseError> {
+) -> Option<System> {
     let vocabulary = &reading.vocabulary;
     let scalar = |text: &Text, what: &str| {
         formula(text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)
     };
-    let kinetic = section.required("kinetic", "add kinetic = \"m*x'²/2\"")?;
-    let kinetic = scalar(&kinetic, "the kinetic energy")?;
-    let potential = match section.text("potential")? {
-        Some(text) => Some(scalar(&text, "the potential")?),
-        None => None,
-    };
-    let level = field::equations_in(section, "constraints", vocabulary, Reach::Configuration)?;
+    let kinetic = section.required("kinetic", "add kinetic = \"m*x'²/2\"");
+    let kinetic = section.keep(kinetic.and_then(|text| scalar(&text, "the kinetic energy")));
+    let potential = section.text("potential");
+    let read = |text: Option<Text>| text.map(|text| scalar(&text, "the potential")).transpose();
+    let potential = section.keep(potential.and_then(read));
+    let level = field::equations_in(section, "constraints", vocabulary, Reach::Configuration);
+    let variables = &reading.state.variables;
+    let names = |key| section.keep(named(section, key, variables));
+    let (quasi, multipliers) = (names("quasi-velocities"), names("multipliers"));
+    let carried = carried(reading);
+    let (quasi, multipliers, level) = (quasi?, multipliers?, level?);
+    section.keep(counted(section, &multipliers, level.len(), vakonomic))?;
+    let roles = roles(section, variables, &quasi, &multipliers, carried)?;
+    let algebra = section.keep(algebra(section, variables, &quasi, &roles));
+    let forces = forces(section, vocabulary, variables, &roles);
     let constraints: Vec<Formula> = level.iter().map(|(_, function)| function.clone()).collect();
-    let variables = reading.state.variables.clone();
-    let names = |key| named(section, key, &variables);
-    let (quasi, multipliers) = (names("quasi-velocities")?, names("multipliers")?);
-    if multipliers.len() != if vakonomic { constraints.len() } else { 0 } {
-        let message = format!(
-            "{} multipliers stand beside {} constraints",
-            multipliers.len(),
-            constraints.len()
-        );
-        let remedy = match vakonomic {
-            true => "name a state variable for each constraint: multipliers = [\"λ\"]",
-            false => "a nonholonomic system has none: their values are the names μ1, μ2, …",
-        };
-        return Err(section.complaint(Problem::Other { message, remedy: remedy.to_string() }));
+    let system = System::Lagrangian(Box::new(Lagrangian {
+        kinetic: kinetic?,
+        potential: potential?,
+        constraints,
+        roles,
+        algebra: algebra?,
+        forces: forces?,
+        vakonomic,
+    }));
+    reading.level = level
+        .into_iter()
+        .map(|(text, function)| field::level_equation(text, function, &reading.vocabulary))
+        .collect();
+    Some(system)
+}
+
+/// A vakonomic system has a multiplier for each constraint, others have none.
+fn counted(
+    section: &Section<'_>,
+    multipliers: &[usize],
+    constraints: usize,
+    vakonomic: bool,
+) -> Result<(), Mistake> {
+    if multipliers.len() == if vakonomic { constraints } else { 0 } {
+        return Ok(());
     }
-    let carried = carried(reading, vocabulary)?;
-    let mut roles = Vec::new();
-    for (index, variable) in variables.iter().enumerate() {
+    let message =
+        format!("{} multipliers stand beside {constraints} constraints", multipliers.len());
+    let remedy = match vakonomic {
+        true => "name a state variable for each constraint: multipliers = [\"λ\"]",
+        false => "a nonholonomic system has none: their values are the names μ1, μ2, …",
+    };
+    Err(section.complaint(Problem::Other { message, remedy: remedy.to_string() }))
+}
+
+/// What each state variable is; nothing where that is not known.
+fn roles(
+    section: &Section<'_>,
+    variables: &[Variable],
+    quasi: &[usize],
+    multipliers: &[usize],
+    carried: Vec<GivenRate>,
+) -> Option<Vec<Role>> {
+    let mut roles = Some(Vec::new());
+    for ((index, variable), rate) in variables.iter().enumerate().zip(carried) {
         let velocity = variables.iter().position(|v| v.name == format!("{}'", variable.name));
         let of = variable.name.strip_suffix('\'');
         let is_velocity =
             quasi.contains(&index) || variables.iter().any(|v| Some(v.name.as_str()) == of);
-        let rate = carried.iter().find(|(carried, _)| *carried == index).map(|(_, rate)| rate);
-        roles.push(match (rate, velocity) {
-            _ if multipliers.contains(&index) => Role::Multiplier,
-            _ if is_velocity => Role::Velocity,
-            (Some(rate), _) => Role::Carried(rate.clone()),
-            (None, Some(velocity)) if variables[velocity].kind == variable.kind => {
-                Role::Coordinate(velocity)
+        let role = match (rate, velocity) {
+            _ if multipliers.contains(&index) => Some(Role::Multiplier),
+            _ if is_velocity => Some(Role::Velocity),
+            (GivenRate::Given(rate), _) => Some(Role::Carried(rate)),
+            (GivenRate::Broken, _) => None,
+            (GivenRate::Missing, Some(velocity)) if variables[velocity].kind == variable.kind => {
+                Some(Role::Coordinate(velocity))
             }
+            _ if variable.name == TIME && variable.kind == Type::Scalar => Some(Role::Time),
             _ => {
                 let name = &variable.name;
-                return Err(section.complaint(Problem::Other {
-                    message: format!("`{name}` is neither a velocity nor has it one"),
-                    remedy: format!(
-                        "declare `{name}'` in [state], or give its rate in [field], or name it in \
-                         quasi-velocities or multipliers"
-                    ),
-                }));
+                if !section.mistakes().has_failed(&format!("{name}'")) {
+                    section.mistakes().add(section.complaint(Problem::Other {
+                        message: format!("`{name}` is neither a velocity nor has it one"),
+                        remedy: format!(
+                            "declare `{name}'` in [state], or give its rate in [field], or name it \
+                             in quasi-velocities or multipliers"
+                        ),
+                    }));
+                }
+                None
             }
-        });
+        };
+        match (&mut roles, role) {
+            (Some(roles), Some(role)) => roles.push(role),
+            _ => roles = None,
+        }
     }
-    let algebra = algebra(section, &variables, &quasi, &roles)?;
-    let forces = forces(section, vocabulary, &variables, &roles)?;
-    reading.level = level
-        .into_iter()
-        .map(|(text, function)| field::equation(text, function, &reading.vocabulary))
-        .collect();
-    Ok(System::Lagrangian(Box::new(Lagrangian {
-        kinetic,
-        potential,
-        constraints,
-        roles,
-        algebra,
-        forces,
-        vakonomic,
-    })))
+    roles
 }
 
 /// The state variables that a list names.
@@ -94,7 +125,7 @@ fn named(
     section: &Section<'_>,
     key: &'static str,
     variables: &[Variable],
-) -> Result<Vec<usize>, CaseError> {
+) -> Result<Vec<usize>, Mistake> {
     let texts = if section.value(key).is_some() { section.texts(key)? } else { Vec::new() };
     texts
         .iter()
@@ -109,26 +140,15 @@ fn named(
 }
 
 /// The rates that `[field]` gives.
-fn carried(
-    reading: &Reading<'_, '_>,
-    vocabulary: &Vocabulary,
-) -> Result<Vec<(usize, Formula)>, CaseError> {
-    let Some(section) = reading.root.section("field")? else { return Ok(Vec::new()) };
+fn carried(reading: &Reading<'_, '_>) -> Vec<GivenRate> {
     let variables = &reading.state.variables;
-    let mut rates = Vec::new();
-    for (key, value) in section.entries() {
-        let name = canonical_name(key.get_ref()).unwrap_or_default();
-        let plain = name.strip_suffix('\'').unwrap_or(&name);
-        let text = section.as_text(key.get_ref(), value)?;
-        let Some(index) = variables.iter().position(|variable| variable.name == plain) else {
-            let message = format!("`{}` is the rate of no state variable", key.get_ref());
-            return Err(other(&text, message, "declare the variable in [state]"));
-        };
-        let kind = Some(variables[index].kind);
-        let what = format!("the rate of {plain}");
-        rates.push((index, formula(&text, vocabulary, &what, kind, Reach::Configuration)?));
+    match reading.root.table("field") {
+        Some(section) => {
+            let names = &reading.vocabulary;
+            field::given_rates(&section, variables, names, Reach::Configuration)
+        }
+        None => variables.iter().map(|_| GivenRate::Missing).collect(),
     }
-    Ok(rates)
 }
 
 fn algebra(
@@ -136,11 +156,11 @@ fn algebra(
     variables: &[Variable],
     quasi: &[usize],
     roles: &[Role],
-) -> Result<Algebra, CaseError> {
+) -> Result<Algebra, Mistake> {
     let start = |index: usize| variables[..index].iter().map(Variable::len).sum::<usize>();
     if let Some(text) = section.text("algebra")? {
         let vectors: Vec<usize> =
-            quasi.iter().copied().filter(|i| variables[*i].kind == Type::Vector).collect();
+            quasi.iter().copied().filter(|i| variables[*i].kind == Type::VECTOR).collect();
         return match (text.value.as_str(), vectors.as_slice()) {
             ("so(3)", [index]) if quasi.len() == 1 => Ok(Algebra::Rotations(start(*index))),
             ("so(3)", _) => {
@@ -179,32 +199,58 @@ fn algebra(
     }))
 }
 
+/// Forces by the components of the velocities that they act on; nothing where there is a mistake.
 fn forces(
     section: &Section<'_>,
     vocabulary: &Vocabulary,
     variables: &[Variable],
     roles: &[Role],
-) -> Result<Vec<(usize, Formula)>, CaseError> {
-    let Some(table) = section.section("forces")? else { return Ok(Vec::new()) };
-    let mut forces = Vec::new();
-    for (key, value) in table.entries() {
-        let text = table.as_text(key.get_ref(), value)?;
-        let name = canonical_name(key.get_ref()).unwrap_or_default();
-        let index = variables.iter().position(|variable| variable.name == name);
-        let velocity = index.and_then(|index| match roles[index] {
-            Role::Coordinate(velocity) => Some(velocity),
-            Role::Velocity => Some(index),
-            _ => None,
-        });
-        let scalar = velocity.filter(|velocity| variables[*velocity].kind == Type::Scalar);
-        let Some(velocity) = scalar else {
-            let message = format!("`{}` is no scalar coordinate or quasi-velocity", key.get_ref());
-            return Err(other(&text, message, "name what the force acts on"));
-        };
-        let component = variables[..velocity].iter().map(Variable::len).sum();
-        let kind = Some(Type::Scalar);
-        forces
-            .push((component, formula(&text, vocabulary, "a force", kind, Reach::Configuration)?));
+) -> Option<Vec<(usize, Formula)>> {
+    let mut forces = Some(Vec::new());
+    if let Some(table) = section.keep(section.section("forces"))? {
+        for (key, value) in table.entries() {
+            let text = table.as_text(key.get_ref(), value);
+            let read =
+                text.and_then(|text| force(&text, key.get_ref(), vocabulary, variables, roles));
+            match (&mut forces, section.keep(read)) {
+                (Some(forces), Some(read)) => forces.extend(read),
+                _ => forces = None,
+            }
+        }
     }
-    Ok(forces)
+    forces
+}
+
+/// A force, component by component.
+fn force(
+    text: &Text,
+    key: &str,
+    vocabulary: &Vocabulary,
+    variables: &[Variable],
+    roles: &[Role],
+) -> Result<Vec<(usize, Formula)>, Mistake> {
+    let name = canonical_name(key).unwrap_or_default();
+    let index = variables.iter().position(|variable| variable.name == name);
+    let velocity = index.and_then(|index| match roles[index] {
+        Role::Coordinate(velocity) => Some(velocity),
+        Role::Velocity => Some(index),
+        _ => None,
+    });
+    let Some(velocity) = velocity else {
+        let message = format!("`{key}` is no coordinate or quasi-velocity");
+        return Err(other(text, message, "name what the force acts on"));
+    };
+    let first: usize = variables[..velocity].iter().map(Variable::len).sum();
+    let kind = variables[velocity].kind;
+    let whole = formula(text, vocabulary, "a force", Some(kind), Reach::Configuration)?;
+    if kind == Type::Scalar {
+        return Ok(vec![(first, whole)]);
+    }
+    let component = |(place, index): (usize, &String)| {
+        let ends = ("(", format!("){index}"));
+        let ends = (ends.0, ends.1.as_str());
+        let reach = Reach::Configuration;
+        Ok((first + place, inside(text, ends, vocabulary, "a force", Some(Type::Scalar), reach)?))
+    };
+    kind.indices().iter().enumerate().map(component).collect()
 }

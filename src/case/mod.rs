@@ -6,18 +6,29 @@ mod ask;
 mod ball;
 mod body;
 mod build;
+mod charts;
 mod claims;
 mod error;
+mod family;
+mod feedback;
 mod field;
+mod formulas;
 mod homogeneous;
 mod lagrangian;
 mod lines;
+mod lists;
+mod mistakes;
 mod one_sided;
+mod order;
 mod parameters;
 mod poincare;
 mod section;
 mod shadows;
+mod shapes;
+mod state;
+mod synonyms;
 mod systems;
+mod toml_errors;
 mod variables;
 mod velocities;
 mod weights;
@@ -28,7 +39,7 @@ use crate::claim::motion::Motion;
 use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
-pub use error::{CaseError, Problem};
+pub use error::{CaseError, Mistake, Problem};
 pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
@@ -152,7 +163,7 @@ impl Expect {
 }
 
 impl Case {
-    /// Reads a case file.
+    /// Reads a case file; gives its text too.
     pub fn read(path: &Path, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
         let io = |error| CaseError::whole(Problem::Io(error));
         let size = match std::fs::metadata(path) {
@@ -175,6 +186,8 @@ impl Case {
     }
 
     /// Reads the text of a case file.
+    ///
+    /// The error holds all mistakes that do not follow from each other, each with its place.
     pub fn parse(text: &str, settings: &[Setting]) -> Result<Self, CaseError> {
         build::build(text, settings)
     }

@@ -1,8 +1,8 @@
 //! `[one-sided]`: a constraint r(x) ≥ 0, and the motion in contact with it.
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
+use super::error::Problem;
 use super::field;
+use super::formulas::formula;
 use super::section::Section;
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Reach, System};
@@ -18,26 +18,30 @@ pub struct OneSided {
     pub contact: Vec<Formula>,
 }
 
-/// Reads `[one-sided]`.
-pub(super) fn read(root: &Section<'_>, model: &Model) -> Result<Option<OneSided>, CaseError> {
-    let Some(section) = root.section("one-sided")? else { return Ok(None) };
+/// Reads `[one-sided]`; nothing where it is not there, or has a mistake.
+pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
+    let section = root.table("one-sided")?;
     if !matches!(model.system, System::Field(_)) {
-        return Err(section.complaint(Problem::Other {
+        root.mistakes().add(section.complaint(Problem::Other {
             message: "a one-sided constraint belongs to a field of one's own".to_string(),
             remedy: "write the free motion under [field], with system = \"field\"".to_string(),
         }));
+        return None;
     }
     let names = &model.vocabulary;
     let scalar = |key: &'static str, remedy: &str| {
         let text = section.required(key, remedy)?;
         formula(&text, names, &format!("`{key}`"), Some(Type::Scalar), Reach::Phase)
     };
-    let function = scalar("function", "add function = \"(ω,e)\", which is not to be negative")?;
-    let reaction = scalar("reaction", "add reaction = \"λ\", positive in contact")?;
-    let rates = section.section("field")?.ok_or_else(|| {
-        section.missing("field", "add a table [one-sided.field] with the rates in contact")
-    })?;
-    let contact = field::rates(&rates, &model.state, names)?;
-    section.finish()?;
-    Ok(Some(OneSided { function, reaction, contact }))
+    let remedy = "add function = \"(ω,e)\", which is not to be negative";
+    let function = section.keep(scalar("function", remedy));
+    let remedy = "add reaction = \"λ\", positive in contact";
+    let reaction = section.keep(scalar("reaction", remedy));
+    let rates = section.keep(section.section("field").and_then(|field| {
+        let remedy = "add a table [one-sided.field] with the rates in contact";
+        field.ok_or_else(|| section.missing("field", remedy))
+    }));
+    let contact = rates.and_then(|rates| field::rates(&rates, &model.state, names));
+    section.finish();
+    Some(OneSided { function: function?, reaction: reaction?, contact: contact? })
 }

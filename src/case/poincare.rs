@@ -2,13 +2,16 @@
 
 use toml::de::DeValue;
 
-use super::error::{CaseError, Problem};
+use super::error::{Mistake, Problem};
 use super::lines::Line;
 use super::section::{Section, Text, numbers};
 use crate::number::rational::Rational;
 
 /// Images of a line where a case does not say how many: as in the paper's figures.
 const DEFAULT_IMAGES: usize = 10;
+
+/// No picture has room for more orbits, crossings or images.
+const MOST: u32 = 1_000_000;
 
 /// An angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,12 +102,20 @@ impl std::str::FromStr for Direction {
     }
 }
 
-/// Reads `[section]`.
-pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError> {
-    let Some(section) = root.section("section")? else { return Ok(None) };
+/// Reads `[section]`; nothing where it is not there, or has a mistake.
+pub(super) fn read(root: &Section<'_>) -> Option<SectionPlan> {
+    let section = root.table("section")?;
+    let plan = section.keep(plan(&section));
+    if plan.is_some() {
+        section.finish();
+    }
+    plan
+}
+
+fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
     let wrong = |text: &Text, message: String| {
         let remedy = "docs/writing-a-case.md shows a [section]".to_string();
-        CaseError::at(text.span.clone(), Problem::Other { message, remedy })
+        Mistake::at(text.span.clone(), Problem::Other { message, remedy })
     };
     let g0 = section.required("g0", "add g0 = \"π\", the angle of the section")?;
     let energy = section.required("energy", "add energy = 1, the level of the energy")?;
@@ -119,10 +130,10 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError>
             .parse()
             .map_err(|_| wrong(&energy, format!("`{}` is no number", energy.value)))?,
         direction,
-        orbits: section.integer("orbits")?.map(|count| count as usize),
-        crossings: section.integer("crossings")?.map(|count| count as usize),
-        skip: section.integer("skip")?.unwrap_or(0) as usize,
-        starts: starts(&section)?,
+        orbits: section.count("orbits", MOST)?,
+        crossings: section.count("crossings", MOST)?,
+        skip: section.count("skip", MOST)?.unwrap_or(0),
+        starts: starts(section)?,
         colour: section.text("colour")?.map(|text| text.value),
         backwards: section.boolean("backwards")?.unwrap_or(false),
         lines: section
@@ -130,14 +141,13 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<SectionPlan>, CaseError>
             .iter()
             .map(|text| text.value.parse().map_err(|message| wrong(text, message)))
             .collect::<Result<_, _>>()?,
-        images: section.integer("images")?.map_or(DEFAULT_IMAGES, |count| count as usize),
+        images: section.count("images", MOST)?.unwrap_or(DEFAULT_IMAGES),
     };
-    section.finish()?;
-    Ok(Some(plan))
+    Ok(plan)
 }
 
 /// `starts = [[l, z], …]`
-fn starts(section: &Section<'_>) -> Result<Vec<[f64; 2]>, CaseError> {
+fn starts(section: &Section<'_>) -> Result<Vec<[f64; 2]>, Mistake> {
     let Some(value) = section.value("starts") else { return Ok(Vec::new()) };
     let wrong = |span| section.wrong_type("starts", "a list of points [l, L/G]", span);
     let DeValue::Array(points) = value.get_ref() else { return Err(wrong(value.span())) };

@@ -6,8 +6,10 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::error::{CaseError, Problem};
-use crate::formula::nearest;
+use super::error::{Mistake, Problem};
+use super::mistakes::Mistakes;
+use super::synonyms::meant;
+use crate::formula::{excerpt, nearest};
 
 /// A string of the file with its place.
 #[derive(Clone, Debug)]
@@ -47,6 +49,7 @@ pub struct Section<'a> {
     name: String,
     table: &'a DeTable<'a>,
     source: &'a str,
+    mistakes: &'a Mistakes,
     /// The place of the table.
     pub span: Range<usize>,
     asked: RefCell<Vec<&'static str>>,
@@ -54,8 +57,24 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// A table under the name that messages give it.
-    pub fn new(name: &str, table: &'a DeTable<'a>, span: Range<usize>, source: &'a str) -> Self {
-        Self { name: name.to_string(), table, source, span, asked: RefCell::default() }
+    pub fn new(
+        name: &str,
+        table: &'a DeTable<'a>,
+        span: Range<usize>,
+        source: &'a str,
+        mistakes: &'a Mistakes,
+    ) -> Self {
+        Self { name: name.to_string(), table, source, mistakes, span, asked: RefCell::default() }
+    }
+
+    /// Where the mistakes of the file are noted.
+    pub fn mistakes(&self) -> &'a Mistakes {
+        self.mistakes
+    }
+
+    /// What was read, or nothing, with the mistake noted.
+    pub fn keep<T>(&self, result: Result<T, Mistake>) -> Option<T> {
+        self.mistakes.keep(result)
     }
 
     /// A table that the file leaves out, where all its keys have defaults.
@@ -63,7 +82,7 @@ impl<'a> Section<'a> {
     where
         'a: 'b,
     {
-        Section::new(name, nothing, 0..0, self.source)
+        Section::new(name, nothing, 0..0, self.source, self.mistakes)
     }
 
     /// The value of a key.
@@ -75,32 +94,51 @@ impl<'a> Section<'a> {
         self.table.get(key)
     }
 
+    /// Is this key there? It does not count as asked for.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.contains_key(key)
+    }
+
     /// The string of a key.
-    pub fn text(&self, key: &'static str) -> Result<Option<Text>, CaseError> {
+    pub fn text(&self, key: &'static str) -> Result<Option<Text>, Mistake> {
         self.value(key).map(|value| self.as_text(key, value)).transpose()
     }
 
     /// The string of a key that must be there.
-    pub fn required(&self, key: &'static str, remedy: &str) -> Result<Text, CaseError> {
+    pub fn required(&self, key: &'static str, remedy: &str) -> Result<Text, Mistake> {
         self.text(key)?.ok_or_else(|| self.missing(key, remedy))
     }
 
     /// The complaint that a key is missing.
-    pub fn missing(&self, key: &'static str, remedy: &str) -> CaseError {
+    pub fn missing(&self, key: &'static str, remedy: &str) -> Mistake {
         let (section, remedy) = (self.name.clone(), remedy.to_string());
         self.complaint(Problem::MissingKey { key, section, remedy })
     }
 
     /// A complaint about the table as a whole.
-    pub fn complaint(&self, problem: Problem) -> CaseError {
-        CaseError { problem, span: (!self.span.is_empty()).then(|| self.span.clone()) }
+    pub fn complaint(&self, problem: Problem) -> Mistake {
+        Mistake::new((!self.span.is_empty()).then(|| self.span.clone()), problem)
+    }
+
+    /// The complaint that the table lacks one of several keys.
+    pub fn incomplete(&self, message: String, remedy: &str) -> Mistake {
+        let (section, remedy) = (self.name.clone(), remedy.to_string());
+        self.complaint(Problem::Incomplete { section, message, remedy })
     }
 
     /// A formula: a string, or a number.
-    pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, CaseError> {
+    pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, Mistake> {
         let number = |text: String| Ok(Text::made(text, value.span()));
         match value.get_ref() {
-            DeValue::String(text) => Ok(Text::new(text, value.span(), self.source)),
+            DeValue::String(text) => match text.chars().find(|c| is_control(*c)) {
+                None => Ok(Text::new(text, value.span(), self.source)),
+                Some(found) => {
+                    let message =
+                        format!("`{key}` contains the control character U+{:04X}", found as u32);
+                    let remedy = "write text without control characters".to_string();
+                    Err(Mistake::at(value.span(), Problem::Other { message, remedy }))
+                }
+            },
             DeValue::Integer(number_text) if number_text.radix() == 10 => {
                 number(number_text.to_string())
             }
@@ -110,9 +148,9 @@ impl<'a> Section<'a> {
     }
 
     /// The complaint that a value has another type.
-    pub fn wrong_type(&self, key: &str, expected: &str, span: Range<usize>) -> CaseError {
+    pub fn wrong_type(&self, key: &str, expected: &str, span: Range<usize>) -> Mistake {
         let (key, expected) = (key.to_string(), expected.to_string());
-        CaseError::at(span, Problem::WrongType { key, expected })
+        Mistake::at(span, Problem::WrongType { key, expected })
     }
 
     /// Where a text stands in the file, letter by letter, for the first time.
@@ -121,7 +159,7 @@ impl<'a> Section<'a> {
     }
 
     /// A whole number.
-    pub fn integer(&self, key: &'static str) -> Result<Option<u32>, CaseError> {
+    pub fn integer(&self, key: &'static str) -> Result<Option<u32>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
             DeValue::Integer(number) => number.to_string().parse().map(Some).ok(),
@@ -130,8 +168,20 @@ impl<'a> Section<'a> {
         .ok_or_else(|| self.wrong_type(key, "a whole number", value.span()))
     }
 
+    /// A whole number that is not larger than `most`.
+    pub fn count(&self, key: &'static str, most: u32) -> Result<Option<usize>, Mistake> {
+        match self.integer(key)? {
+            Some(found) if found > most => {
+                let expected = format!("a whole number up to {most}");
+                let span = self.value(key).map_or(self.span.clone(), Spanned::span);
+                Err(self.wrong_type(key, &expected, span))
+            }
+            found => Ok(found.map(|found| found as usize)),
+        }
+    }
+
     /// A truth value.
-    pub fn boolean(&self, key: &'static str) -> Result<Option<bool>, CaseError> {
+    pub fn boolean(&self, key: &'static str) -> Result<Option<bool>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
             DeValue::Boolean(flag) => Ok(Some(*flag)),
@@ -140,7 +190,7 @@ impl<'a> Section<'a> {
     }
 
     /// A table inside this one.
-    pub fn section(&self, key: &'static str) -> Result<Option<Section<'a>>, CaseError> {
+    pub fn section(&self, key: &'static str) -> Result<Option<Section<'a>>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
             DeValue::Table(table) => {
@@ -148,30 +198,37 @@ impl<'a> Section<'a> {
                     Some(outer) => format!("[{outer}.{key}]"),
                     None => format!("[{key}]"),
                 };
-                Ok(Some(Section::new(&name, table, value.span(), self.source)))
+                Ok(Some(Section::new(&name, table, value.span(), self.source, self.mistakes)))
             }
             _ => Err(self.wrong_type(key, "a table", value.span())),
         }
     }
 
-    /// The tables of an array of tables.
-    pub fn sections(&self, key: &'static str) -> Result<Vec<Section<'a>>, CaseError> {
-        let Some(value) = self.value(key) else { return Ok(Vec::new()) };
-        let wrong = |span| self.wrong_type(key, &format!("an array of tables: [[{key}]]"), span);
-        let DeValue::Array(array) = value.get_ref() else { return Err(wrong(value.span())) };
-        array
-            .iter()
-            .map(|item| match item.get_ref() {
-                DeValue::Table(table) => {
-                    Ok(Section::new(&format!("[[{key}]]"), table, item.span(), self.source))
-                }
-                _ => Err(wrong(item.span())),
-            })
-            .collect()
+    /// A table inside this one, if it is there and is one.
+    pub fn table(&self, key: &'static str) -> Option<Section<'a>> {
+        self.keep(self.section(key)).flatten()
+    }
+
+    /// The tables of an array of tables; what is none is noted.
+    pub fn tables(&self, key: &'static str) -> Vec<Section<'a>> {
+        let Some(value) = self.value(key) else { return Vec::new() };
+        let name = format!("[[{key}]]");
+        let wrong = |span| self.wrong_type(key, &format!("an array of tables: {name}"), span);
+        let DeValue::Array(array) = value.get_ref() else {
+            self.mistakes.add(wrong(value.span()));
+            return Vec::new();
+        };
+        let table = |item: &'a Spanned<DeValue<'a>>| match item.get_ref() {
+            DeValue::Table(table) => {
+                Ok(Section::new(&name, table, item.span(), self.source, self.mistakes))
+            }
+            _ => Err(wrong(item.span())),
+        };
+        array.iter().filter_map(|item| self.keep(table(item))).collect()
     }
 
     /// The strings of an array, or one string by itself.
-    pub fn texts(&self, key: &'static str) -> Result<Vec<Text>, CaseError> {
+    pub fn texts(&self, key: &'static str) -> Result<Vec<Text>, Mistake> {
         match self.value(key) {
             None => Ok(Vec::new()),
             Some(value) => match value.get_ref() {
@@ -191,29 +248,39 @@ impl<'a> Section<'a> {
     }
 
     /// Complains about keys that nobody asked for.
-    pub fn finish(&self) -> Result<(), CaseError> {
+    pub fn finish(&self) -> bool {
         self.allow(&self.asked.borrow())
     }
 
     /// Complains about keys that are none of these: a misspelt key is the likeliest reason for
-    /// another that is missing.
-    pub fn allow(&self, known: &[&'static str]) -> Result<(), CaseError> {
+    /// another that is missing. `false` if there are such keys.
+    pub fn allow(&self, known: &[&'static str]) -> bool {
+        let mut all = true;
         for (key, _) in self.entries() {
             let name = key.get_ref().as_ref();
-            if !known.contains(&name) {
-                return Err(CaseError::at(
-                    key.span(),
-                    Problem::UnknownKey {
-                        key: name.to_string(),
-                        section: self.name.clone(),
-                        nearest: nearest(name, known.iter().copied()).map(str::to_string),
-                        known: known.to_vec(),
-                    },
-                ));
+            if known.contains(&name) {
+                continue;
             }
+            all = false;
+            let nearest = nearest(name, known.iter().copied());
+            self.mistakes.add(Mistake::at(
+                key.span(),
+                Problem::UnknownKey {
+                    key: excerpt(name),
+                    section: self.name.clone(),
+                    nearest: nearest.or_else(|| meant(name, known)),
+                    known: known.into(),
+                },
+            ));
         }
-        Ok(())
+        all
     }
+}
+
+/// Would the character command a terminal, or turn the direction of text?
+fn is_control(c: char) -> bool {
+    let is_space = matches!(c, '\n' | '\t' | '\r');
+    (c.is_control() && !is_space) || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// The numbers of an array of numbers, as they are written.

@@ -1,16 +1,18 @@
-//! Names that mean something without being declared, and that a file declares all the same.
+//! Names that a reader may take for others: those that mean something without being declared, and
+//! those that look alike.
 
-use crate::formula::{Formula, Scope};
-use crate::mechanics::{Meaning, Vocabulary};
+use std::collections::BTreeMap;
 
-/// The quantities of the system that are hidden, and the parameters that would else be the unit matrix
-/// or components of what the system itself names (γ3); each once.
+use crate::formula::{Formula, Scope, Type, is_function, skeleton};
+use crate::mechanics::{Entry, Meaning, Vocabulary};
+
+/// The quantities of the system that are hidden, and the declared names that would else be functions,
+/// the unit matrix, π, e, or components of what the system itself names (γ3); each once.
 pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
     let mut hidden = quantities;
     for (symbol, entry) in vocabulary.iter() {
         let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == symbol);
-        let is_parameter = matches!(entry.meaning, Meaning::Parameter(_));
-        if is_parameter && is_found && is_known_without_it(vocabulary, &entry.name) {
+        if is_found && is_known_without_it(vocabulary, entry) && !hidden.contains(&entry.name) {
             hidden.push(entry.name.clone());
         }
     }
@@ -18,15 +20,40 @@ pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
 }
 
 /// Would the name mean something, were it not declared?
-fn is_known_without_it(vocabulary: &Vocabulary, name: &str) -> bool {
-    let may_be = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
-    let of_system = || {
-        vocabulary.only(|entry| matches!(entry.meaning, Meaning::State(_) | Meaning::Quantity(_)))
-    };
-    may_be && Formula::parse(name, &of_system()).is_ok()
+fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
+    let name = entry.name.as_str();
+    let is_number = entry.kind == Type::Scalar && matches!(name, "e" | "π");
+    match entry.meaning {
+        Meaning::Quantity(_) => false,
+        // what an abbreviation means is written beside it
+        Meaning::Abbreviation(_) => is_function(name),
+        Meaning::State(_) => is_number || is_function(name),
+        Meaning::Parameter(_) if is_number || is_function(name) => true,
+        Meaning::Parameter(_) => {
+            let may_be = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
+            let of_system = || {
+                vocabulary
+                    .only(|entry| matches!(entry.meaning, Meaning::State(_) | Meaning::Quantity(_)))
+            };
+            may_be && Formula::parse(name, &of_system()).is_ok()
+        }
+    }
 }
 
 /// What to say of a name that is hidden.
 pub fn warning(name: &str) -> String {
     format!("`{name}` has a meaning of its own here, and this file gives it another")
+}
+
+/// What to say of names that look alike.
+pub fn look_alikes(vocabulary: &Vocabulary) -> Vec<String> {
+    let mut seen: BTreeMap<String, &str> = BTreeMap::new();
+    let mut warnings = Vec::new();
+    for (_, entry) in vocabulary.iter() {
+        let first = *seen.entry(skeleton(&entry.name)).or_insert(&entry.name);
+        if first != entry.name {
+            warnings.push(format!("`{first}` and `{}` look alike, and are two names", entry.name));
+        }
+    }
+    warnings
 }

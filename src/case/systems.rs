@@ -1,18 +1,21 @@
 //! `system = "…"`: which equations of motion, with their names, states and level sets.
 
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 use super::arbitrary::Arbitrary;
-use super::error::{CaseError, Problem};
-use super::field::{self, State};
+use super::build::Assumed;
+use super::error::{Mistake, Problem};
+use super::field;
+use super::mistakes::Mistakes;
+use super::order::{Item, Stage};
 use super::parameters::Setting;
 use super::section::{Section, Text};
-use super::{ball, body, lagrangian, shadows};
-use crate::formula::{Formula, Type, canonical_name};
+use super::state::{self, State, TIME};
+use super::{ball, body, feedback, lagrangian, shadows};
+use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
-    Chart, Draw, Entry, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Potential,
-    Quantity, Range, Reach, Shape, Surface, System, Variable, Vocabulary, of_ball, of_flat_base,
-    of_lagrangian, of_rubber,
+    Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
+    Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
 };
 
 const SYSTEMS: &str =
@@ -28,189 +31,276 @@ pub struct Parts {
     pub free_draws: Vec<Draw>,
     /// Names that the file takes from the system or the language.
     pub hidden: Vec<String>,
+    /// What to say of names that look alike.
+    pub alike: Vec<String>,
+    /// Was all of it read? Otherwise the equations of motion stand for nothing.
+    pub is_whole: bool,
 }
 
 /// What is read on the way to a model.
 pub(super) struct Reading<'r, 's> {
     pub root: &'r Section<'s>,
+    pub settings: &'r [Setting],
+    pub assumed: &'r Assumed,
     arbitrary: Arbitrary<'r>,
     pub vocabulary: Vocabulary,
     pub parameters: Vec<Parameter>,
+    /// Parameters that are lists: vectors, or diagonal matrices.
+    pub lists: Vec<String>,
+    /// The texts of parameters that are drawn, which may have sizes.
+    pub sizes: Vec<String>,
     pub state: State,
+    /// Names of `[parameters]` and `[let]` that are or will be read.
+    pub items: Vec<Item<'s>>,
     pub abbreviations: Vec<Formula>,
-    /// Abbreviations that use rates, which are known in the end only.
-    pub waiting: Vec<String>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
     /// Names of the system that the file gives another meaning.
     pub hidden: Vec<String>,
 }
 
-/// Reads what the kind of system asks for; gives its name too.
-pub fn read(
-    root: &Section<'_>,
-    vocabulary: Vocabulary,
-    parameters: Vec<Parameter>,
-    settings: &[Setting],
-) -> Result<(String, Parts), CaseError> {
-    let text = match (root.text("system")?, root.section("field")?) {
-        (Some(text), _) => text,
-        (None, Some(_)) => Text::made("field".to_string(), 0..0),
-        (None, None) => {
-            let remedy = format!("add system = \"…\" with {SYSTEMS}");
-            return Err(root.missing("system", &remedy));
-        }
-    };
-    let mut reading = Reading {
-        root,
-        arbitrary: Arbitrary::of(root, settings)?,
-        vocabulary,
-        parameters,
-        state: State { variables: Vec::new(), draws: Vec::new() },
-        abbreviations: Vec::new(),
-        waiting: Vec::new(),
-        level: Vec::new(),
-        extension: Vec::new(),
-        hidden: Vec::new(),
-    };
-    let (system, chart) = match text.value.as_str() {
-        "rubber-plane" => reading.rubber(&text, false)?,
-        "rubber-sphere" => reading.rubber(&text, true)?,
-        "flat-base" => reading.flat_base(&text)?,
-        "ball-on-surface" => reading.ball(&text)?,
-        "nonholonomic" => reading.lagrangian(false)?,
-        "vakonomic" => reading.lagrangian(true)?,
-        "field" => reading.field()?,
-        found => {
-            let (message, remedy) = (format!("`{found}` is no system"), format!("write {SYSTEMS}"));
-            return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
-        }
-    };
-    reading.name_rates();
-    reading.read_waiting()?;
-    let hidden = shadows::all(&reading.vocabulary, reading.hidden);
-    let model = Model {
-        system,
-        vocabulary: reading.vocabulary,
-        parameters: reading.parameters,
-        state: reading.state.variables,
-        extension: reading.extension,
-        variables: None,
-        abbreviations: reading.abbreviations,
-        level: reading.level,
-    };
-    Ok((text.value, Parts { model, chart, free_draws: reading.state.draws, hidden }))
-}
-
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
     LevelEquation { text: text.to_string(), function, root: None }
 }
 
-impl Reading<'_, '_> {
-    fn rubber(&mut self, name: &Text, curved: bool) -> Result<(System, Chart), CaseError> {
+type Read = Option<(System, Chart)>;
+
+impl<'r, 's> Reading<'r, 's> {
+    /// Nothing is read yet.
+    pub fn new(root: &'r Section<'s>, settings: &'r [Setting], assumed: &'r Assumed) -> Self {
+        Self {
+            root,
+            settings,
+            assumed,
+            arbitrary: Arbitrary::of(root, settings),
+            vocabulary: Vocabulary::default(),
+            parameters: Vec::new(),
+            lists: Vec::new(),
+            sizes: Vec::new(),
+            state: State { variables: Vec::new(), draws: Vec::new() },
+            items: Vec::new(),
+            abbreviations: Vec::new(),
+            level: Vec::new(),
+            extension: Vec::new(),
+            hidden: Vec::new(),
+        }
+    }
+
+    /// Where mistakes are noted.
+    pub fn mistakes(&self) -> &'s Mistakes {
+        self.root.mistakes()
+    }
+
+    /// Reads what the kind of system asks for, after the parameters; gives its name too.
+    ///
+    /// Nothing if it is not known which system is meant.
+    pub fn read(mut self) -> Option<(String, Parts)> {
+        let text = self.kind()?;
+        let read = match text.value.as_str() {
+            "rubber-plane" => self.rubber(&text, false),
+            "rubber-sphere" => self.rubber(&text, true),
+            "flat-base" => self.flat_base(&text),
+            "ball-on-surface" => self.ball(&text),
+            "nonholonomic" => self.lagrangian(false),
+            "vakonomic" => self.lagrangian(true),
+            "field" => self.field(),
+            found => {
+                let message = format!("unknown system `{found}`");
+                let remedy = format!("write {SYSTEMS}");
+                self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
+                return None;
+            }
+        };
+        self.name_rates();
+        self.settle(Stage::Rates);
+        let is_whole = read.is_some();
+        let (system, chart) = read.unwrap_or((System::Field(Vec::new()), Chart::Free));
+        let fixed = self.fixed();
+        let hidden = shadows::all(&self.vocabulary, self.hidden);
+        let alike = shadows::look_alikes(&self.vocabulary);
+        let model = Model {
+            system,
+            vocabulary: self.vocabulary,
+            parameters: self.parameters,
+            state: self.state.variables,
+            extension: self.extension,
+            variables: None,
+            abbreviations: self.abbreviations,
+            level: self.level,
+            fixed,
+        };
+        let free_draws = self.state.draws;
+        Some((text.value, Parts { model, chart, free_draws, hidden, alike, is_whole }))
+    }
+
+    /// The whole numbers that sizes, and keys of `[field]`, are written with.
+    fn fixed(&self) -> Vec<Symbol> {
+        let mut texts = self.sizes.clone();
+        let keys = self.root.table("field").map(|section| section.entries()).unwrap_or_default();
+        texts.extend(keys.into_iter().map(|(key, _)| key.get_ref().to_string()));
+        let ranges = self.root.table("state").map(|section| section.entries()).unwrap_or_default();
+        texts.extend(ranges.into_iter().filter_map(|(_, value)| match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => None,
+        }));
+        let names = texts.iter().flat_map(|text| names_in(text));
+        let whole = |name: String| {
+            let is_whole = self.vocabulary.find(&name)?.whole.is_some();
+            self.vocabulary.lookup(&name).filter(|_| is_whole).map(|(symbol, _)| symbol)
+        };
+        names.filter_map(whole).collect()
+    }
+
+    fn kind(&self) -> Option<Text> {
+        match self.root.keep(self.root.text("system"))? {
+            Some(text) => Some(text),
+            None if self.root.value("field").is_some() => {
+                Some(Text::made("field".to_string(), 0..0))
+            }
+            None if self.root.value("lagrangian").is_some() => {
+                let remedy = "add system = \"nonholonomic\" or \"vakonomic\"";
+                self.mistakes().add(self.root.missing("system", remedy));
+                None
+            }
+            None => {
+                let remedy = format!("add system = \"…\" with {SYSTEMS}");
+                self.mistakes().add(self.root.missing("system", &remedy));
+                None
+            }
+        }
+    }
+
+    fn rubber(&mut self, name: &Text, curved: bool) -> Read {
         let nothing = DeTable::new();
-        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
         let features = body::features(&section, curved, &self.vocabulary);
-        let own = [("ω", Type::Vector), ("γ", Type::Vector)];
-        self.declare(&own, &[], of_rubber(features), name)?;
-        self.further_state()?;
-        self.read_abbreviations()?;
+        let own = [("ω", Type::VECTOR), ("γ", Type::VECTOR)];
+        self.declare(&own, &[], of_rubber(features), name);
+        self.further_state();
+        self.settle(Stage::State);
         let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
-        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters)?;
-        self.no_feedback(&section, &system)?;
-        section.finish()?;
-        self.further_rates(own.len())?;
+        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters);
+        section.finish();
+        self.further_rates(own.len());
+        let system = system?;
+        self.mistakes().keep(feedback::none(self, &section, &system))?;
         self.level = vec![
             equation("|γ| = 1", LevelFunction::UnitNormal),
             equation("(ω,γ) = 0", LevelFunction::NoSpin),
         ];
-        Ok((system, Chart::Rolling))
+        Some((system, Chart::Rolling))
     }
 
-    fn flat_base(&mut self, name: &Text) -> Result<(System, Chart), CaseError> {
+    fn flat_base(&mut self, name: &Text) -> Read {
         let nothing = DeTable::new();
-        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
         let near = Draw::Of(Line::All, Range::between((-3, 2), (3, 2)));
         let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
-        self.declare(
-            &own,
-            &[near.clone(), near.clone(), near.clone(), near],
-            of_flat_base(),
-            name,
-        )?;
-        self.further_state()?;
-        self.read_abbreviations()?;
-        let system = body::flat_base(&section, &self.vocabulary)?;
-        section.finish()?;
-        self.further_rates(own.len())?;
-        Ok((system, Chart::Free))
+        let draws = [near.clone(), near.clone(), near.clone(), near];
+        self.declare(&own, &draws, of_flat_base(), name);
+        self.further_state();
+        self.settle(Stage::State);
+        let system = body::flat_base(&section, &self.vocabulary);
+        section.finish();
+        self.further_rates(own.len());
+        Some((system?, Chart::Free))
     }
 
-    fn ball(&mut self, name: &Text) -> Result<(System, Chart), CaseError> {
+    fn ball(&mut self, name: &Text) -> Read {
         let nothing = DeTable::new();
-        let section = self.root.section("body")?.unwrap_or(self.root.empty("[body]", &nothing));
+        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
         let by_support = section.value("surface").is_none();
         let second = if by_support { "γ" } else { "r" };
-        let own = [("M", Type::Vector), (second, Type::Vector)];
+        let own = [("M", Type::VECTOR), (second, Type::VECTOR)];
         let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
         let draws = if by_support { Vec::new() } else { vec![near; 6] };
-        self.declare(&own, &draws, of_ball(by_support), name)?;
+        self.declare(&own, &draws, of_ball(by_support), name);
         if section.value("potential").is_some() {
             let (meaning, reach) = (Meaning::Quantity(Quantity::Potential), Reach::Phase);
             self.vocabulary.add("U", meaning, Type::Scalar, reach);
         }
-        self.further_state()?;
-        self.read_abbreviations()?;
+        self.further_state();
+        self.settle(Stage::State);
         let arbitrary = self.arbitrary;
-        let system = ball::read(&section, &arbitrary, &mut self.vocabulary, &mut self.parameters)?;
-        self.no_feedback(&section, &system)?;
-        section.finish()?;
-        self.further_rates(own.len())?;
+        let system = ball::read(&section, &arbitrary, &mut self.vocabulary, &mut self.parameters);
+        section.finish();
+        self.further_rates(own.len());
+        let system = system?;
+        self.mistakes().keep(feedback::none(self, &section, &system))?;
         if by_support {
             self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
         }
-        Ok((system, if by_support { Chart::Sphere } else { Chart::Free }))
+        Some((system, if by_support { Chart::Sphere } else { Chart::Free }))
     }
 
-    fn lagrangian(&mut self, vakonomic: bool) -> Result<(System, Chart), CaseError> {
-        let ranges = self.root.section("state")?.ok_or_else(|| {
-            let remedy =
-                "add a table [state] with q = \"-2..2\", \"q'\" = \"-2..2\" for each variable";
-            self.root.missing("state", remedy)
-        })?;
-        self.state = field::state(&ranges, &mut self.vocabulary, Reach::Configuration)?;
-        let section = self.root.section("lagrangian")?.ok_or_else(|| {
-            self.root.missing("lagrangian", "add a table [lagrangian] with kinetic = \"…\"")
-        })?;
-        let constraints = section.texts("constraints")?.len();
+    fn lagrangian(&mut self, vakonomic: bool) -> Read {
+        self.own_state(
+            Reach::Configuration,
+            "add a table [state] with q = \"-2..2\", \"q'\" = \"-2..2\" for each variable",
+        );
+        let section = self.root.table("lagrangian");
+        if section.is_none() && self.root.value("lagrangian").is_none() {
+            let remedy = "add a table [lagrangian] with kinetic = \"…\"";
+            let mut missing = self.root.missing("lagrangian", remedy);
+            missing.span = self.root.value("system").map(toml::Spanned::span);
+            self.mistakes().add(missing);
+        }
+        let section = section?;
+        let constraints = section.texts("constraints").map_or(0, |texts| texts.len());
         for (name, quantity, kind, reach) in of_lagrangian(constraints) {
             self.name(&name, quantity, kind, reach);
         }
-        self.read_abbreviations()?;
-        let system = lagrangian::read(self, &section, vakonomic)?;
-        section.finish()?;
-        if let Some(section) = self.root.section("level")? {
-            self.level.extend(field::equations(&section, &self.vocabulary)?);
-        }
-        Ok((system, Chart::Free))
+        self.settle(Stage::State);
+        let system = lagrangian::read(self, &section, vakonomic);
+        section.finish();
+        let own = self.read_level();
+        let system = system?;
+        self.level.extend(own?);
+        Some((system, Chart::Free))
     }
 
-    fn field(&mut self) -> Result<(System, Chart), CaseError> {
-        let section = self.root.section("field")?.ok_or_else(|| {
+    fn field(&mut self) -> Read {
+        self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
+        let section = self.root.table("field");
+        if section.is_none() && self.root.value("field").is_none() {
             let remedy = "add a table [field] with \"x'\" = \"…\" for each variable";
-            self.root.missing("field", remedy)
-        })?;
-        let ranges = self.root.section("state")?.ok_or_else(|| {
-            let remedy = "add a table [state] with x = \"-2..2\" for each variable";
-            self.root.missing("state", remedy)
-        })?;
-        self.state = field::state(&ranges, &mut self.vocabulary, Reach::Phase)?;
-        self.read_abbreviations()?;
-        let rates = field::rates(&section, &self.state.variables, &self.vocabulary)?;
-        if let Some(section) = self.root.section("level")? {
-            self.level = field::equations(&section, &self.vocabulary)?;
+            self.mistakes().add(self.root.missing("field", remedy));
         }
-        Ok((System::Field(rates), Chart::Free))
+        self.settle(Stage::State);
+        let variables = &self.state.variables;
+        let rates = section.and_then(|section| field::rates(&section, variables, &self.vocabulary));
+        let level = self.read_level();
+        self.level = level?;
+        Some((System::Field(rates?), Chart::Free))
+    }
+
+    /// The equations of `[level]`; nothing if one is wrong.
+    fn read_level(&self) -> Option<Vec<LevelEquation>> {
+        match self.root.table("level") {
+            Some(section) => field::equations(&section, &self.vocabulary),
+            None => Some(Vec::new()),
+        }
+    }
+
+    /// The variables of a system that has none of its own.
+    fn own_state(&mut self, reach: Reach, remedy: &str) {
+        match self.root.table("state") {
+            Some(ranges) => self.state = state::state(&ranges, &mut self.vocabulary, reach),
+            None => {
+                if self.root.value("state").is_none() {
+                    self.mistakes().add(self.root.missing("state", remedy));
+                }
+                self.mistakes().blind();
+            }
+        }
+        self.add_time(reach);
+    }
+
+    /// Time is a variable where formulas use it and it has no other meaning.
+    fn add_time(&mut self, reach: Reach) {
+        if self.assumed.time && self.vocabulary.find(TIME).is_none() {
+            self.state.add_time(&mut self.vocabulary, reach);
+        }
     }
 
     /// Adds the system's own state and quantities; a parameter may hide a quantity, not a variable.
@@ -220,8 +310,8 @@ impl Reading<'_, '_> {
         draws: &[Draw],
         quantities: Vec<(&'static str, Quantity, Type, Reach)>,
         system: &Text,
-    ) -> Result<(), CaseError> {
-        let given = self.root.section("parameters")?;
+    ) {
+        let given = self.root.table("parameters");
         let place = |name: &str| {
             let entries = given.as_ref().map(Section::entries).unwrap_or_default();
             let named = |(key, _): &(&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
@@ -233,7 +323,7 @@ impl Reading<'_, '_> {
             if self.vocabulary.find(name).is_some() {
                 let reason = format!("it is a state variable of {}", system.value);
                 let problem = Problem::BadName { name: name.to_string(), reason };
-                return Err(CaseError { problem, span: place(name) });
+                self.mistakes().add(Mistake::new(place(name), problem));
             }
             let position = matches!(*name, "γ" | "r");
             let reach = if position { Reach::Configuration } else { Reach::Phase };
@@ -245,7 +335,6 @@ impl Reading<'_, '_> {
             self.name(name, quantity, kind, reach);
         }
         self.name_rates();
-        Ok(())
     }
 
     /// Names a quantity, unless the file gave the name another meaning.
@@ -260,79 +349,36 @@ impl Reading<'_, '_> {
     }
 
     /// The variables that `[state]` adds to a built-in system.
-    fn further_state(&mut self) -> Result<(), CaseError> {
-        let Some(section) = self.root.section("state")? else { return Ok(()) };
+    fn further_state(&mut self) {
         let first = self.state.variables.len();
-        field::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state)?;
-        for variable in &self.state.variables[first..] {
-            let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
-            if self.root.section("field")?.is_none() {
-                return Err(self.root.missing("field", &remedy));
-            }
+        if let Some(section) = self.root.table("state") {
+            state::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state);
         }
-        Ok(())
+        let mut added = self.state.variables[first..].iter();
+        if let Some(variable) = added.find(|variable| variable.name != TIME)
+            && self.root.value("field").is_none()
+        {
+            let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
+            self.mistakes().add(self.root.missing("field", &remedy));
+        }
+        self.add_time(Reach::Phase);
     }
 
     /// Their rates.
-    fn further_rates(&mut self, own: usize) -> Result<(), CaseError> {
-        let Some(section) = self.root.section("field")? else { return Ok(()) };
+    fn further_rates(&mut self, own: usize) {
         let further = &self.state.variables[own..];
-        self.extension = field::rates(&section, further, &self.vocabulary)?;
-        Ok(())
-    }
-
-    /// What defines a body may not depend on what it determines: the potential on U, the surface on
-    /// h, a moment of forces on the acceleration.
-    fn no_feedback(&self, section: &Section<'_>, system: &System) -> Result<(), CaseError> {
-        use Quantity::{AngularAcceleration, Multiplier, Potential as OwnPotential, Support};
-        let of_shape = |shape: &Shape| match shape {
-            Shape::Support(formula) | Shape::SupportOnSphere(formula) => {
-                Some(("support", formula.clone()))
-            }
-            Shape::Profile(formula) => Some(("profile", formula.clone())),
-            Shape::Contact(formula) => Some(("contact", formula.clone())),
-            Shape::Arbitrary(_) | Shape::ArbitraryProfile(_) => None,
+        let nothing = DeTable::new();
+        let section = match self.root.table("field") {
+            Some(section) => section,
+            None if further.is_empty() => return,
+            None => self.root.empty("[field]", &nothing),
         };
-        let (shape, moment) = match system {
-            System::Rubber(body) => (of_shape(&body.shape), body.moment.clone()),
-            System::Ball(ball) => match &ball.surface {
-                Surface::Support(shape) => (of_shape(shape), None),
-                Surface::Level(_) => (None, None),
-            },
-            _ => (None, None),
-        };
-        let potential = match system {
-            System::Rubber(body) => body.potential.clone(),
-            _ => None,
-        };
-        let potential = match potential {
-            Some(Potential::Formula(formula)) => Some(("potential", formula)),
-            _ => None,
-        };
-        let given = [
-            (shape, &[Support, OwnPotential][..], "write it by γ and the parameters"),
-            (potential, &[OwnPotential], "write it by γ, h and the parameters"),
-            (
-                moment.map(|moment| ("moment", moment)),
-                &[AngularAcceleration, Multiplier],
-                "write it by the state, r, r' and γ'",
-            ),
-        ];
-        for (formula, determined, remedy) in given {
-            let Some((key, formula)) = formula else { continue };
-            let is_determined = |entry: &&Entry| match entry.meaning {
-                Meaning::Quantity(quantity) => determined.contains(&quantity),
-                _ => false,
-            };
-            let uses = self.vocabulary.uses(&formula, &self.abbreviations);
-            if let Some(entry) = uses.into_iter().find(is_determined) {
-                let message = format!("`{key}` depends on `{}`, which it determines", entry.name);
-                let problem = Problem::Other { message, remedy: remedy.to_string() };
-                let place = section.text(key)?.map_or(section.span.clone(), |text| text.span);
-                return Err(CaseError::at(place, problem));
-            }
+        let is_told = self.root.value("field").is_none()
+            && further.iter().any(|variable| variable.name != TIME);
+        if !is_told {
+            let rates = field::rates(&section, further, &self.vocabulary);
+            self.extension = rates.unwrap_or_default();
         }
-        Ok(())
     }
 
     /// Gives the rate of each state variable a name, unless the name is taken.

@@ -1,38 +1,53 @@
 //! `[variables]` and `[poisson]`: new variables, and a bracket for them.
 
-use super::body::formula;
-use super::error::{CaseError, Problem};
+use std::borrow::Cow;
+
+use toml::Spanned;
+
+use super::error::{Mistake, Problem};
+use super::formulas::formula;
 use super::parameters::named;
-use super::section::Section;
+use super::section::{Section, Text};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
 
-/// Reads both tables into the model, if they are there.
-pub fn read(root: &Section<'_>, model: &mut Model) -> Result<(), CaseError> {
-    let Some(section) = root.section("variables")? else {
-        return match root.section("poisson")? {
-            None => Ok(()),
-            Some(section) => Err(section.complaint(Problem::Other {
+/// Reads both tables into the model, if they are there; `false` where there is a mistake.
+pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
+    let Some(section) = root.table("variables") else {
+        if let Some(section) = root.table("poisson") {
+            root.mistakes().add(section.complaint(Problem::Other {
                 message: "[poisson] is a bracket for new variables".to_string(),
                 remedy: "add [variables], e.g. M = \"Ĩ*ω\", \"γ\" = \"γ\"".to_string(),
-            })),
-        };
+            }));
+        }
+        return root.value("variables").is_none() && root.value("poisson").is_none();
     };
-    let (mut state, mut images) = (Vec::new(), Vec::new());
+    let (mut state, mut images, mut broken) = (Vec::new(), Vec::new(), false);
     for (key, value) in section.entries() {
-        let name = named(key)?;
-        let text = section.as_text(key.get_ref(), value)?;
-        let image = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
-        state.push(Variable { name, kind: image.value_type() });
-        images.push(image);
+        let read = named(key).and_then(|name| {
+            let text = section.as_text(key.get_ref(), value)?;
+            let image = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+            Ok((name, image))
+        });
+        match section.keep(read) {
+            Some((name, image)) => {
+                state.push(Variable { name, kind: image.value_type() });
+                images.push(image);
+            }
+            None => broken = true,
+        }
+    }
+    if broken {
+        return false;
     }
     let target = target(model, state, &images);
-    let blocks = match root.section("poisson")? {
-        Some(section) => blocks(&section, &target)?,
-        None => vec![vec![None; target.state.len()]; target.state.len()],
+    let blocks = match root.table("poisson") {
+        Some(section) => blocks(&section, &target),
+        None => Some(vec![vec![None; target.state.len()]; target.state.len()]),
     };
+    let Some(blocks) = blocks else { return false };
     model.variables = Some(Box::new(Variables { model: target, images, blocks }));
-    Ok(())
+    root.value("poisson").is_none_or(|value| value.get_ref().is_table())
 }
 
 /// The model in whose names functions of the new variables are written.
@@ -47,7 +62,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
         })
     };
     let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
-    let keeps_body = is_body && stays(1) && state[0].kind == Type::Vector;
+    let keeps_body = is_body && stays(1) && state[0].kind == Type::VECTOR;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
         Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
         _ => entry.reach == Reach::Parameters,
@@ -60,64 +75,83 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     model.with_names(names, state)
 }
 
-/// The blocks of a Poisson tensor.
-fn blocks(section: &Section<'_>, target: &Model) -> Result<Vec<Vec<Option<Block>>>, CaseError> {
+type Blocks = Vec<Vec<Option<Block>>>;
+
+/// The blocks of a Poisson tensor; nothing where there is a mistake.
+fn blocks(section: &Section<'_>, target: &Model) -> Option<Blocks> {
     let count = target.state.len();
-    let mut blocks: Vec<Vec<Option<Block>>> = vec![vec![None; count]; count];
-    if let Some(text) = section.text("structure")? {
-        let vectors = target.state.iter().filter(|v| v.kind == Type::Vector).count();
-        let pairs: &[(usize, usize)] = match (text.value.as_str(), vectors) {
-            ("e(3)", 2..) if target.state[1].kind == Type::Vector => &[(0, 0), (0, 1)],
-            ("so(3)", 1..) => &[(0, 0)],
-            (found, _) => {
-                let message = format!("`{found}` is no bracket of these variables");
-                let remedy =
-                    "write \"e(3)\" for two vectors, \"so(3)\" for one, or give blocks".to_string();
-                return Err(CaseError::at(text.span, Problem::Other { message, remedy }));
-            }
-        };
-        for (i, j) in pairs {
-            let hat = format!("hat({})", target.state[*j].name);
-            place(&mut blocks, (*i, *j), parse(&hat, &target.vocabulary)?);
-        }
-    }
+    let mut blocks: Blocks = vec![vec![None; count]; count];
+    let mut whole = section.keep(structure(section, target, &mut blocks)).is_some();
     for (key, value) in section.entries().into_iter().filter(|(k, _)| k.get_ref() != "structure") {
-        let text = section.as_text(key.get_ref(), value)?;
-        let index = |name: &str| {
-            let name = canonical_name(name.trim())?;
-            target.state.iter().position(|variable| variable.name == name)
-        };
-        let pair = key.get_ref().split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
-        let Some((i, j)) = pair else {
-            let message = format!("`{}` is no pair of new variables", key.get_ref());
-            let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
-            return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
-        };
-        let kind = match (target.state[i].kind, target.state[j].kind) {
-            (Type::Vector, Type::Vector) => Type::Matrix,
-            (Type::Scalar, Type::Scalar) => Type::Scalar,
-            (Type::Matrix, _) | (_, Type::Matrix) => {
-                let message = "a bracket of matrices cannot be given".to_string();
-                let remedy = "take the columns as variables".to_string();
-                return Err(CaseError::at(key.span(), Problem::Other { message, remedy }));
-            }
-            _ => Type::Vector,
-        };
-        if blocks[i][j].is_some() {
-            let message = format!("the block {} is given already", key.get_ref());
-            let remedy = "give each pair once: the opposite block follows from skewness";
-            let problem = Problem::Other { message, remedy: remedy.to_string() };
-            return Err(CaseError::at(key.span(), problem));
-        }
-        let what = format!("the block {}", key.get_ref());
-        let block = formula(&text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
-        place(&mut blocks, (i, j), block);
+        let text = section.as_text(key.get_ref(), value);
+        let read = text.and_then(|text| block(key, &text, target, &mut blocks));
+        whole &= section.keep(read).is_some();
     }
-    Ok(blocks)
+    whole.then_some(blocks)
 }
 
-fn parse(text: &str, names: &Vocabulary) -> Result<Formula, CaseError> {
-    Formula::parse(text, names).map_err(|error| CaseError::whole(Problem::Formula(error)))
+/// `structure = "e(3)"`
+fn structure(section: &Section<'_>, target: &Model, blocks: &mut Blocks) -> Result<(), Mistake> {
+    let Some(text) = section.text("structure")? else { return Ok(()) };
+    let vectors = target.state.iter().filter(|v| v.kind == Type::VECTOR).count();
+    let pairs: &[(usize, usize)] = match (text.value.as_str(), vectors) {
+        ("e(3)", 2..) if target.state[1].kind == Type::VECTOR => &[(0, 0), (0, 1)],
+        ("so(3)", 1..) => &[(0, 0)],
+        (found, _) => {
+            let message = format!("`{found}` is no bracket of these variables");
+            let remedy =
+                "write \"e(3)\" for two vectors, \"so(3)\" for one, or give blocks".to_string();
+            return Err(Mistake::at(text.span, Problem::Other { message, remedy }));
+        }
+    };
+    for (i, j) in pairs {
+        let hat = format!("hat({})", target.state[*j].name);
+        place(blocks, (*i, *j), parse(&hat, &target.vocabulary)?);
+    }
+    Ok(())
+}
+
+/// One entry of `[poisson]`.
+fn block(
+    key: &Spanned<Cow<'_, str>>,
+    text: &Text,
+    target: &Model,
+    blocks: &mut Blocks,
+) -> Result<(), Mistake> {
+    let index = |name: &str| {
+        let name = canonical_name(name.trim())?;
+        target.state.iter().position(|variable| variable.name == name)
+    };
+    let pair = key.get_ref().split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
+    let Some((i, j)) = pair else {
+        let message = format!("`{}` is no pair of new variables", key.get_ref());
+        let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
+        return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
+    };
+    let kind = match (target.state[i].kind, target.state[j].kind) {
+        (Type::Vector(rows), Type::Vector(columns)) => Type::Matrix(rows, columns),
+        (Type::Scalar, Type::Scalar) => Type::Scalar,
+        (Type::Matrix(..), _) | (_, Type::Matrix(..)) => {
+            let message = "a bracket of matrices cannot be given".to_string();
+            let remedy = "take the columns as variables".to_string();
+            return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
+        }
+        (Type::Vector(length), _) | (_, Type::Vector(length)) => Type::Vector(length),
+    };
+    if blocks[i][j].is_some() {
+        let message = format!("the block {} is given already", key.get_ref());
+        let remedy = "give each pair once: the opposite block follows from skewness";
+        let problem = Problem::Other { message, remedy: remedy.to_string() };
+        return Err(Mistake::at(key.span(), problem));
+    }
+    let what = format!("the block {}", key.get_ref());
+    let read = formula(text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
+    place(blocks, (i, j), read);
+    Ok(())
+}
+
+fn parse(text: &str, names: &Vocabulary) -> Result<Formula, Mistake> {
+    Formula::parse(text, names).map_err(|error| Mistake::whole(Problem::Formula(error)))
 }
 
 /// Enters a block, and its opposite.

@@ -3,7 +3,7 @@
 
 use num_traits::{One, Zero};
 
-use super::error::{CaseError, Problem};
+use super::error::{Mistake, Problem};
 use super::section::Section;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
@@ -11,7 +11,7 @@ use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
 
 /// Complains about a rate that is not linear in the velocities although the equations of motion need
 /// it; gives a warning for each constraint whose reaction is a matter of definition.
-pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, CaseError> {
+pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> {
     let System::Lagrangian(lagrangian) = &model.system else { return Ok(Vec::new()) };
     let nonlinear = Nonlinear::of(lagrangian, model);
     if let Some(component) = nonlinear.rates.first() {
@@ -19,8 +19,8 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, CaseError
         let message = format!("the rate of `{name}` is not linear in the velocities");
         let remedy = "the equations of motion hold for x' = Σ wᵢ Xᵢ(x): take other quasi-velocities, \
                       or give all rates in [field] of a system of your own";
-        let problem = Problem::Other { message, remedy: remedy.to_string() };
-        return Err(CaseError { span: place_of_rate(root, name)?, problem });
+        let problem = Problem::Sense { message, remedy: remedy.to_string() };
+        return Err(Mistake::new(place_of_rate(root, name), problem));
     }
     let warning = |index: &usize| {
         format!(
@@ -81,14 +81,12 @@ impl Nonlinear {
 }
 
 /// Where `[field]` gives the rate of a variable.
-fn place_of_rate(
-    root: &Section<'_>,
-    name: &str,
-) -> Result<Option<std::ops::Range<usize>>, CaseError> {
-    let Some(section) = root.section("field")? else { return Ok(None) };
+fn place_of_rate(root: &Section<'_>, name: &str) -> Option<std::ops::Range<usize>> {
+    let section = root.table("field")?;
     let is_rate = |key: &str| {
-        canonical_name(key).is_some_and(|key| key.strip_suffix('\'').unwrap_or(&key) == name)
+        let base = key.split('[').next().unwrap_or(key);
+        canonical_name(base).is_some_and(|key| key.strip_suffix('\'').unwrap_or(&key) == name)
     };
     let entry = section.entries().into_iter().find(|(key, _)| is_rate(key.get_ref()));
-    Ok(entry.map(|(_, value)| value.span()))
+    entry.map(|(_, value)| value.span())
 }

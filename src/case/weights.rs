@@ -2,43 +2,62 @@
 //! dimensions `[dimensions]` declares.
 
 use super::Claim;
-use super::error::{CaseError, Problem};
+use super::error::{Mistake, Problem};
 use super::section::{Section, Text};
-use crate::formula::{Formula, FormulaError, Scope, Symbol, Type, WeightSystem, canonical_name};
+use crate::formula::{Formula, Scope, Symbol, Type, WeightSystem, canonical_name};
 use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, System};
 use crate::number::rational::Rational;
 
-/// Checks all formulas of a case in every base dimension that is known.
+/// Checks all formulas of a case in every base dimension that is known, and notes what is wrong.
 pub fn check(
     root: &Section<'_>,
     model: &Model,
     dimensions: Option<&Section<'_>>,
     claims: &[Claim],
-) -> Result<(), CaseError> {
+) {
     let mut systems = Vec::new();
     if matches!(model.system, System::Rubber(_) | System::FlatBase(_)) {
         systems.push(time(model));
     }
     if let Some(section) = dimensions {
-        systems.extend(declared(section, model)?);
+        systems.extend(root.keep(declared(section, model)).unwrap_or_default());
     }
-    for weights in &mut systems {
-        for (index, formula) in model.abbreviations.iter().enumerate() {
-            let weight = checked(root, formula, weights)?;
-            let meaning = Meaning::Abbreviation(index);
-            let symbol = model.vocabulary.iter().find(|(_, entry)| entry.meaning == meaning);
-            if let (Some((symbol, _)), Some(weight)) = (symbol, weight) {
-                weights.set(symbol, weight);
+    for mut weights in systems {
+        if root.keep(of_case(root, model, &mut weights)).is_none() {
+            continue;
+        }
+        let start = weights.clone();
+        let stated = || claims.iter().flat_map(|claim| claim.kind.formulas());
+        if stated().all(|formula| formula.check_weights(&mut weights).is_ok()) {
+            continue;
+        }
+        // a formula that is wrong says nothing of the others
+        let mut weights = start;
+        for formula in stated() {
+            let mut own = weights.clone();
+            if root.keep(checked(root, formula, &mut own)).is_some() {
+                weights = own;
             }
         }
-        let level = model.level.iter().filter_map(|equation| match &equation.function {
-            LevelFunction::Formula(formula) => Some(formula),
-            _ => None,
-        });
-        let stated = claims.iter().flat_map(|claim| claim.kind.formulas());
-        for formula in of_system(&model.system).into_iter().chain(level).chain(stated) {
-            checked(root, formula, weights)?;
+    }
+}
+
+/// Checks what a case is before anything is claimed.
+fn of_case(root: &Section<'_>, model: &Model, weights: &mut WeightSystem) -> Result<(), Mistake> {
+    for (index, formula) in model.abbreviations.iter().enumerate() {
+        let weight = checked(root, formula, weights)?;
+        let meaning = Meaning::Abbreviation(index);
+        let symbol = model.vocabulary.iter().find(|(_, entry)| entry.meaning == meaning);
+        if let (Some((symbol, _)), Some(weight)) = (symbol, weight) {
+            weights.set(symbol, weight);
         }
+    }
+    let level = model.level.iter().filter_map(|equation| match &equation.function {
+        LevelFunction::Formula(formula) => Some(formula),
+        _ => None,
+    });
+    for formula in of_system(&model.system).into_iter().chain(level) {
+        checked(root, formula, weights)?;
     }
     Ok(())
 }
@@ -47,16 +66,19 @@ fn checked(
     root: &Section<'_>,
     formula: &Formula,
     weights: &mut WeightSystem,
-) -> Result<Option<Rational>, CaseError> {
+) -> Result<Option<Rational>, Mistake> {
     formula.check_weights(weights).map_err(|error| {
         let remedy = "if this is meant, set check-weights = false at the top of the file";
-        let found = root.find(formula.text());
         let problem =
-            Problem::Other { message: error.message().to_string(), remedy: remedy.to_string() };
-        let place = |start: usize, error: &FormulaError| {
-            start + error.span().start..start + error.span().end
+            Problem::Sense { message: error.message().to_string(), remedy: remedy.to_string() };
+        let span = error.span();
+        // the file may hold a part of the formula: the body of a family
+        let whole = root.find(formula.text()).map(|start| start + span.start..start + span.end);
+        let part = || {
+            let text = formula.text().get(span.clone())?;
+            root.find(text).map(|start| start..start + text.len())
         };
-        CaseError { span: found.map(|start| place(start, &error)), problem }
+        Mistake::new(whole.or_else(part), problem)
     })
 }
 
@@ -91,7 +113,7 @@ fn time(model: &Model) -> WeightSystem {
         System::FlatBase(_) => true,
         _ => false,
     };
-    let own = model.state.len() - model.extension.len();
+    let own = model.own_variables();
     for (symbol, entry) in model.vocabulary.iter() {
         let weight = match entry.meaning {
             Meaning::Quantity(Quantity::Rate(_)) => None,
@@ -144,14 +166,14 @@ impl Scope for Bases {
 }
 
 /// One system of weights for each base dimension that `[dimensions]` uses.
-fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, CaseError> {
+fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, Mistake> {
     let mut entries = Vec::new();
     let mut bases: Vec<String> = Vec::new();
     for (key, value) in section.entries() {
         let name = canonical_name(key.get_ref()).unwrap_or_default();
         let Some((symbol, _)) = model.vocabulary.lookup(&name) else {
             let reason = "no such name is declared".to_string();
-            return Err(CaseError::at(key.span(), Problem::BadName { name, reason }));
+            return Err(Mistake::at(key.span(), Problem::BadName { name, reason }));
         };
         let text = section.as_text(key.get_ref(), value)?;
         let words = text.value.split(|c: char| !c.is_alphanumeric());
@@ -167,7 +189,7 @@ fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, C
         .into_iter()
         .map(|(symbol, text)| match Formula::parse(&text.value, &scope) {
             Ok(formula) => Ok((symbol, formula, text)),
-            Err(error) => Err(CaseError::at(text.locate(error.span()), Problem::Formula(error))),
+            Err(error) => Err(Mistake::at(text.locate(error.span()), Problem::Formula(error))),
         })
         .collect::<Result<_, _>>()?;
     let of_base = |base: usize| {
@@ -177,9 +199,9 @@ fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, C
         }
         let mut weights = WeightSystem::new(&scope.0[base]);
         for (symbol, formula, text) in &formulas {
-            let weight = formula.check_weights(&mut powers).map_err(|error| {
-                CaseError::at(text.locate(error.span()), Problem::Formula(error))
-            })?;
+            let weight = formula
+                .check_weights(&mut powers)
+                .map_err(|error| Mistake::at(text.locate(error.span()), Problem::Formula(error)))?;
             weights.set(*symbol, weight.unwrap_or_else(|| Rational::from(0)));
         }
         Ok(weights)

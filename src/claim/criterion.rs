@@ -146,8 +146,7 @@ fn is_surface(model: &Model) -> bool {
 
 /// Is the divergence of the variables that [state] adds zero as it stands?
 fn adds_no_divergence(model: &Model) -> bool {
-    let added: usize =
-        model.state[model.state.len() - model.extension.len()..].iter().map(Variable::len).sum();
+    let added: usize = model.state[model.own_variables()..].iter().map(Variable::len).sum();
     let parameters = model.free_components();
     let recorded = record(parameters + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(parameters);

@@ -65,6 +65,10 @@ impl Statement for Limit {
         Some(Self { value, ..self.clone() })
     }
 
+    fn changes(&self) -> Vec<usize> {
+        vec![self.parameter]
+    }
+
     /// With a slope, A'' at 0: ε^(3/2) has a slope there too, and is not O(ε²).
     fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
         if self.slope.is_none() {

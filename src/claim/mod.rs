@@ -210,6 +210,11 @@ impl Kind {
         of_each!(self, statement => statement.objection(model))
     }
 
+    /// The parameters that the claim gives other values.
+    pub fn changes(&self) -> Vec<usize> {
+        of_each!(self, statement => statement.changes())
+    }
+
     /// What a non-zero residual excludes, where that is less than the whole claim.
     pub fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
         of_each!(self, statement => statement.limit_of_refutation(model))

@@ -107,6 +107,11 @@ pub trait Statement: Clone {
         None
     }
 
+    /// The parameters that the claim gives other values.
+    fn changes(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// What a non-zero residual excludes, where that is less than the whole claim.
     fn limit_of_refutation(&self, _: &Model) -> Option<&'static str> {
         None

@@ -142,6 +142,10 @@ impl Statement for Symmetry {
         self.map.formulas().into_iter().chain(&self.time).collect()
     }
 
+    fn changes(&self) -> Vec<usize> {
+        self.map.parameters.iter().map(|(index, _)| *index).collect()
+    }
+
     fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         let columns = jet.along_axes().iter().map(|phase| self.map.image(phase));
         let columns: Vec<_> = columns.collect();
@@ -177,6 +181,10 @@ impl Statement for Reversor {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.0.formulas()
+    }
+
+    fn changes(&self) -> Vec<usize> {
+        self.0.parameters.iter().map(|(index, _)| *index).collect()
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {

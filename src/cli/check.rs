@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-use liouville::report::{json, terminal};
+use liouville::report::{diagnostic, json, terminal};
 use liouville::verdict::{self, Options};
 
 use super::files::Judge;
@@ -38,8 +38,8 @@ pub fn run(options: &Check) -> Result<Answer, String> {
     };
     if options.json {
         for outcome in &run.outcomes {
-            if let Err(failure) = &outcome.result {
-                anstream::eprintln!("{}", failure.rendered);
+            if let Err(failures) = &outcome.result {
+                anstream::eprintln!("{}", diagnostic::rendered(failures));
             }
         }
     }

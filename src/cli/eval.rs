@@ -47,7 +47,9 @@ pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
     let shown = path.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
     let (text, case) = Case::read(path, &settings);
-    case.map_err(|error| diagnostic::of_case(&shown, &text, &error, coloured).rendered)
+    case.map_err(|error| {
+        diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
+    })
 }
 
 fn written<N: point::Written>(

@@ -37,7 +37,7 @@ pub fn judge(
             .map(|file| {
                 let outcome = match file {
                     Ok(path) => judge_file(path, options, judge),
-                    Err((path, problem)) => failed(path, problem.clone()),
+                    Err((path, problem)) => failed(path, vec![problem.clone()]),
                 };
                 advance(&bar, started);
                 outcome
@@ -123,9 +123,9 @@ pub(super) fn coloured() -> bool {
     super::colour(std::io::stderr().is_terminal())
 }
 
-fn failed(path: &Path, problem: Failure) -> Outcome {
+fn failed(path: &Path, problems: Vec<Failure>) -> Outcome {
     let path = path.display().to_string();
-    Outcome { path, heading: Heading::default(), result: Err(problem) }
+    Outcome { path, heading: Heading::default(), result: Err(problems) }
 }
 
 fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
@@ -137,8 +137,8 @@ fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
             return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
-    let result =
-        judge(&case, options).map_err(|error| plain(path, &error.to_string(), error.help()));
+    let result = judge(&case, options)
+        .map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())]);
     let heading = Heading {
         title: case.title,
         source: case.source,

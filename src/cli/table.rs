@@ -1,6 +1,6 @@
 //! `liouville table`
 
-use liouville::report::table;
+use liouville::report::{diagnostic, table};
 use liouville::verdict;
 
 use super::{Answer, Table, TableFormat, files, width};
@@ -13,8 +13,8 @@ pub fn run(options: &Table) -> Result<Answer, String> {
         options.sampling.threads,
     )?;
     for outcome in &run.outcomes {
-        if let Err(failure) = &outcome.result {
-            anstream::eprintln!("{}", failure.rendered);
+        if let Err(failures) = &outcome.result {
+            anstream::eprintln!("{}", diagnostic::rendered(failures));
         }
     }
     let table = table::regenerate(&run, options.number);

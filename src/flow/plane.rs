@@ -160,8 +160,8 @@ fn open(kind: Type) -> Recipe {
     let draw = Draw::Within(Range { low: Rational::from(-1), high: Rational::from(1) });
     match kind {
         Type::Scalar => Recipe::Scalar(draw),
-        Type::Vector => Recipe::Vector(draw),
-        Type::Matrix => Recipe::Matrix(draw),
+        Type::Vector(length) => Recipe::Vector(length, draw),
+        Type::Matrix(rows, columns) => Recipe::Matrix(rows, columns, draw),
     }
 }
 

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::error::Span;
+use super::kind::Type;
 use super::scope::Symbol;
-use super::value::Type;
 use crate::number::rational::Rational;
 
 /// Exact constants wider than this are left to the evaluation.
@@ -25,9 +25,13 @@ pub(super) struct Node {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Operation {
     Number(Rational),
+    Constant(Constant),
     /// The value of the symbol in this slot of [`Arena::symbols`].
     Symbol(usize),
+    /// The identity matrix of its type.
     Identity,
+    /// The zero of its type; as a scalar a sum of no terms, which any type may be added to.
+    Zero,
     Negate(NodeId),
     Add(NodeId, NodeId),
     Subtract(NodeId, NodeId),
@@ -52,6 +56,8 @@ pub(super) enum Operation {
     MatrixPower(NodeId, u32),
     /// Component of a vector, from 0.
     Component(NodeId, usize),
+    /// Row of a matrix, from 0.
+    Row(NodeId, usize),
     /// Entry of a matrix: row, column, from 0.
     Entry(NodeId, usize, usize),
     Transpose(NodeId),
@@ -61,16 +67,33 @@ pub(super) enum Operation {
     Trace(NodeId),
     /// `A⁻¹ b`.
     Solve(NodeId, NodeId),
-    /// The vector of three scalars.
-    Vector([NodeId; 3]),
-    /// The matrix with three vectors as rows.
-    Rows([NodeId; 3]),
+    /// The vector of some scalars.
+    Vector(Box<[NodeId]>),
+    /// The matrix with some vectors as rows.
+    Rows(Box<[NodeId]>),
+    /// The sum of terms of one type, one for each index.
+    Sum(Box<[NodeId]>),
+    /// The product of scalars, one for each index.
+    Product(Box<[NodeId]>),
     /// The matrix with a vector on its diagonal.
     Diagonal(NodeId),
     /// A function of one scalar.
     Function(Function, NodeId),
+    /// The angle of the point (x, y), given as `(y, x)`.
+    Angle(NodeId, NodeId),
+    /// The least or the greatest of some scalars.
+    Extreme(Extreme, Box<[NodeId]>),
     /// `∫(integrand, variable)`.
     Antiderivative(NodeId, NodeId),
+}
+
+/// The numbers that have a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Constant {
+    /// π
+    Pi,
+    /// e, Euler's number.
+    Euler,
 }
 
 /// The functions of one scalar.
@@ -82,8 +105,24 @@ pub(super) enum Function {
     Sin,
     Cos,
     Tan,
+    Asin,
+    Acos,
     Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
     Modulus,
+    Sign,
+}
+
+/// Which of some scalars is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extreme {
+    Least,
+    Greatest,
 }
 
 /// The nodes of a formula under construction and, once built, of the formula.
@@ -92,6 +131,8 @@ pub(super) struct Arena {
     pub nodes: Vec<Node>,
     /// Each symbol once, in order of first use.
     pub symbols: Vec<(Symbol, Type)>,
+    /// Symbols whose values are written into the formula: those in indices, bounds and sizes.
+    pub fixed: Vec<Symbol>,
     slots: HashMap<Symbol, usize>,
 }
 

@@ -1,13 +1,12 @@
 //! Messages for text that does not follow the grammar.
 
 use super::error::{FormulaError, Span, excerpt};
-use super::functions;
+use super::kind::Type;
 use super::lexer::Kind;
 use super::parser::Parser;
-use super::scope::resolve;
-use super::spelling::{nearest, split};
 use super::typing::Operand;
-use super::value::Type;
+
+const NO_EQUATION: &str = "a formula is a value, not an equation";
 
 impl Parser<'_> {
     /// An operand follows `left` with no operator between them.
@@ -23,8 +22,12 @@ impl Parser<'_> {
             (None, Kind::Name | Kind::Number) => excerpt(self.text(&token.span)),
             (None, _) => format!("{}…", self.text(&token.span)),
         };
+        if matches!((left.value_type, b.as_str()), (Type::Vector(_), "x" | "X")) {
+            let error = FormulaError::new(token.span, "there is no operator between two vectors");
+            return error.with_help(format!("a cross product is written `{a} × …`"));
+        }
         let types = (left.value_type, right.map(|right| right.value_type));
-        if types == (Type::Vector, Some(Type::Vector)) {
+        if matches!(types, (Type::Vector(_), Some(Type::Vector(_)))) {
             let error = FormulaError::new(token.span, "there is no operator between two vectors");
             return error.with_help(format!("write `({a},{b})` or `{a} × {b}`"));
         }
@@ -64,6 +67,10 @@ impl Parser<'_> {
         match (self.peek(), before) {
             (Kind::Times, Some('*')) => error.with_help("a power is written `a^b`"),
             (Kind::Plus, _) => error.with_help("leave out a leading `+`"),
+            (Kind::Comparison, None) if self.text(&span) == "<" => {
+                error.with_help("a dot product is written `(a,b)`")
+            }
+            (Kind::Comparison, _) => error.with_help(NO_EQUATION),
             _ => error,
         }
     }
@@ -92,6 +99,12 @@ impl Parser<'_> {
             Kind::Close | Kind::CloseSquare => {
                 FormulaError::new(span, format!("this `{found}` closes nothing"))
             }
+            Kind::Comparison => {
+                FormulaError::new(span, format!("`{found}` has no meaning in a formula"))
+                    .with_help(NO_EQUATION)
+            }
+            Kind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
+                .with_help("a range stands in `sum(i, 1..n, …)` and the like"),
             Kind::Comma => FormulaError::new(span, "a comma stands between brackets only")
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
@@ -111,30 +124,5 @@ impl Parser<'_> {
             .with_help(format!(
                 "write `({x} {first_sign} {y}) {sign} {z}` or `{x} {first_sign} ({y} {sign} {z})`"
             ))
-    }
-
-    /// A name nobody knows.
-    pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
-        let called = self.peek() == Kind::Open;
-        let known = |piece: &str| resolve(piece, self.scope).is_some();
-        if let Some(pieces) = split(name, known) {
-            let message = format!("unknown name `{name}`");
-            return FormulaError::new(span, message)
-                .with_help(format!("write `{}`?", pieces.join("*")));
-        }
-        let mut names = self.scope.names();
-        if called {
-            names.extend(functions::names().map(str::to_string));
-        }
-        let canonical = super::names::canonical_name(name).unwrap_or_default();
-        let guess = [name, &canonical]
-            .into_iter()
-            .find_map(|name| nearest(name, names.iter().map(String::as_str)));
-        let kind = if called { "function" } else { "name" };
-        let error = FormulaError::new(span, format!("unknown {kind} `{}`", excerpt(name)));
-        match guess {
-            Some(guess) => error.with_help(format!("did you mean `{guess}`?")),
-            None => error,
-        }
     }
 }

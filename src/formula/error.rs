@@ -17,16 +17,47 @@ struct Fault {
     message: String,
     span: Span,
     help: Option<String>,
+    unknown: Option<String>,
+    /// Is an index too large or too small?
+    out_of_range: bool,
 }
 
 impl FormulaError {
     pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
-        Self(Box::new(Fault { message: message.into(), span, help: None }))
+        Self(Box::new(Fault {
+            message: message.into(),
+            span,
+            help: None,
+            unknown: None,
+            out_of_range: false,
+        }))
     }
 
     pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
+    }
+
+    /// The same about a name that is not known.
+    pub(super) fn with_unknown(mut self, name: &str) -> Self {
+        self.0.unknown = Some(name.to_string());
+        self
+    }
+
+    /// The same about an index that is too large or too small.
+    pub(super) fn with_index_out_of_range(mut self) -> Self {
+        self.0.out_of_range = true;
+        self
+    }
+
+    /// Is an index too large or too small?
+    pub fn is_out_of_range(&self) -> bool {
+        self.0.out_of_range
+    }
+
+    /// The name that is not known, as it is written, where that is the trouble.
+    pub fn unknown_name(&self) -> Option<&str> {
+        self.0.unknown.as_deref()
     }
 
     /// What is wrong.
@@ -56,7 +87,7 @@ impl fmt::Display for FormulaError {
 impl std::error::Error for FormulaError {}
 
 /// The text shown for a piece of a formula in a message; a long one is cut in the middle.
-pub(super) fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 60;
     const END: usize = 25;
     let count = text.chars().count();

@@ -1,96 +1,233 @@
 //! The named functions: their spellings, what they take, and the nodes they become.
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Extreme, Function, Operation};
 use super::error::{FormulaError, Span};
-use super::typing::Operand;
-use super::value::Type::{self, Matrix, Scalar, Vector};
+use super::kind::Type;
+use super::typing::{Builder, Built, Infix, Operand};
 use crate::number::rational::Rational;
 
-/// Builds the nodes of a function whose arguments have the right number and types.
-type Build = fn(&mut Arena, &[NodeId], Span) -> NodeId;
+/// The most rows of a matrix whose determinant, adjugate or inverse is taken.
+const MOST_ROWS: usize = 16;
+
+/// Builds the nodes of a function whose arguments have the right number and kinds.
+type Build = fn(&mut Builder<'_>, &[Operand], Span) -> Built;
+
+/// What an argument has to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    Scalar,
+    Vector,
+    /// A vector of ℝ³.
+    Spatial,
+    Matrix,
+    Square,
+}
+
+use Wanted::{Matrix, Scalar, Spatial, Square, Vector};
+
+impl Wanted {
+    fn takes(self, found: Type) -> bool {
+        match (self, found) {
+            (Scalar, Type::Scalar) | (Vector, Type::Vector(_)) | (Matrix, Type::Matrix(..)) => true,
+            (Spatial, found) => found == Type::VECTOR,
+            (Square, Type::Matrix(rows, columns)) => rows == columns,
+            _ => false,
+        }
+    }
+
+    fn name(self, found: Type) -> &'static str {
+        match (self, found) {
+            (Scalar, _) => "scalar",
+            (Spatial, Type::Vector(_)) => "vector of length 3",
+            (Square, Type::Matrix(..)) => "square matrix",
+            (Vector | Spatial, _) => "vector",
+            (Matrix | Square, _) => "matrix",
+        }
+    }
+}
+
+/// What a function takes.
+#[derive(Clone, Copy, Debug)]
+enum Arguments {
+    /// One each.
+    These(&'static [Wanted]),
+    /// So many of one kind, or more.
+    Several(usize, Wanted),
+}
+
+use Arguments::{Several, These};
+
+impl Arguments {
+    fn fit(self, arguments: &[Operand]) -> bool {
+        self.takes_count(arguments.len())
+            && arguments.iter().enumerate().all(|(k, a)| self.at(k).takes(a.value_type))
+    }
+
+    fn takes_count(self, count: usize) -> bool {
+        match self {
+            These(wanted) => wanted.len() == count,
+            Several(least, _) => count >= least,
+        }
+    }
+
+    fn at(self, place: usize) -> Wanted {
+        match self {
+            These(wanted) => wanted[place],
+            Several(_, wanted) => wanted,
+        }
+    }
+
+    fn count(self) -> String {
+        match self {
+            These(wanted) => wanted.len().to_string(),
+            Several(least, _) => format!("{least} or more"),
+        }
+    }
+}
 
 /// One way to call a function.
 struct Overload {
     names: &'static [&'static str],
-    arguments: &'static [Type],
+    arguments: Arguments,
     build: Build,
 }
 
-const fn overload(
-    names: &'static [&'static str],
-    arguments: &'static [Type],
-    build: Build,
-) -> Overload {
+const fn overload(names: &'static [&'static str], arguments: Arguments, build: Build) -> Overload {
     Overload { names, arguments, build }
 }
 
 const FUNCTIONS: &[Overload] = &[
-    overload(&["dot"], &[Vector, Vector], |f, a, s| f.push(Operation::Dot(a[0], a[1]), Scalar, s)),
-    overload(&["cross"], &[Vector, Vector], |f, a, s| {
-        f.push(Operation::Cross(a[0], a[1]), Vector, s)
+    overload(&["dot"], These(&[Vector, Vector]), |f, a, s| f.dot(&a[0], &a[1], s)),
+    overload(&["cross"], These(&[Spatial, Spatial]), |f, a, s| {
+        f.vector_product(Infix::Cross, &a[0], &a[1], s)
     }),
-    overload(&["outer"], &[Vector, Vector], |f, a, s| {
-        f.push(Operation::Outer(a[0], a[1]), Matrix, s)
+    overload(&["outer"], These(&[Vector, Vector]), |f, a, s| {
+        f.vector_product(Infix::Outer, &a[0], &a[1], s)
     }),
-    overload(&["norm"], &[Vector], |f, a, s| {
-        let square = f.push(Operation::Dot(a[0], a[0]), Scalar, s.clone());
-        f.push(Operation::Function(Function::Sqrt, square), Scalar, s)
+    overload(&["norm"], These(&[Vector]), |f, a, s| f.modulus(&a[0], s)),
+    overload(&["transpose"], These(&[Matrix]), |f, a, s| f.transpose(&a[0], s)),
+    overload(&["inverse", "inv"], These(&[Square]), |f, a, s| f.inverse(&a[0], s)),
+    overload(&["adj"], These(&[Square]), |f, a, s| {
+        f.small(&a[0])?;
+        Ok(f.push(Operation::Adjugate(a[0].node), a[0].value_type, s))
     }),
-    overload(&["transpose"], &[Matrix], |f, a, s| f.push(Operation::Transpose(a[0]), Matrix, s)),
-    overload(&["inverse", "inv"], &[Matrix], |f, a, s| f.push(Operation::Inverse(a[0]), Matrix, s)),
-    overload(&["adj"], &[Matrix], |f, a, s| f.push(Operation::Adjugate(a[0]), Matrix, s)),
-    overload(&["det"], &[Matrix], |f, a, s| f.push(Operation::Determinant(a[0]), Scalar, s)),
-    overload(&["trace", "tr", "Tr"], &[Matrix], |f, a, s| {
-        f.push(Operation::Trace(a[0]), Scalar, s)
+    overload(&["det"], These(&[Square]), |f, a, s| {
+        f.small(&a[0])?;
+        Ok(f.push(Operation::Determinant(a[0].node), Type::Scalar, s))
     }),
-    overload(&["solve"], &[Matrix, Vector], |f, a, s| {
-        f.push(Operation::Solve(a[0], a[1]), Vector, s)
+    overload(&["trace", "tr", "Tr"], These(&[Square]), |f, a, s| {
+        Ok(f.push(Operation::Trace(a[0].node), Type::Scalar, s))
     }),
-    overload(&["diag"], &[Vector], |f, a, s| f.push(Operation::Diagonal(a[0]), Matrix, s)),
-    overload(&["diag"], &[Scalar; 3], |f, a, s| {
-        let entries = vector(f, a, s.clone());
-        f.push(Operation::Diagonal(entries), Matrix, s)
+    overload(&["solve"], These(&[Square, Vector]), solve),
+    overload(&["diag"], These(&[Vector]), |f, a, s| f.diagonal(&a[0], s)),
+    overload(&["diag"], Several(2, Scalar), |f, a, s| {
+        let entries = f.vector(a, s.clone())?;
+        f.diagonal(&entries, s)
     }),
-    overload(&["hat"], &[Vector], hat),
-    overload(&["vec"], &[Scalar; 3], vector),
-    overload(&["mat"], &[Vector; 3], |f, a, s| {
-        f.push(Operation::Rows([a[0], a[1], a[2]]), Matrix, s)
+    overload(&["hat"], These(&[Spatial]), hat),
+    overload(&["vec"], Several(1, Scalar), |f, a, s| f.vector(a, s)),
+    overload(&["mat"], Several(1, Vector), |f, a, s| f.rows(a, s)),
+    overload(&["mat"], Several(1, Scalar), square_of_entries),
+    overload(&["sqrt"], These(&[Scalar]), |f, a, s| f.root(&a[0], s)),
+    overload(&["exp"], These(&[Scalar]), |f, a, s| scalar(f, Function::Exp, a, s)),
+    overload(&["log", "ln"], These(&[Scalar]), |f, a, s| scalar(f, Function::Ln, a, s)),
+    overload(&["sin"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sin, a, s)),
+    overload(&["cos"], These(&[Scalar]), |f, a, s| scalar(f, Function::Cos, a, s)),
+    overload(&["tan"], These(&[Scalar]), |f, a, s| scalar(f, Function::Tan, a, s)),
+    overload(&["asin", "arcsin"], These(&[Scalar]), |f, a, s| scalar(f, Function::Asin, a, s)),
+    overload(&["acos", "arccos"], These(&[Scalar]), |f, a, s| scalar(f, Function::Acos, a, s)),
+    overload(&["atan", "arctan"], These(&[Scalar]), |f, a, s| scalar(f, Function::Atan, a, s)),
+    overload(&["sinh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sinh, a, s)),
+    overload(&["cosh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Cosh, a, s)),
+    overload(&["tanh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Tanh, a, s)),
+    overload(&["asinh", "arsinh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Asinh, a, s)),
+    overload(&["acosh", "arcosh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Acosh, a, s)),
+    overload(&["atanh", "artanh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Atanh, a, s)),
+    overload(&["abs"], These(&[Scalar]), |f, a, s| f.modulus(&a[0], s)),
+    overload(&["sign", "sgn"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sign, a, s)),
+    overload(&["atan2"], These(&[Scalar, Scalar]), |f, a, s| {
+        Ok(f.push(Operation::Angle(a[0].node, a[1].node), Type::Scalar, s))
     }),
-    overload(&["mat"], &[Scalar; 9], |f, a, s| {
-        let rows = [0, 3, 6].map(|start| vector(f, &a[start..], s.clone()));
-        f.push(Operation::Rows(rows), Matrix, s)
-    }),
-    overload(&["sqrt"], &[Scalar], |f, a, s| scalar(f, Function::Sqrt, a, s)),
-    overload(&["exp"], &[Scalar], |f, a, s| scalar(f, Function::Exp, a, s)),
-    overload(&["log", "ln"], &[Scalar], |f, a, s| scalar(f, Function::Ln, a, s)),
-    overload(&["sin"], &[Scalar], |f, a, s| scalar(f, Function::Sin, a, s)),
-    overload(&["cos"], &[Scalar], |f, a, s| scalar(f, Function::Cos, a, s)),
-    overload(&["tan"], &[Scalar], |f, a, s| scalar(f, Function::Tan, a, s)),
-    overload(&["atan", "arctan"], &[Scalar], |f, a, s| scalar(f, Function::Atan, a, s)),
-    overload(&["abs"], &[Scalar], |f, a, s| scalar(f, Function::Modulus, a, s)),
-    overload(&["∫", "integral"], &[Scalar, Scalar], |f, a, s| {
-        f.push(Operation::Antiderivative(a[0], a[1]), Scalar, s)
+    overload(&["min"], Several(1, Scalar), |f, a, s| extreme(f, Extreme::Least, a, s)),
+    overload(&["max"], Several(1, Scalar), |f, a, s| extreme(f, Extreme::Greatest, a, s)),
+    overload(&["∫", "integral"], These(&[Scalar, Scalar]), |f, a, s| {
+        Ok(f.push(Operation::Antiderivative(a[0].node, a[1].node), Type::Scalar, s))
     }),
 ];
 
-fn scalar(arena: &mut Arena, function: Function, a: &[NodeId], span: Span) -> NodeId {
-    arena.push(Operation::Function(function, a[0]), Scalar, span)
+fn scalar(f: &mut Builder<'_>, function: Function, a: &[Operand], span: Span) -> Built {
+    Ok(f.push(Operation::Function(function, a[0].node), Type::Scalar, span))
 }
 
-fn vector(arena: &mut Arena, a: &[NodeId], span: Span) -> NodeId {
-    arena.push(Operation::Vector([a[0], a[1], a[2]]), Vector, span)
+fn extreme(f: &mut Builder<'_>, which: Extreme, a: &[Operand], span: Span) -> Built {
+    let nodes: Vec<usize> = a.iter().map(|a| a.node).collect();
+    let operation = Operation::Extreme(which, nodes.clone().into());
+    Ok(f.push_folded(operation, &nodes, span, |numbers: &[&Rational]| {
+        let best = match which {
+            Extreme::Least => numbers.iter().min(),
+            Extreme::Greatest => numbers.iter().max(),
+        };
+        best.map(|number| (*number).clone())
+    }))
+}
+
+fn solve(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
+    let rows = f.small(&a[0])?;
+    if a[1].value_type != Type::Vector(rows) {
+        let (left, right) = (a[0].value_type.in_full(), a[1].value_type.in_full());
+        let message = format!("a {left} cannot be solved for a {right}");
+        return Err(FormulaError::new(a[1].span.clone(), message));
+    }
+    Ok(f.push(Operation::Solve(a[0].node, a[1].node), a[1].value_type, span))
+}
+
+/// `mat(a,b,c,d)`: a square matrix by its entries.
+fn square_of_entries(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
+    let rows = a.len().isqrt();
+    if rows * rows != a.len() {
+        let message = format!("{} entries do not fill a square matrix", a.len());
+        let help = "give 4, 9, 16, … entries, or the rows: `mat([a,b,c],[d,e,f])`";
+        return Err(FormulaError::new(span, message).with_help(help));
+    }
+    let lines = a.chunks(rows).map(|row| f.vector(row, span.clone()));
+    let lines = lines.collect::<Result<Vec<Operand>, _>>()?;
+    f.rows(&lines, span)
 }
 
 /// `[a]×`, the matrix with `[a]× b = a × b`.
-fn hat(arena: &mut Arena, a: &[NodeId], span: Span) -> NodeId {
-    let zero = arena.push(Operation::Number(Rational::from(0)), Scalar, span.clone());
+fn hat(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
+    let zero = f.push(Operation::Number(Rational::from(0)), Type::Scalar, span.clone());
     let [x, y, z] =
-        [0, 1, 2].map(|k| arena.push(Operation::Component(a[0], k), Scalar, span.clone()));
-    let [minus_x, minus_y, minus_z] =
-        [x, y, z].map(|k| arena.push(Operation::Negate(k), Scalar, span.clone()));
-    let rows = [[zero, minus_z, y], [z, zero, minus_x], [minus_y, x, zero]]
-        .map(|row| vector(arena, &row, span.clone()));
-    arena.push(Operation::Rows(rows), Matrix, span)
+        [0, 1, 2].map(|k| f.push(Operation::Component(a[0].node, k), Type::Scalar, span.clone()));
+    let [minus_x, minus_y, minus_z] = [&x, &y, &z].map(|k| f.negate(k, span.clone()));
+    let rows = [[&zero, &minus_z, &y], [&z, &zero, &minus_x], [&minus_y, &x, &zero]]
+        .map(|row| f.vector(&row.map(Operand::clone), span.clone()));
+    let rows = rows.into_iter().collect::<Result<Vec<Operand>, _>>()?;
+    f.rows(&rows, span)
+}
+
+impl Builder<'_> {
+    /// `a⁻¹`
+    pub fn inverse(&mut self, a: &Operand, span: Span) -> Built {
+        self.small(a)?;
+        Ok(self.push(Operation::Inverse(a.node), a.value_type, span))
+    }
+
+    fn diagonal(&mut self, a: &Operand, span: Span) -> Built {
+        let rows = a.value_type.size();
+        self.push_sized(Operation::Diagonal(a.node), Type::Matrix(rows, rows), span)
+    }
+
+    /// The rows of a matrix that is small enough for its determinant to be taken.
+    fn small(&self, a: &Operand) -> Result<usize, FormulaError> {
+        let Type::Matrix(rows, _) = a.value_type else { return Ok(1) };
+        if rows <= MOST_ROWS {
+            return Ok(rows);
+        }
+        let message = format!("a {} is too large for a determinant", a.value_type.in_full());
+        let help = format!("determinants and inverses take at most {MOST_ROWS} rows");
+        Err(FormulaError::new(a.span.clone(), message).with_help(help))
+    }
 }
 
 /// Every spelling of every function.
@@ -105,18 +242,21 @@ pub(super) fn is_function(name: &str) -> bool {
 
 /// How a function is called, for help: `solve(matrix, vector)`.
 pub(super) fn usage(name: &str) -> String {
-    let calls: Vec<String> = overloads(name)
-        .map(|function| match function.arguments {
-            [Scalar, .., Scalar] if function.arguments.len() == 9 => {
-                format!("`{name}(…)` of 9 scalars")
-            }
-            [Scalar, Scalar] => format!("`{name}(integrand, variable)`"),
-            arguments => {
-                let types: Vec<String> = arguments.iter().map(Type::to_string).collect();
-                format!("`{name}({})`", types.join(", "))
-            }
-        })
-        .collect();
+    let call = |function: &Overload| match (name, function.arguments) {
+        ("atan2", _) => "`atan2(y, x)`".to_string(),
+        ("∫" | "integral", _) => format!("`{name}(integrand, variable)`"),
+        ("mat", Several(_, Scalar)) => "`mat(…)` of 4, 9, 16, … scalars".to_string(),
+        (_, Several(1, wanted)) => format!("`{name}({}, …)`", wanted.name(Type::Scalar)),
+        (_, Several(_, wanted)) => {
+            let kind = wanted.name(Type::Scalar);
+            format!("`{name}({kind}, {kind}, …)`")
+        }
+        (_, These(wanted)) => {
+            let kinds: Vec<&str> = wanted.iter().map(|one| one.name(Type::Scalar)).collect();
+            format!("`{name}({})`", kinds.join(", "))
+        }
+    };
+    let calls: Vec<String> = overloads(name).map(call).collect();
     format!("write {}", calls.join(" or "))
 }
 
@@ -124,32 +264,41 @@ fn overloads(name: &str) -> impl Iterator<Item = &'static Overload> {
     FUNCTIONS.iter().filter(move |function| function.names.contains(&name))
 }
 
-/// The node for `name(arguments)`, the whole call standing at `span`.
+/// The operand for `name(arguments)`, the whole call standing at `span`.
 pub(super) fn call(
-    arena: &mut Arena,
+    builder: &mut Builder<'_>,
     name: &str,
     arguments: &[Operand],
     span: Span,
-) -> Result<NodeId, FormulaError> {
-    let fits = |function: &&Overload| {
-        function.arguments.iter().copied().eq(arguments.iter().map(|a| a.value_type))
-    };
-    if let Some(function) = overloads(name).find(fits) {
-        let nodes: Vec<NodeId> = arguments.iter().map(|argument| argument.node).collect();
-        return Ok((function.build)(arena, &nodes, span));
+) -> Built {
+    if let Some(function) = overloads(name).find(|function| function.arguments.fit(arguments)) {
+        return (function.build)(builder, arguments, span);
     }
-    let error = match overloads(name).find(|f| f.arguments.len() == arguments.len()) {
+    let count = arguments.len();
+    let error = match overloads(name).find(|f| f.arguments.takes_count(count)) {
         Some(function) => {
-            let wrong =
-                function.arguments.iter().zip(arguments).find(|(ty, a)| **ty != a.value_type);
-            let (span, ty, found) =
-                wrong.map_or((span, Scalar, Scalar), |(ty, a)| (a.span.clone(), *ty, a.value_type));
-            FormulaError::new(span, format!("`{name}` takes a {ty} here, this is a {found}"))
+            let wanted = |place: usize| function.arguments.at(place);
+            let place =
+                (0..count).find(|place| !wanted(*place).takes(arguments[*place].value_type));
+            let place = place.unwrap_or_default();
+            let found = arguments[place].value_type;
+            let (wanted, found) = (
+                wanted(place).name(found),
+                match wanted(place) {
+                    Spatial | Square
+                        if wanted(place).name(found) != wanted(place).name(Type::Scalar) =>
+                    {
+                        found.in_full()
+                    }
+                    _ => found.to_string(),
+                },
+            );
+            let message = format!("`{name}` takes a {wanted} here, this is a {found}");
+            FormulaError::new(arguments[place].span.clone(), message)
         }
         None => {
-            let counts: Vec<String> =
-                overloads(name).map(|f| f.arguments.len().to_string()).collect();
-            let (counts, count) = (counts.join(" or "), arguments.len());
+            let counts: Vec<String> = overloads(name).map(|f| f.arguments.count()).collect();
+            let counts = counts.join(" or ");
             let plural = if counts == "1" { "" } else { "s" };
             FormulaError::new(
                 span,
@@ -162,9 +311,10 @@ pub(super) fn call(
 
 #[cfg(test)]
 mod tests {
+    use super::super::arena::Arena;
     use super::*;
 
-    fn operands(types: &[Type]) -> (Arena, Vec<Operand>) {
+    fn operands(types: &[Type]) -> (Builder<'static>, Vec<Operand>) {
         let mut arena = Arena::default();
         let operands = types.iter().enumerate().map(|(i, ty)| Operand {
             node: arena.push(Operation::Identity, *ty, i..i + 1),
@@ -172,32 +322,56 @@ mod tests {
             span: i..i + 1,
         });
         let operands = operands.collect();
-        (arena, operands)
+        (Builder { arena, text: "0123456789" }, operands)
     }
 
     #[test]
     fn every_overload_builds_from_its_own_arguments() {
+        let kind = |wanted: Wanted| match wanted {
+            Scalar => Type::Scalar,
+            Vector | Spatial => Type::VECTOR,
+            Matrix | Square => Type::MATRIX,
+        };
         for function in FUNCTIONS {
-            let (mut arena, arguments) = operands(function.arguments);
+            let types: Vec<Type> = match function.arguments {
+                These(wanted) => wanted.iter().map(|wanted| kind(*wanted)).collect(),
+                Several(least, wanted) => vec![kind(wanted); least.max(4)],
+            };
+            let (mut builder, arguments) = operands(&types);
             for name in function.names {
-                let node = call(&mut arena, name, &arguments, 0..9);
-                assert_eq!(node, Ok(arena.nodes.len() - 1), "`{name}` is the last node");
+                let built = call(&mut builder, name, &arguments, 0..9).expect("it is built");
+                assert_eq!(built.node, builder.arena.nodes.len() - 1, "`{name}` is the last node");
             }
         }
     }
 
     #[test]
     fn wrong_arguments_are_told_apart() {
-        let (mut arena, arguments) = operands(&[Matrix, Scalar]);
-        let error = call(&mut arena, "solve", &arguments, 0..9).expect_err("a scalar");
+        let (mut builder, arguments) = operands(&[Type::MATRIX, Type::Scalar]);
+        let error = call(&mut builder, "solve", &arguments, 0..9).expect_err("a scalar");
         assert_eq!(error.message(), "`solve` takes a vector here, this is a scalar");
         assert_eq!((error.span(), error.help()), (1..2, Some("write `solve(matrix, vector)`")));
-        let error = call(&mut arena, "diag", &arguments, 0..9).expect_err("two arguments");
-        assert_eq!(
-            error.message(),
-            "`diag` takes 1 or 3 arguments, not 2",
-            "both counts are given"
-        );
+        let error = call(&mut builder, "hat", &arguments, 0..9).expect_err("two arguments");
+        assert_eq!(error.message(), "`hat` takes 1 argument, not 2", "the count is given");
         assert_eq!(error.span(), 0..9, "the whole call");
+        let (mut builder, arguments) = operands(&[Type::Matrix(2, 3), Type::Vector(4)]);
+        let error = call(&mut builder, "det", &arguments[..1], 0..9).expect_err("not square");
+        let message = "`det` takes a square matrix here, this is a matrix of size 2×3";
+        assert_eq!(error.message(), message, "the size is given");
+        let error = call(&mut builder, "hat", &arguments[1..], 0..9).expect_err("too long");
+        let message = "`hat` takes a vector of length 3 here, this is a vector of length 4";
+        assert_eq!(error.message(), message, "the length is given");
+    }
+
+    #[test]
+    fn sizes_have_to_fit() {
+        let (mut builder, arguments) = operands(&[Type::Matrix(4, 4), Type::VECTOR]);
+        let error = call(&mut builder, "solve", &arguments, 0..9).expect_err("3 is not 4");
+        let message = "a matrix of size 4×4 cannot be solved for a vector of length 3";
+        assert_eq!((error.message(), error.span()), (message, 1..2));
+        let (mut builder, arguments) = operands(&[Type::Matrix(17, 17)]);
+        let error = call(&mut builder, "inverse", &arguments, 0..9).expect_err("too large");
+        assert_eq!(error.help(), Some("determinants and inverses take at most 16 rows"));
+        assert!(call(&mut builder, "trace", &arguments, 0..9).is_ok(), "a trace is a sum");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::arena::{Arena, Function, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
+use super::kind::Type;
 use super::weights::{Form, Weight, WeightSystem};
 use crate::number::rational::Rational;
 
@@ -34,10 +35,19 @@ impl Check<'_> {
         let one = Rational::from(1);
         Ok(match &self.arena.nodes[node].operation {
             Operation::Number(value) => (!value.is_zero()).then(Form::zero),
-            Operation::Identity => Some(Form::zero()),
+            Operation::Identity | Operation::Constant(_) => Some(Form::zero()),
             Operation::Symbol(slot) => Some(self.system.symbol(self.arena.symbols[*slot].0)),
             Operation::Add(a, b) | Operation::Subtract(a, b) => self.equal(node, &[*a, *b])?,
-            Operation::Vector(entries) | Operation::Rows(entries) => self.equal(node, entries)?,
+            Operation::Vector(all) | Operation::Rows(all) | Operation::Sum(all) => {
+                self.equal(node, all)?
+            }
+            Operation::Product(all) => {
+                let factors = all.iter().map(|a| self.forms[*a].as_ref());
+                factors.collect::<Option<Vec<&Form>>>().map(|factors| {
+                    factors.into_iter().fold(Form::zero(), |sum, form| sum.plus(form, &one))
+                })
+            }
+            Operation::Zero => None,
             Operation::Multiply(a, b)
             | Operation::Scale(a, b)
             | Operation::Apply(a, b)
@@ -52,16 +62,30 @@ impl Check<'_> {
             Operation::PowerOf(a, b) => self.power_of(*a, *b)?,
             Operation::MatrixPower(a, n) => self.times(*a, &Rational::from(i64::from(*n))),
             Operation::Inverse(a) => self.times(*a, &-&one),
-            Operation::Adjugate(a) => self.times(*a, &Rational::from(2)),
-            Operation::Determinant(a) => self.times(*a, &Rational::from(3)),
+            Operation::Adjugate(a) => self.times(*a, &Rational::from(self.rows(*a) - 1)),
+            Operation::Determinant(a) => self.times(*a, &Rational::from(self.rows(*a))),
             Operation::Negate(a)
             | Operation::Component(a, _)
+            | Operation::Row(a, _)
             | Operation::Entry(a, _, _)
             | Operation::Transpose(a)
             | Operation::Trace(a)
             | Operation::Diagonal(a) => self.forms[*a].clone(),
             Operation::Function(function, a) => self.function(*function, *a)?,
+            Operation::Extreme(_, all) => self.equal(node, all)?,
+            Operation::Angle(y, x) => {
+                self.equal(node, &[*y, *x])?;
+                Some(Form::zero())
+            }
         })
+    }
+
+    /// The rows of a matrix, as a number to multiply by.
+    fn rows(&self, node: NodeId) -> i64 {
+        match self.arena.nodes[node].value_type {
+            Type::Matrix(rows, _) => rows as i64,
+            _ => 1,
+        }
     }
 
     /// The common weight of terms that have to agree.
@@ -107,12 +131,20 @@ impl Check<'_> {
             Function::Sqrt => return Ok(self.times(a, &Rational::new(1, 2))),
             Function::Modulus => return Ok(self.forms[a].clone()),
             // the logarithm of a density changes by a constant, which no derivative sees
-            Function::Ln => return Ok(Some(Form::zero())),
+            Function::Ln | Function::Sign => return Ok(Some(Form::zero())),
             Function::Exp => "the argument of exp",
             Function::Sin => "the argument of sin",
             Function::Cos => "the argument of cos",
             Function::Tan => "the argument of tan",
+            Function::Asin => "the argument of asin",
+            Function::Acos => "the argument of acos",
             Function::Atan => "the argument of atan",
+            Function::Sinh => "the argument of sinh",
+            Function::Cosh => "the argument of cosh",
+            Function::Tanh => "the argument of tanh",
+            Function::Asinh => "the argument of asinh",
+            Function::Acosh => "the argument of acosh",
+            Function::Atanh => "the argument of atanh",
         };
         self.weightless(a, name)?;
         Ok(Some(Form::zero()))

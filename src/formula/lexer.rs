@@ -26,6 +26,10 @@ pub(super) enum Kind {
     CloseSquare,
     Bar,
     Comma,
+    /// `..`, between the ends of a range.
+    Range,
+    /// `=`, `≠`, `<` and the like, in conditions on indices.
+    Comparison,
     /// After the last token; its span is empty.
     End,
 }
@@ -47,7 +51,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
             continue;
         }
         let (kind, length) = token(&text[start..], first)
-            .ok_or_else(|| stray(first, start..start + first.len_utf8()))?;
+            .ok_or_else(|| stray(first, start..start + first.len_utf8(), &text[..start]))?;
         tokens.push(Token { kind, span: start..start + length });
         start += length;
     }
@@ -57,6 +61,12 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
 
 /// The token at the start of `rest` and its length in bytes.
 fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
+    if let Some(length) = comparison_length(rest) {
+        return Some((Kind::Comparison, length));
+    }
+    if rest.starts_with("..") {
+        return Some((Kind::Range, 2));
+    }
     let sign = match first {
         '+' => Kind::Plus,
         '-' | '−' | '–' => Kind::Minus,
@@ -74,6 +84,7 @@ fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
         ']' => Kind::CloseSquare,
         '|' => Kind::Bar,
         ',' => Kind::Comma,
+        '…' | '‥' => Kind::Range,
         _ => {
             return [
                 (Kind::Number, number_length(rest)),
@@ -85,6 +96,12 @@ fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
         }
     };
     Some((sign, first.len_utf8()))
+}
+
+/// How many bytes at the start of the text compare two numbers.
+fn comparison_length(text: &str) -> Option<usize> {
+    let signs = ["!=", "<=", ">=", "==", "≠", "≤", "≥", "=", "<", ">"];
+    signs.into_iter().find(|sign| text.starts_with(sign)).map(str::len)
 }
 
 /// `12`, `3.5`, `.5`, `1e-3`: how many bytes at the start of the text are one number.
@@ -136,15 +153,22 @@ pub(super) fn superscript_number(text: &str) -> String {
     text.chars().filter_map(plain).collect()
 }
 
-fn stray(c: char, span: Span) -> FormulaError {
+/// A character that stands for nothing; `before` is the text before it.
+fn stray(c: char, span: Span, before: &str) -> FormulaError {
     let error = FormulaError::new(span, format!("`{c}` has no meaning in a formula"));
     match c {
-        '=' | '<' | '>' => error.with_help("a formula is a value, not an equation"),
+        '.' if before.trim_end().ends_with(|c: char| !c.is_ascii_digit()) => {
+            error.with_help("a dot product is written `(a,b)`, a component `a[1]`")
+        }
         '.' => error.with_help("a number has digits on both sides of its point, as in 3.5"),
         '{' | '}' => error.with_help("group with ( )"),
         '‖' => error.with_help("write a norm as |a|"),
         '⁻' | '⁺' => error.with_help("digits follow the sign, as in ⁻¹"),
         ';' => error.with_help("separate with `,`"),
+        '\\' => error.with_help("formulas are not LaTeX: write `a/b`, `√a`, `γ`, `a*b`"),
+        '&' => error.with_help("write conditions one after the other, parted by commas"),
+        '!' => error.with_help("write n! as `product(k, 1..n, k)`"),
+        '%' => error.with_help("write `k mod n`, in an index"),
         _ => error,
     }
 }
@@ -187,9 +211,20 @@ mod tests {
 
     #[test]
     fn stray_characters_are_named() {
-        let error = tokens("a ≠ b").expect_err("not a formula");
-        assert_eq!((error.message(), error.span()), ("`≠` has no meaning in a formula", 2..5));
-        let error = tokens("a = b").expect_err("not a formula");
-        assert_eq!(error.help(), Some("a formula is a value, not an equation"));
+        let error = tokens("a ? b").expect_err("not a formula");
+        assert_eq!((error.message(), error.span()), ("`?` has no meaning in a formula", 2..3));
+        let error = tokens("ω.γ").expect_err("not a formula");
+        assert_eq!(error.help(), Some("a dot product is written `(a,b)`, a component `a[1]`"));
+        let error = tokens("3.").expect_err("not a number");
+        assert_eq!(error.help(), Some("a number has digits on both sides of its point, as in 3.5"));
+    }
+
+    #[test]
+    fn ranges_and_comparisons_are_signs() {
+        use Kind::{Comparison, End, Name, Number, Range};
+        assert_eq!(kinds("1..n"), [Number, Range, Name, End], "not the number 1.");
+        assert_eq!(kinds("0.5..2"), [Number, Range, Number, End], "decimals end before it");
+        assert_eq!(kinds("i ≠ j"), [Name, Comparison, Name, End], "one sign");
+        assert_eq!(kinds("i<=j"), [Name, Comparison, Name, End], "two characters, one sign");
     }
 }

@@ -7,8 +7,9 @@ use num_dual::Dual;
 
 use super::arena::{Arena, Function, NodeId, Operation};
 use super::evaluate::values;
+use super::kind::Type;
 use super::scope::Symbol;
-use super::value::{Type, Value};
+use super::value::Value;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -32,6 +33,7 @@ pub(super) fn logarithmic_derivative<T: Scalar>(
     while let Some((node, coefficient)) = factors.pop() {
         match &arena.nodes[node].operation {
             Operation::Number(_) => {}
+            Operation::Product(all) => factors.extend(all.iter().map(|a| (*a, coefficient))),
             Operation::Multiply(a, b) => factors.extend([(*b, coefficient), (*a, coefficient)]),
             Operation::Divide(a, b) => factors.extend([(*b, -coefficient), (*a, coefficient)]),
             Operation::Negate(a) | Operation::Function(Function::Modulus, a) => {

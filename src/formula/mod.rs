@@ -41,11 +41,15 @@
 
 mod algebra;
 mod arena;
+mod assemble;
+mod binders;
 mod diagnosis;
+mod elementary;
 mod error;
 mod evaluate;
 mod functions;
 mod homogeneity;
+mod kind;
 mod layout;
 mod lexer;
 mod logarithm;
@@ -57,10 +61,13 @@ mod poles;
 mod powers;
 mod scope;
 mod spelling;
+mod tables;
 mod typing;
 mod unary;
+mod unknown;
 mod value;
 mod weights;
+mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -72,12 +79,15 @@ use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
+pub(crate) use error::excerpt;
+pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
+pub(crate) use names::{names_in, skeleton};
 pub use scope::{Scope, Symbol};
 pub use spelling::nearest;
-pub use value::{Type, Value};
+pub use value::{Table, Value};
 pub use weights::{Weight, WeightSystem};
 
 use arena::{Arena, Node, Operation};
@@ -97,6 +107,11 @@ impl Formula {
         Ok(Formula { text: text.to_string(), arena })
     }
 
+    /// The whole number that a text is, in names whose values the scope knows.
+    pub(crate) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, FormulaError> {
+        parser::whole_number(text, scope)
+    }
+
     /// The text as written.
     pub fn text(&self) -> &str {
         &self.text
@@ -112,6 +127,12 @@ impl Formula {
         self.arena.symbols.iter().map(|(symbol, _)| *symbol)
     }
 
+    /// The symbols whose values are written into the formula: the whole numbers in its indices, bounds,
+    /// sizes and powers of matrices.
+    pub fn fixed_symbols(&self) -> &[Symbol] {
+        &self.arena.fixed
+    }
+
     /// The number the formula is, such as `3/7` or `-0.5`; `None` if it contains anything else.
     pub fn constant(&self) -> Option<Rational> {
         self.arena.constant(self.arena.nodes.len() - 1).cloned()
@@ -122,8 +143,9 @@ impl Formula {
     /// # Panics
     /// If `lookup` gives a value of another type than the scope declared for the symbol.
     pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
-        let values = evaluate::values(&self.arena, lookup);
-        values[values.len() - 1]
+        let mut values = evaluate::values(&self.arena, lookup);
+        // a formula that was read has at least one node
+        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
     }
 
     /// The value, with one exactly where every operation that is written has one: a recorded
@@ -132,8 +154,8 @@ impl Formula {
         &self,
         lookup: &mut dyn FnMut(Symbol) -> Value<T>,
     ) -> Value<T> {
-        let values = evaluate::literal_values(&self.arena, lookup);
-        values[values.len() - 1]
+        let mut values = evaluate::literal_values(&self.arena, lookup);
+        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
     }
 
     /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
@@ -201,4 +223,9 @@ impl Formula {
         // a formula that was read has at least one node
         &self.arena.nodes[self.arena.nodes.len() - 1]
     }
+}
+
+/// Is this the name of a function, or of a form such as `sum`?
+pub(crate) fn is_function(name: &str) -> bool {
+    functions::is_function(name) || binders::is_form(name)
 }

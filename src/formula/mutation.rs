@@ -6,9 +6,9 @@
 //! not of the same type, or says the same as the original is left out.
 
 use super::Formula;
-use super::arena::{Function, NodeId, Operation};
+use super::arena::{Extreme, Function, NodeId, Operation};
+use super::kind::Type;
 use super::scope::Scope;
-use super::value::Type;
 use crate::number::rational::Rational;
 
 /// Mutants of one formula; beyond these every so many are taken.
@@ -86,6 +86,19 @@ impl Formula {
                 edits.push(replaced(format!("-({own})")));
                 edits.push(replaced(format!("{own}*({NEAR_ONE})")));
             }
+            Operation::Constant(_) => edits.push(replaced(format!("{own}*({NEAR_ONE})"))),
+            Operation::Angle(y, x) => {
+                edits.push(replaced(format!("atan2({}, {})", self.part(*x), self.part(*y))));
+            }
+            Operation::Extreme(which, all) => {
+                edits.extend(all.iter().map(|a| self.kept(node, *a)));
+                let arguments: Vec<&str> = all.iter().map(|a| self.part(*a)).collect();
+                let other = match which {
+                    Extreme::Least => "max",
+                    Extreme::Greatest => "min",
+                };
+                edits.push(replaced(format!("{other}({})", arguments.join(", "))));
+            }
             Operation::Symbol(slot) => {
                 let (_, kind) = self.arena.symbols[*slot];
                 edits.extend(others(own, kind, scope).into_iter().map(replaced));
@@ -120,7 +133,7 @@ impl Formula {
                     edits.push(replaced(format!("({base})^({other})")));
                 }
             }
-            Operation::Function(Function::Sqrt | Function::Modulus, a)
+            Operation::Function(Function::Sqrt | Function::Modulus | Function::Sign, a)
             | Operation::Inverse(a)
             | Operation::Transpose(a)
             | Operation::Adjugate(a) => edits.push(self.kept(node, *a)),
@@ -161,8 +174,8 @@ struct Edit {
 /// Names of the same type, those that a reader would confuse first.
 fn others(name: &str, kind: Type, scope: &dyn Scope) -> Vec<String> {
     let likely: &[&str] = match kind {
-        Type::Matrix => &["Ĩ", "J", "I", "B", "Γ"],
-        Type::Vector => &["γ", "ω", "r", "c"],
+        Type::Matrix(..) => &["Ĩ", "J", "I", "B", "Γ"],
+        Type::Vector(_) => &["γ", "ω", "r", "c"],
         Type::Scalar => &["m", "R", "μ", "k", "κ"],
     };
     let is_other =
@@ -182,8 +195,8 @@ mod tests {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
             let kind = match name {
                 "m" | "R" => Type::Scalar,
-                "ω" | "γ" => Type::Vector,
-                "I" | "J" => Type::Matrix,
+                "ω" | "γ" => Type::VECTOR,
+                "I" | "J" => Type::MATRIX,
                 _ => return None,
             };
             Some((Symbol(u32::from(name.chars().next()?) as _), kind))
@@ -219,7 +232,17 @@ mod tests {
 
     #[test]
     fn mutants_keep_the_type_and_differ() {
-        for text in ["√m", "-m", "m/R", "(ω × γ,J⁻¹*ω)", "det(J)^(1/2)", "(ω,γ)²/m"] {
+        for text in [
+            "max(m, R)",
+            "atan2(m, R)",
+            "π*m",
+            "√m",
+            "-m",
+            "m/R",
+            "(ω × γ,J⁻¹*ω)",
+            "det(J)^(1/2)",
+            "(ω,γ)²/m",
+        ] {
             let formula = Formula::parse(text, &Letters).expect("a formula");
             let mutants = formula.mutants(&Letters);
             assert!(!mutants.is_empty(), "{text} can be wrong in some way");

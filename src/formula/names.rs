@@ -43,11 +43,70 @@ const SPELLED: [(&str, &str); 35] = [
 ];
 
 /// Per combining mark, the letters it joins with and what they become.
-const COMPOSED: [(char, &str, &str); 4] = [
-    ('\u{302}', "AEIOUaeiou", "ÂÊÎÔÛâêîôû"),
+const COMPOSED: [(char, &str, &str); 11] = [
+    ('\u{300}', "AEINOUWYaeinouwy", "ÀÈÌǸÒÙẀỲàèìǹòùẁỳ"),
+    ('\u{301}', "ACEGIKLMNOPRSUWYZacegiklmnoprsuwyz", "ÁĆÉǴÍḰĹḾŃÓṔŔŚÚẂÝŹáćéǵíḱĺḿńóṕŕśúẃýź"),
+    ('\u{302}', "ACEGHIJOSUWYZaceghijosuwyz", "ÂĈÊĜĤÎĴÔŜÛŴŶẐâĉêĝĥîĵôŝûŵŷẑ"),
     ('\u{303}', "AEINOUVYaeinouvy", "ÃẼĨÑÕŨṼỸãẽĩñõũṽỹ"),
-    ('\u{307}', "ABCDEFGHMNOPRSTWXYZabcdefghmnoprstwxyz", "ȦḂĊḊĖḞĠḢṀṄȮṖṘṠṪẆẊẎŻȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż"),
+    ('\u{304}', "AEGIOUYaegiouy", "ĀĒḠĪŌŪȲāēḡīōūȳ"),
+    ('\u{306}', "AEGIOUaegiou", "ĂĔĞĬŎŬăĕğĭŏŭ"),
+    (
+        '\u{307}',
+        "ABCDEFGHIMNOPRSTWXYZabcdefghmnoprstwxyz",
+        "ȦḂĊḊĖḞĠḢİṀṄȮṖṘṠṪẆẊẎŻȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż",
+    ),
     ('\u{308}', "AEHIOUWXYaehiotuwxy", "ÄËḦÏÖÜẄẌŸäëḧïöẗüẅẍÿ"),
+    ('\u{30a}', "AUauwy", "ÅŮåůẘẙ"),
+    ('\u{30c}', "ACDEGHIKLNORSTUZacdeghijklnorstuz", "ǍČĎĚǦȞǏǨĽŇǑŘŠŤǓŽǎčďěǧȟǐǰǩľňǒřšťǔž"),
+    ('\u{327}', "CDEGHKLNRSTcdeghklnrst", "ÇḐȨĢḨĶĻŅŖŞŢçḑȩģḩķļņŗşţ"),
+];
+
+/// Letters of other alphabets that look like the first of their row.
+const ALIKE: [(char, &str); 44] = [
+    ('a', "аɑ"),
+    ('c', "сϲ"),
+    ('d', "ԁ"),
+    ('e', "еє"),
+    ('h', "һ"),
+    ('i', "іı"),
+    ('j', "јϳ"),
+    ('k', "к"),
+    ('l', "ӏ"),
+    ('n', "ո"),
+    ('o', "оο"),
+    ('p', "р"),
+    ('q', "ԛ"),
+    ('s', "ѕ"),
+    ('u', "ս"),
+    ('v', "ѵ"),
+    ('w', "ԝ"),
+    ('x', "х"),
+    ('y', "уү"),
+    ('A', "АΑ"),
+    ('B', "ВΒ"),
+    ('C', "СϹ"),
+    ('E', "ЕΕ"),
+    ('H', "НΗ"),
+    ('I', "ІΙӀ"),
+    ('J', "Ј"),
+    ('K', "КΚ"),
+    ('M', "МΜ"),
+    ('N', "Ν"),
+    ('O', "ОΟ"),
+    ('P', "РΡ"),
+    ('S', "Ѕ"),
+    ('T', "ТΤ"),
+    ('X', "ХΧ"),
+    ('Y', "ҮΥ"),
+    ('Z', "Ζ"),
+    ('ω', "ѡꞷ"),
+    ('φ', "ф"),
+    ('ε', "ԑ"),
+    ('Γ', "Г"),
+    ('Λ', "Л"),
+    ('Π', "П"),
+    ('Φ', "Ф"),
+    ('ψ', "ѱ"),
 ];
 
 /// The canonical form of one identifier, or `None` if the text is not one.
@@ -79,6 +138,32 @@ pub fn canonical_name(text: &str) -> Option<String> {
         Some((_, letter)) => Some(format!("{letter}{}", &plain[base..])),
         None => Some(plain),
     }
+}
+
+/// The canonical names that occur in a text.
+pub(crate) fn names_in(text: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        let length = identifier_length(rest);
+        names.extend(canonical_name(&rest[..length]));
+        rest = &rest[length.max(letter.len_utf8())..];
+    }
+    names
+}
+
+/// The name with look-alike letters of other alphabets replaced: two names that look alike have one.
+pub(crate) fn skeleton(name: &str) -> String {
+    let is_usual = |c: char| c.is_ascii() || ('α'..='ω').contains(&c);
+    let plain = |c: char| match is_usual(c) {
+        true => c,
+        false => alike(c),
+    };
+    name.chars().map(plain).collect()
+}
+
+fn alike(c: char) -> char {
+    ALIKE.iter().find(|(_, all)| all.contains(c)).map_or(c, |(own, _)| *own)
 }
 
 /// How many bytes at the start of the text belong to one identifier; 0 if none starts here.
@@ -150,6 +235,18 @@ mod tests {
             assert_eq!(canonical_name(text).as_deref(), Some(canonical), "`{text}`");
             assert_eq!(canonical_name(canonical).as_deref(), Some(canonical), "idempotent");
         }
+    }
+
+    #[test]
+    fn names_that_look_alike_have_one_skeleton() {
+        for (a, b) in [("ω", "ѡ"), ("x1", "х1"), ("A'", "Α'"), ("Γ", "Г")] {
+            assert_ne!(canonical_name(a), canonical_name(b), "two names");
+            assert_eq!(skeleton(a), skeleton(b), "`{a}` and `{b}` look alike");
+        }
+        for (a, b) in [("ν", "v"), ("ρ", "p"), ("ω", "w"), ("γ", "y"), ("m", "M")] {
+            assert_ne!(skeleton(a), skeleton(b), "`{a}` and `{b}` are told apart");
+        }
+        assert_eq!(canonical_name("e\u{301}"), canonical_name("é"), "composed or not, one name");
     }
 
     #[test]

@@ -2,12 +2,13 @@
 
 use super::arena::Operation;
 use super::error::{FormulaError, Span};
-use super::functions;
+use super::kind::Type;
 use super::lexer::{Kind, fraction, superscript_number};
+use super::names::canonical_name;
 use super::parser::{Parsed, Parser};
 use super::scope::{Meaning, resolve};
 use super::typing::Operand;
-use super::value::Type;
+use super::{binders, functions};
 use crate::number::rational::Rational;
 
 impl Parser<'_> {
@@ -36,26 +37,58 @@ impl Parser<'_> {
     pub(super) fn name(&mut self) -> Parsed {
         let span = self.advance();
         let name = self.text(&span);
+        if let Some(value) = self.bound(name) {
+            let number = Operation::Number(Rational::from(value));
+            return Ok(self.builder.push(number, Type::Scalar, span));
+        }
         let meaning = resolve(name, self.scope);
         if meaning.is_none() && functions::is_function(name) {
             return self.call(name, span);
         }
-        let arena = &mut self.builder.arena;
-        let node = match meaning {
-            Some(Meaning::Whole(symbol, ty)) => arena.push_symbol(symbol, ty, span.clone()),
-            Some(Meaning::Component(symbol, i)) => {
-                let vector = arena.push_symbol(symbol, Type::Vector, span.clone());
-                arena.push(Operation::Component(vector, i), Type::Scalar, span.clone())
+        if meaning.is_none() && binders::is_form(name) {
+            return self.form(name, span);
+        }
+        if self.whole_numbers && meaning.is_some() {
+            return self.known_number(name, span);
+        }
+        if meaning == Some(Meaning::Identity) && self.peek() == Kind::Open {
+            return self.unit_matrix(span);
+        }
+        let builder = &mut self.builder;
+        Ok(match meaning {
+            Some(Meaning::Whole(symbol, ty)) => builder.symbol(symbol, ty, span),
+            Some(Meaning::Component(symbol, ty, i)) => {
+                let vector = builder.symbol(symbol, ty, span.clone());
+                builder.push(Operation::Component(vector.node, i), Type::Scalar, span)
             }
-            Some(Meaning::Entry(symbol, i, j)) => {
-                let matrix = arena.push_symbol(symbol, Type::Matrix, span.clone());
-                arena.push(Operation::Entry(matrix, i, j), Type::Scalar, span.clone())
+            Some(Meaning::Entry(symbol, ty, i, j)) => {
+                let matrix = builder.symbol(symbol, ty, span.clone());
+                builder.push(Operation::Entry(matrix.node, i, j), Type::Scalar, span)
             }
-            Some(Meaning::Identity) => arena.push(Operation::Identity, Type::Matrix, span.clone()),
+            Some(Meaning::Constant(constant)) => {
+                builder.push(Operation::Constant(constant), Type::Scalar, span)
+            }
+            Some(Meaning::Identity) => builder.push(Operation::Identity, Type::MATRIX, span),
             Some(Meaning::OutOfRange(base, ty)) => return Err(out_of_range(name, &base, ty, span)),
             None => return Err(self.unknown_name(name, span)),
+        })
+    }
+
+    /// A name in an index, a bound or a size.
+    fn known_number(&mut self, name: &str, span: Span) -> Parsed {
+        let known = |name: &str| Some((self.scope.lookup(name)?.0, self.scope.whole_number(name)?));
+        let found = known(name).or_else(|| known(&canonical_name(name)?));
+        let Some((symbol, value)) = found else {
+            let message = format!("`{name}` is not a whole number that the file fixes");
+            let help = "use numbers, indices, and parameters such as n = 4";
+            return Err(FormulaError::new(span, message).with_help(help));
         };
-        Ok(self.builder.operand(node, span))
+        let fixed = &mut self.builder.arena.fixed;
+        if !fixed.contains(&symbol) {
+            fixed.push(symbol);
+        }
+        let number = Operation::Number(Rational::from(value));
+        Ok(self.builder.push(number, Type::Scalar, span))
     }
 
     fn call(&mut self, name: &str, span: Span) -> Parsed {
@@ -65,58 +98,40 @@ impl Parser<'_> {
         }
         let (arguments, brackets) = self.list(Kind::Close)?;
         let span = span.start..brackets.end;
-        let node = functions::call(&mut self.builder.arena, name, &arguments, span.clone())?;
-        Ok(self.builder.operand(node, span))
+        functions::call(&mut self.builder, name, &arguments, span)
     }
 
     /// `[a,b,c]`, or `[[..],[..],[..]]` by rows.
     pub(super) fn literal(&mut self) -> Parsed {
         let (items, span) = self.list(Kind::CloseSquare)?;
-        let [a, b, c] = items.as_slice() else {
-            let error =
-                FormulaError::new(span, format!("a vector has 3 components, not {}", items.len()));
-            return Err(error.with_help("a vector is written `[a,b,c]`, a dot product `(a,b)`"));
+        let is_row = |item: &Operand| {
+            self.text(&item.span).starts_with('[') && matches!(item.value_type, Type::Vector(_))
         };
-        let scalar = |item: &&Operand| item.value_type == Type::Scalar;
-        let row = |item: &&Operand| {
-            self.text(&item.span).starts_with('[') && item.value_type == Type::Vector
-        };
-        let nodes = [a.node, b.node, c.node];
-        let odd = |item: &&Operand| if row(&a) { !row(item) } else { !scalar(item) };
-        if let Some(wrong) = items.iter().find(odd) {
-            let message = if row(&a) {
-                format!("a row of a matrix is written `[a,b,c]`, this is a {}", wrong.value_type)
-            } else {
-                format!("a component is a scalar, this is a {}", wrong.value_type)
-            };
-            let error = FormulaError::new(wrong.span.clone(), message);
-            return Err(error.with_help("a matrix with the rows u, v, w is written `mat(u,v,w)`"));
+        if !items.first().is_some_and(is_row) {
+            return self.builder.vector(&items, span);
         }
-        let (operation, ty) = if row(&a) {
-            (Operation::Rows(nodes), Type::Matrix)
-        } else {
-            (Operation::Vector(nodes), Type::Vector)
-        };
-        let node = self.builder.arena.push(operation, ty, span.clone());
-        Ok(self.builder.operand(node, span))
+        if let Some(wrong) = items.iter().find(|item| !is_row(item)) {
+            let message =
+                format!("a row of a matrix is written `[a,b,c]`, this is a {}", wrong.value_type);
+            let help = "a matrix with the rows u, v, w is written `mat(u,v,w)`";
+            return Err(FormulaError::new(wrong.span.clone(), message).with_help(help));
+        }
+        self.builder.rows(&items, span)
     }
 
-    /// `[i]` or `[i,j]` behind an operand, as counted from 0; the span covers the brackets.
-    pub(super) fn indices(&mut self) -> Result<(Vec<usize>, Span), FormulaError> {
+    /// `[i]` or `[i,j]` behind an operand; the span covers the brackets.
+    pub(super) fn indices(&mut self) -> Result<(Vec<(i64, Span)>, Span), FormulaError> {
         let open = self.advance();
         let mut indices = Vec::new();
         loop {
-            let span = self.token().span.clone();
             if self.peek() == Kind::End {
                 return Err(self.unclosed(&open));
             }
-            let index = self.text(&span).parse::<usize>().ok().filter(|i| (1..=3).contains(i));
-            let Some(index) = index else {
-                let error = FormulaError::new(span, "an index is 1, 2 or 3");
+            if matches!(self.peek(), Kind::CloseSquare | Kind::Comma) {
+                let error = FormulaError::new(self.token().span.clone(), "an index is missing");
                 return Err(error.with_help("write `γ[3]` or `B[1,2]`"));
-            };
-            indices.push(index - 1);
-            self.advance();
+            }
+            indices.push(self.whole("an index")?);
             match self.peek() {
                 Kind::Comma => self.advance(),
                 Kind::CloseSquare => break,
@@ -130,7 +145,16 @@ impl Parser<'_> {
 fn out_of_range(name: &str, base: &str, ty: Type, span: Span) -> FormulaError {
     let error = FormulaError::new(span, format!("there is no component `{name}`"));
     error.with_help(match ty {
-        Type::Matrix => format!("`{base}` has the entries {base}11 to {base}33"),
-        _ => format!("`{base}` has the components {base}1, {base}2, {base}3"),
+        Type::Matrix(rows, columns) if rows.max(columns) > 9 => {
+            format!("`{base}` has the entries {base}[1,1] to {base}[{rows},{columns}]")
+        }
+        Type::Matrix(rows, columns) => {
+            format!("`{base}` has the entries {base}11 to {base}{rows}{columns}")
+        }
+        Type::Vector(length @ ..4) => {
+            let names: Vec<String> = (1..=length).map(|i| format!("{base}{i}")).collect();
+            format!("`{base}` has the components {}", names.join(", "))
+        }
+        other => format!("`{base}` has the components {base}1 to {base}{}", other.size()),
     })
 }

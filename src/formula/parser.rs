@@ -5,6 +5,7 @@
 
 use super::arena::Arena;
 use super::error::{FormulaError, Span};
+use super::kind::Type;
 use super::lexer::{Kind, Token, tokens};
 use super::scope::Scope;
 use super::typing::{Builder, Infix, Operand};
@@ -13,7 +14,7 @@ use super::typing::{Builder, Infix, Operand};
 const MAX_DEPTH: usize = 200;
 
 /// Binding strengths of the infix operators.
-const SUM: u8 = 1;
+pub(super) const SUM: u8 = 1;
 const VECTOR_PRODUCT: u8 = 2;
 const PRODUCT: u8 = 3;
 
@@ -22,32 +23,27 @@ pub(super) struct Parser<'t> {
     pub(super) builder: Builder<'t>,
     pub(super) scope: &'t dyn Scope,
     tokens: Vec<Token>,
-    position: usize,
+    pub(super) position: usize,
     depth: usize,
     /// The innermost open bracket or bar.
     innermost: Option<Span>,
     /// Is it a bar, so that the next bar closes it?
     inside_bars: bool,
+    /// The indices of the forms around this place, with their values.
+    pub(super) bindings: Vec<(String, i64)>,
+    /// How often an index of such a form was read.
+    pub(super) indices_read: usize,
+    /// Are names read as the whole numbers they stand for, as in indices?
+    pub(super) whole_numbers: bool,
+    /// Tokens read while indexed forms are written out.
+    pub(super) written_out: usize,
 }
 
 pub(super) type Parsed = Result<Operand, FormulaError>;
 
 /// Reads a whole formula; the last node of the arena is its value.
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Arena, FormulaError> {
-    let builder = Builder { arena: Arena::default(), text };
-    let tokens = tokens(text)?;
-    let mut parser = Parser {
-        builder,
-        scope,
-        tokens,
-        position: 0,
-        depth: 0,
-        innermost: None,
-        inside_bars: false,
-    };
-    if parser.peek() == Kind::End {
-        return Err(FormulaError::new(0..text.len(), "the formula is empty"));
-    }
+    let mut parser = Parser::new(text, scope)?;
     parser.expression(SUM)?;
     match parser.peek() {
         Kind::End => Ok(parser.builder.arena),
@@ -55,7 +51,39 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Arena, FormulaError
     }
 }
 
+/// Reads a text that is a whole number, in names whose values are known.
+pub(super) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, FormulaError> {
+    let mut parser = Parser::new(text, scope)?;
+    let (number, _) = parser.whole("this")?;
+    match parser.peek() {
+        Kind::End => Ok(number),
+        _ => Err(parser.unexpected_end()),
+    }
+}
+
 impl<'t> Parser<'t> {
+    fn new(text: &'t str, scope: &'t dyn Scope) -> Result<Self, FormulaError> {
+        let builder = Builder { arena: Arena::default(), text };
+        let tokens = tokens(text)?;
+        let parser = Self {
+            builder,
+            scope,
+            tokens,
+            position: 0,
+            depth: 0,
+            innermost: None,
+            inside_bars: false,
+            bindings: Vec::new(),
+            indices_read: 0,
+            whole_numbers: false,
+            written_out: 0,
+        };
+        match parser.peek() {
+            Kind::End => Err(FormulaError::new(0..text.len(), "the formula is empty")),
+            _ => Ok(parser),
+        }
+    }
+
     pub(super) fn text(&self, span: &Span) -> &'t str {
         &self.builder.text[span.clone()]
     }
@@ -67,6 +95,16 @@ impl<'t> Parser<'t> {
 
     pub(super) fn peek(&self) -> Kind {
         self.token().kind
+    }
+
+    /// The kind of the token at a place.
+    pub(super) fn kind(&self, place: usize) -> Option<Kind> {
+        self.tokens.get(place).map(|token| token.kind)
+    }
+
+    /// The kind of the token so many behind this one.
+    pub(super) fn kind_at(&self, offset: usize) -> Option<Kind> {
+        self.kind(self.position + offset)
     }
 
     pub(super) fn advance(&mut self) -> Span {
@@ -88,7 +126,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reads an expression between the bracket or bar opened at `span` and its partner.
-    fn enclosed(&mut self, span: &Span, bars: bool) -> Parsed {
+    pub(super) fn enclosed(&mut self, span: &Span, bars: bool) -> Parsed {
         let outer_bars = std::mem::replace(&mut self.inside_bars, bars);
         let outer = self.innermost.replace(span.clone());
         let result = self.nested(span, |parser| parser.expression(SUM));
@@ -97,7 +135,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Operands joined by operators that bind at least as tightly as `loosest`.
-    fn expression(&mut self, loosest: u8) -> Parsed {
+    pub(super) fn expression(&mut self, loosest: u8) -> Parsed {
         let mut left = self.prefix()?;
         while let Some((infix, level)) = infix(self.peek()).filter(|(_, level)| *level >= loosest) {
             self.advance();
@@ -132,8 +170,37 @@ impl<'t> Parser<'t> {
             return Ok(base);
         }
         let caret = self.advance();
-        let exponent = self.nested(&caret, Self::prefix)?;
+        let (start, indices) = (self.position, self.indices_read);
+        let mut exponent = self.nested(&caret, Self::prefix)?;
+        // a power of a scalar keeps the names in it, unless an index stands beside them
+        let is_numbered = base.value_type != Type::Scalar || self.indices_read > indices;
+        if self.builder.arena.constant(exponent.node).is_none()
+            && is_numbered
+            && let Some(number) = self.whole_again(start, &exponent)
+        {
+            exponent = number;
+        }
         self.builder.power(&base, &exponent)
+    }
+
+    /// An exponent that is a whole number by the names in it.
+    fn whole_again(&mut self, start: usize, read: &Operand) -> Option<Operand> {
+        if read.value_type != Type::Scalar || self.whole_numbers {
+            return None;
+        }
+        let (end, nodes) = (self.position, self.builder.arena.nodes.len());
+        let fixed = self.builder.arena.fixed.len();
+        self.position = start;
+        let outer = std::mem::replace(&mut self.whole_numbers, true);
+        let again = self.prefix();
+        self.whole_numbers = outer;
+        self.position = end;
+        let number = again.ok().filter(|again| self.builder.arena.constant(again.node).is_some());
+        if number.is_none() {
+            self.builder.arena.nodes.truncate(nodes);
+            self.builder.arena.fixed.truncate(fixed);
+        }
+        number
     }
 
     /// A primary with its superscripts, transposes and indices.
@@ -223,7 +290,8 @@ impl<'t> Parser<'t> {
     /// Does the next token begin an operand, where an operator should stand?
     fn starts_operand(&self) -> bool {
         match self.peek() {
-            Kind::Number | Kind::Name | Kind::Integral | Kind::Root | Kind::Open => true,
+            Kind::Name => !self.is_modulo(),
+            Kind::Number | Kind::Integral | Kind::Root | Kind::Open => true,
             Kind::Bar => !self.inside_bars,
             _ => false,
         }

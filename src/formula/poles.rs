@@ -21,7 +21,7 @@ impl Formula {
             Operation::Divide(_, b) => Some(*b),
             Operation::Power(a, exponent) if exponent.is_negative() => Some(*a),
             Operation::PowerOf(a, _) | Operation::Inverse(a) | Operation::Solve(a, _) => Some(*a),
-            Operation::Function(Function::Ln | Function::Tan, a) => Some(*a),
+            Operation::Function(Function::Ln | Function::Tan | Function::Sign, a) => Some(*a),
             _ => None,
         });
         let described = |node: usize| {

@@ -1,9 +1,9 @@
 //! Powers: which exponents go with scalars, vectors and matrices.
 
-use super::arena::{MAX_CONSTANT_BITS, Operation};
+use super::arena::{Constant, Function, MAX_CONSTANT_BITS, NodeId, Operation};
 use super::error::{FormulaError, Span};
+use super::kind::Type;
 use super::typing::{Builder, Built, Operand};
-use super::value::Type;
 use crate::number::rational::Rational;
 
 /// Highest power of a matrix.
@@ -19,6 +19,7 @@ impl Builder<'_> {
         }
         match self.arena.take_constant(exponent.node) {
             Some(value) => self.constant_power(base, &value, exponent.span.clone(), span),
+            None if self.is_euler(base) => Ok(self.exponential(exponent.node, span)),
             None if base.value_type == Type::Scalar => {
                 Ok(self.push(Operation::PowerOf(base.node, exponent.node), Type::Scalar, span))
             }
@@ -37,29 +38,45 @@ impl Builder<'_> {
         exponent: Span,
         span: Span,
     ) -> Built {
+        if self.is_euler(base) {
+            let number = Operation::Number(value.clone());
+            let exponent = self.push(number, Type::Scalar, exponent);
+            return Ok(self.exponential(exponent.node, span));
+        }
         let whole = value.to_integer();
         match (base.value_type, whole) {
             (Type::Scalar, _) => self.scalar_power(base, value, span),
-            (Type::Vector, Some(2)) => {
+            (Type::Vector(_), Some(2)) => {
                 Ok(self.push(Operation::Dot(base.node, base.node), Type::Scalar, span))
             }
-            (Type::Vector, _) => {
+            (Type::Vector(_), _) => {
                 let error = FormulaError::new(exponent, "a vector has no power but its square");
                 Err(error
                     .with_help(format!("write a power of the norm, `|{}|`", self.written(base))))
             }
-            (Type::Matrix, Some(-1)) => {
-                Ok(self.push(Operation::Inverse(base.node), Type::Matrix, span))
+            (Type::Matrix(rows, columns), _) if rows != columns => {
+                let message = format!("a {} has no powers", base.value_type.in_full());
+                Err(FormulaError::new(base.span.clone(), message))
             }
-            (Type::Matrix, Some(n @ 1..=MAX_MATRIX_POWER)) => {
+            (Type::Matrix(..), Some(-1)) => self.inverse(base, span),
+            (Type::Matrix(..), Some(n @ 1..=MAX_MATRIX_POWER)) => {
                 let operation = Operation::MatrixPower(base.node, n.unsigned_abs() as u32);
-                Ok(self.push(operation, Type::Matrix, span))
+                Ok(self.push(operation, base.value_type, span))
             }
-            (Type::Matrix, _) => {
+            (Type::Matrix(..), _) => {
                 let message = format!("a matrix has the powers -1 and 1 to {MAX_MATRIX_POWER}");
                 Err(FormulaError::new(exponent, message))
             }
         }
+    }
+
+    fn is_euler(&self, base: &Operand) -> bool {
+        self.arena.nodes[base.node].operation == Operation::Constant(Constant::Euler)
+    }
+
+    /// e^x is exp(x), whatever x is.
+    fn exponential(&mut self, exponent: NodeId, span: Span) -> Operand {
+        self.push(Operation::Function(Function::Exp, exponent), Type::Scalar, span)
     }
 
     fn scalar_power(&mut self, base: &Operand, value: &Rational, span: Span) -> Built {

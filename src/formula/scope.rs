@@ -1,7 +1,8 @@
 //! What names mean: the surroundings of a formula, and how a written name is looked up in them.
 
+use super::arena::Constant;
+use super::kind::Type;
 use super::names::canonical_name;
-use super::value::Type;
 
 /// A handle for what a name stands for; only the scope that gave it knows what it is.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -14,6 +15,12 @@ pub trait Scope {
 
     /// Every known name, for suggestions.
     fn names(&self) -> Vec<String>;
+
+    /// The whole number that a name stands for, if it is known when formulas are read: only such
+    /// names stand in indices and in the bounds of sums.
+    fn whole_number(&self, _name: &str) -> Option<i64> {
+        None
+    }
 }
 
 /// What a written name turns out to be.
@@ -22,11 +29,13 @@ pub(super) enum Meaning {
     /// A name of the scope.
     Whole(Symbol, Type),
     /// A component of a vector of the scope, counted from 0.
-    Component(Symbol, usize),
+    Component(Symbol, Type, usize),
     /// An entry of a matrix of the scope, row and column counted from 0.
-    Entry(Symbol, usize, usize),
+    Entry(Symbol, Type, usize, usize),
     /// The identity matrix.
     Identity,
+    /// π or e.
+    Constant(Constant),
     /// A component that does not exist, of the named vector or matrix.
     OutOfRange(String, Type),
 }
@@ -41,8 +50,11 @@ pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<Meaning> {
     if let Some((symbol, ty)) = whole(&name) {
         return Some(Meaning::Whole(symbol, ty));
     }
-    if name == "E" {
-        return Some(Meaning::Identity);
+    match name.as_str() {
+        "E" => return Some(Meaning::Identity),
+        "π" => return Some(Meaning::Constant(Constant::Pi)),
+        "e" => return Some(Meaning::Constant(Constant::Euler)),
+        _ => {}
     }
     // the spelling as written may be the one in the scope: `gamma3` where `gamma` is declared
     component(&name, scope).or_else(|| component(written, scope))
@@ -56,17 +68,35 @@ fn component(name: &str, scope: &dyn Scope) -> Option<Meaning> {
         let (base, digits) = name.split_at(name.len() - count);
         let known = [base, base.trim_end_matches('_')].into_iter().find_map(|b| scope.lookup(b));
         let Some((symbol, ty)) = known else { continue };
-        let indices: Vec<Option<usize>> = digits
-            .bytes()
-            .map(|digit| (b'1'..=b'3').contains(&digit).then(|| usize::from(digit - b'1')))
-            .collect();
-        match (ty, indices.as_slice()) {
-            (Type::Vector, [Some(i)]) => return Some(Meaning::Component(symbol, *i)),
-            (Type::Matrix, [Some(i)]) => return Some(Meaning::Entry(symbol, *i, *i)),
-            (Type::Matrix, [Some(i), Some(j)]) => return Some(Meaning::Entry(symbol, *i, *j)),
-            (Type::Scalar, _) => {}
-            _ => out_of_range = Some(Meaning::OutOfRange(base.to_string(), ty)),
+        let place = |from: usize, count: usize| {
+            let number: usize = digits[from..from + count].parse().unwrap_or_default();
+            number.checked_sub(1)
+        };
+        match (ty, count) {
+            (Type::Scalar, _) => continue,
+            // two digits are one number where a vector is that long
+            (Type::Vector(length), _) if count == 1 || length > 9 => {
+                if let Some(i) = place(0, count).filter(|i| *i < length && !digits.starts_with('0'))
+                {
+                    return Some(Meaning::Component(symbol, ty, i));
+                }
+            }
+            (Type::Matrix(rows, columns), 1) => {
+                if let Some(i) = place(0, 1).filter(|i| *i < rows.min(columns)) {
+                    return Some(Meaning::Entry(symbol, ty, i, i));
+                }
+            }
+            (Type::Matrix(rows, columns), _) => {
+                if let (Some(i), Some(j)) = (place(0, 1), place(1, 1))
+                    && i < rows
+                    && j < columns
+                {
+                    return Some(Meaning::Entry(symbol, ty, i, j));
+                }
+            }
+            _ => {}
         }
+        out_of_range = Some(Meaning::OutOfRange(base.to_string(), ty));
     }
     out_of_range
 }
@@ -81,10 +111,12 @@ mod tests {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
             let (number, ty) = match name {
                 "m" => (0, Type::Scalar),
-                "γ" => (1, Type::Vector),
-                "I" => (2, Type::Matrix),
+                "γ" => (1, Type::VECTOR),
+                "I" => (2, Type::MATRIX),
                 "γ2" => (3, Type::Scalar),
-                "r'" => (4, Type::Vector),
+                "r'" => (4, Type::VECTOR),
+                "x" => (5, Type::Vector(12)),
+                "A" => (6, Type::Matrix(2, 3)),
                 _ => return None,
             };
             Some((Symbol(number), ty))
@@ -98,21 +130,49 @@ mod tests {
     #[test]
     fn names_resolve_whole_before_components() {
         let find = |name| resolve(name, &Names);
-        assert_eq!(find("gamma"), Some(Meaning::Whole(Symbol(1), Type::Vector)), "canonical");
-        assert_eq!(find("γ3"), Some(Meaning::Component(Symbol(1), 2)), "a component");
-        assert_eq!(find("gamma_1"), Some(Meaning::Component(Symbol(1), 0)), "with underscore");
+        assert_eq!(find("gamma"), Some(Meaning::Whole(Symbol(1), Type::VECTOR)), "canonical");
+        assert_eq!(find("γ3"), Some(Meaning::Component(Symbol(1), Type::VECTOR, 2)), "a component");
+        assert_eq!(
+            find("gamma_1"),
+            Some(Meaning::Component(Symbol(1), Type::VECTOR, 0)),
+            "with underscore"
+        );
         assert_eq!(find("γ2"), Some(Meaning::Whole(Symbol(3), Type::Scalar)), "a whole name wins");
-        assert_eq!(find("r'3"), Some(Meaning::Component(Symbol(4), 2)), "of a primed vector");
-        assert_eq!(find("I1"), Some(Meaning::Entry(Symbol(2), 0, 0)), "a diagonal entry");
-        assert_eq!(find("I₁₂"), Some(Meaning::Entry(Symbol(2), 0, 1)), "an entry");
+        assert_eq!(
+            find("r'3"),
+            Some(Meaning::Component(Symbol(4), Type::VECTOR, 2)),
+            "of a primed vector"
+        );
+        assert_eq!(
+            find("I1"),
+            Some(Meaning::Entry(Symbol(2), Type::MATRIX, 0, 0)),
+            "a diagonal entry"
+        );
+        assert_eq!(find("I₁₂"), Some(Meaning::Entry(Symbol(2), Type::MATRIX, 0, 1)), "an entry");
         assert_eq!(find("E"), Some(Meaning::Identity), "E is the identity");
+        assert_eq!(find("pi"), Some(Meaning::Constant(Constant::Pi)), "π by its name");
+        assert_eq!(find("e"), Some(Meaning::Constant(Constant::Euler)), "Euler's number");
+    }
+
+    #[test]
+    fn components_go_as_far_as_the_size() {
+        let find = |name| resolve(name, &Names);
+        let kind = Type::Vector(12);
+        assert_eq!(find("x9"), Some(Meaning::Component(Symbol(5), kind, 8)), "one digit");
+        assert_eq!(find("x12"), Some(Meaning::Component(Symbol(5), kind, 11)), "two digits");
+        let out = |name: &str, kind| Some(Meaning::OutOfRange(name.into(), kind));
+        assert_eq!(find("x13"), out("x", kind), "too far");
+        let kind = Type::Matrix(2, 3);
+        assert_eq!(find("A23"), Some(Meaning::Entry(Symbol(6), kind, 1, 2)), "row, column");
+        assert_eq!(find("A2"), Some(Meaning::Entry(Symbol(6), kind, 1, 1)), "on the diagonal");
+        assert_eq!((find("A31"), find("A3")), (out("A", kind), out("A", kind)), "too far");
     }
 
     #[test]
     fn components_out_of_range_and_unknown_names_differ() {
-        let out = Meaning::OutOfRange("γ".into(), Type::Vector);
+        let out = Meaning::OutOfRange("γ".into(), Type::VECTOR);
         assert_eq!(resolve("γ4", &Names), Some(out), "γ has three components");
         assert_eq!(resolve("m1", &Names), None, "a scalar has none");
-        assert_eq!(resolve("x", &Names), None, "unknown");
+        assert_eq!(resolve("y", &Names), None, "unknown");
     }
 }

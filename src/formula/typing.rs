@@ -2,7 +2,8 @@
 
 use super::arena::{Arena, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
-use super::value::Type;
+use super::kind::{MAX_COMPONENTS, Type};
+use super::scope::Symbol;
 use crate::number::rational::Rational;
 
 /// A piece of the formula that has been read: its node, its type and its text.
@@ -45,6 +46,27 @@ impl Builder<'_> {
         Operand { node, value_type, span }
     }
 
+    /// Appends the use of a symbol.
+    pub fn symbol(&mut self, symbol: Symbol, value_type: Type, span: Span) -> Operand {
+        let node = self.arena.push_symbol(symbol, value_type, span.clone());
+        Operand { node, value_type, span }
+    }
+
+    /// Appends an operation whose value may be too large.
+    pub fn push_sized(&mut self, operation: Operation, value_type: Type, span: Span) -> Built {
+        let allowed = |n: usize| n <= MAX_COMPONENTS;
+        let fits = match value_type {
+            Type::Matrix(rows, columns) => allowed(rows) && allowed(columns),
+            _ => true,
+        };
+        if fits && allowed(value_type.size()) {
+            return Ok(self.push(operation, value_type, span));
+        }
+        let message = format!("a {} is too large", value_type.in_full());
+        let help = format!("vectors and matrices have at most {MAX_COMPONENTS} components");
+        Err(FormulaError::new(span, message).with_help(help))
+    }
+
     /// Appends a scalar operation, or the number it gives if it acts on numbers.
     pub fn push_folded(
         &mut self,
@@ -62,6 +84,23 @@ impl Builder<'_> {
         excerpt(&self.text[operand.span.clone()])
     }
 
+    /// Is this a sum of no terms, which any type may be added to?
+    pub fn is_empty_sum(&self, operand: &Operand) -> bool {
+        operand.value_type == Type::Scalar
+            && self.arena.nodes[operand.node].operation == Operation::Zero
+    }
+
+    /// Gives sums of no terms among some values the type of the others.
+    pub fn fill_empty(&mut self, values: &mut [Operand]) {
+        let mut kinds = values.iter().map(|value| value.value_type);
+        let Some(kind) = kinds.find(|kind| *kind != Type::Scalar) else { return };
+        for value in values {
+            if self.is_empty_sum(value) {
+                *value = self.push(Operation::Zero, kind, value.span.clone());
+            }
+        }
+    }
+
     /// `a operator b`.
     pub fn infix(&mut self, infix: Infix, a: &Operand, b: &Operand) -> Built {
         let span = a.span.start..b.span.end;
@@ -75,19 +114,32 @@ impl Builder<'_> {
 
     fn sum(&mut self, infix: Infix, a: &Operand, b: &Operand, span: Span) -> Built {
         let (left, right, add) = (a.value_type, b.value_type, infix == Infix::Add);
+        if left != right && self.is_empty_sum(b) {
+            // the value of a formula is its last node
+            return Ok(self.push(Operation::Sum([a.node].into()), left, span));
+        }
+        if left != right && self.is_empty_sum(a) {
+            let negative = if add { b.clone() } else { self.negate(b, span.clone()) };
+            return Ok(Operand { span, ..negative });
+        }
         if left != right {
+            let told = |kind: Type| match left.differs_in_size(right) {
+                true => kind.in_full(),
+                false => kind.to_string(),
+            };
             let message = if add {
-                format!("a {left} cannot be added to a {right}")
+                format!("a {} cannot be added to a {}", told(left), told(right))
             } else {
-                format!("a {right} cannot be subtracted from a {left}")
+                format!("a {} cannot be subtracted from a {}", told(right), told(left))
             };
             let error = FormulaError::new(span, message);
-            let scalar = match (left, right) {
-                (Type::Scalar, Type::Matrix) => a,
-                (Type::Matrix, Type::Scalar) => b,
+            let (scalar, rows) = match (left, right) {
+                (Type::Scalar, Type::Matrix(n, m)) if n == m => (a, n),
+                (Type::Matrix(n, m), Type::Scalar) if n == m => (b, n),
                 _ => return Err(error),
             };
-            return Err(error.with_help(format!("write `{}*E`", self.written(scalar))));
+            let unit = if rows == 3 { "E".to_string() } else { format!("E({rows})") };
+            return Err(error.with_help(format!("write `{}*{unit}`", self.written(scalar))));
         }
         let operation =
             if add { Operation::Add(a.node, b.node) } else { Operation::Subtract(a.node, b.node) };
@@ -109,17 +161,27 @@ impl Builder<'_> {
             }
             (Scalar, other) => self.push(Operation::Scale(x, y), other, span),
             (other, Scalar) => self.push(Operation::Scale(y, x), other, span),
-            (Matrix, Vector) => self.push(Operation::Apply(x, y), Vector, span),
-            (Matrix, Matrix) => self.push(Operation::Compose(x, y), Matrix, span),
-            (Vector, Vector) => {
+            (Matrix(rows, columns), Vector(length)) if columns == length => {
+                self.push(Operation::Apply(x, y), Vector(rows), span)
+            }
+            (Matrix(rows, inner), Matrix(length, columns)) if inner == length => {
+                self.push_sized(Operation::Compose(x, y), Matrix(rows, columns), span)?
+            }
+            (Vector(_), Vector(_)) => {
                 let (a, b) = (self.written(a), self.written(b));
                 let error = FormulaError::new(span, "`*` does not multiply two vectors");
                 return Err(error.with_help(format!("write `({a},{b})` or `{a} × {b}`")));
             }
-            (Vector, Matrix) => {
+            (Vector(_), Matrix(..)) => {
                 let (a, b) = (self.written(a), self.written(b));
                 let error = FormulaError::new(span, "a vector cannot stand left of a matrix");
                 return Err(error.with_help(format!("write `{b}ᵀ*{a}`")));
+            }
+            (left @ Matrix(_, columns), right) => {
+                let (left, right) = (left.in_full(), right.in_full());
+                let message = format!("a {left} does not multiply a {right}");
+                let help = format!("the factor on the right has {columns} rows");
+                return Err(FormulaError::new(span, message).with_help(help));
             }
         })
     }
@@ -127,11 +189,11 @@ impl Builder<'_> {
     fn quotient(&mut self, a: &Operand, b: &Operand, span: Span) -> Built {
         match b.value_type {
             Type::Scalar => {}
-            Type::Vector => {
+            Type::Vector(_) => {
                 let error = FormulaError::new(b.span.clone(), "nothing can be divided by a vector");
                 return Err(error.with_help("divide by a scalar such as its norm"));
             }
-            Type::Matrix => {
+            Type::Matrix(..) => {
                 let (a, b_text) = (self.written(a), self.written(b));
                 let help = format!("write `solve({b_text}, {a})` or `inverse({b_text})`");
                 let error = FormulaError::new(b.span.clone(), "nothing can be divided by a matrix");
@@ -149,24 +211,31 @@ impl Builder<'_> {
         Ok(self.push_folded(operation, &[a.node, b.node], span, fold))
     }
 
-    fn vector_product(&mut self, infix: Infix, a: &Operand, b: &Operand, span: Span) -> Built {
-        let (sign, operation, value_type) = match infix {
-            Infix::Cross => ("×", Operation::Cross(a.node, b.node), Type::Vector),
-            _ => ("⊗", Operation::Outer(a.node, b.node), Type::Matrix),
-        };
-        if (a.value_type, b.value_type) == (Type::Vector, Type::Vector) {
-            return Ok(self.push(operation, value_type, span));
+    /// `a × b` or `a ⊗ b`.
+    pub fn vector_product(&mut self, infix: Infix, a: &Operand, b: &Operand, span: Span) -> Built {
+        let types = (a.value_type, b.value_type);
+        if let (Type::Vector(m), Type::Vector(n)) = types {
+            if infix == Infix::Outer {
+                return self.push_sized(Operation::Outer(a.node, b.node), Type::Matrix(m, n), span);
+            }
+            if (m, n) == (3, 3) {
+                return Ok(self.push(Operation::Cross(a.node, b.node), Type::VECTOR, span));
+            }
+            let wrong = if m == 3 { b } else { a };
+            let message =
+                format!("`×` takes vectors of length 3, this is a {}", wrong.value_type.in_full());
+            return Err(FormulaError::new(wrong.span.clone(), message));
         }
+        let sign = if infix == Infix::Outer { "⊗" } else { "×" };
         let message = format!(
             "`{sign}` stands between two vectors, not a {} and a {}",
             a.value_type, b.value_type
         );
         let help = format!("write `{}*{}`", self.written(a), self.written(b));
         let error = FormulaError::new(span, message);
-        Err(if a.value_type == Type::Vector && b.value_type == Type::Matrix {
-            error
-        } else {
-            error.with_help(help)
+        Err(match types {
+            (Type::Vector(_), Type::Matrix(..)) => error,
+            _ => error.with_help(help),
         })
     }
 }

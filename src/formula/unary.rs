@@ -2,18 +2,26 @@
 
 use super::arena::{Function, Operation};
 use super::error::{FormulaError, Span};
+use super::kind::Type;
 use super::typing::{Builder, Built, Operand};
-use super::value::Type;
 
 impl Builder<'_> {
     /// `(a,b)`.
     pub fn dot(&mut self, a: &Operand, b: &Operand, span: Span) -> Built {
         for factor in [a, b] {
-            if factor.value_type != Type::Vector {
+            if !matches!(factor.value_type, Type::Vector(_)) {
                 let message =
                     format!("a dot product takes two vectors, this is a {}", factor.value_type);
                 return Err(FormulaError::new(factor.span.clone(), message));
             }
+        }
+        if a.value_type != b.value_type {
+            let message = format!(
+                "a dot product takes two vectors of one length, not a {} and a {}",
+                a.value_type.in_full(),
+                b.value_type.in_full()
+            );
+            return Err(FormulaError::new(span, message));
         }
         Ok(self.push(Operation::Dot(a.node, b.node), Type::Scalar, span))
     }
@@ -42,13 +50,14 @@ impl Builder<'_> {
     pub fn modulus(&mut self, a: &Operand, span: Span) -> Built {
         Ok(match a.value_type {
             Type::Scalar => {
-                self.push(Operation::Function(Function::Modulus, a.node), Type::Scalar, span)
+                let operation = Operation::Function(Function::Modulus, a.node);
+                self.push_folded(operation, &[a.node], span, |n| Some(n[0].abs()))
             }
-            Type::Vector => {
+            Type::Vector(_) => {
                 let square = self.push(Operation::Dot(a.node, a.node), Type::Scalar, span.clone());
                 self.root(&square, span)?
             }
-            Type::Matrix => {
+            Type::Matrix(..) => {
                 let error = FormulaError::new(span, "bars do not stand around a matrix");
                 return Err(error.with_help(format!("write `det({})`", self.written(a))));
             }
@@ -57,37 +66,80 @@ impl Builder<'_> {
 
     /// `aᵀ`.
     pub fn transpose(&mut self, a: &Operand, span: Span) -> Built {
-        if a.value_type == Type::Matrix {
-            return Ok(self.push(Operation::Transpose(a.node), Type::Matrix, span));
+        if let Type::Matrix(rows, columns) = a.value_type {
+            let kind = Type::Matrix(columns, rows);
+            return Ok(self.push(Operation::Transpose(a.node), kind, span));
         }
         let message = format!("only a matrix is transposed, this is a {}", a.value_type);
         let error = FormulaError::new(a.span.clone(), message);
-        Err(if a.value_type == Type::Vector {
-            error.with_help("write `(a,b)` for aᵀb and `a ⊗ b` for abᵀ")
-        } else {
-            error
+        Err(match a.value_type {
+            Type::Vector(_) => error.with_help("write `(a,b)` for aᵀb and `a ⊗ b` for abᵀ"),
+            _ => error,
         })
     }
 
-    /// `a[i]` or `a[i,j]`, counted from 0.
-    pub fn index(&mut self, a: &Operand, indices: &[usize], brackets: Span) -> Built {
+    /// `a[i]` or `a[i,j]`, counted from 1.
+    pub fn index(&mut self, a: &Operand, indices: &[(i64, Span)], brackets: Span) -> Built {
         let span = a.span.start..brackets.end;
+        let within = |(index, place): &(i64, Span), count: usize, what: &str| {
+            let found = usize::try_from(*index).ok().filter(|index| (1..=count).contains(index));
+            found.map(|index| index - 1).ok_or_else(|| {
+                let message = format!("there is no {what} {index}");
+                let help = format!("`{}` has the {what}s 1 to {count}", self.written(a));
+                FormulaError::new(place.clone(), message).with_help(help).with_index_out_of_range()
+            })
+        };
         match (a.value_type, indices) {
-            (Type::Vector, [i]) => {
-                Ok(self.push(Operation::Component(a.node, *i), Type::Scalar, span))
+            (Type::Vector(length), [i]) => {
+                let i = within(i, length, "component")?;
+                Ok(self.push(Operation::Component(a.node, i), Type::Scalar, span))
             }
-            (Type::Matrix, [i, j]) => {
-                Ok(self.push(Operation::Entry(a.node, *i, *j), Type::Scalar, span))
+            (Type::Matrix(rows, columns), [i]) => {
+                let i = within(i, rows, "row")?;
+                Ok(self.push(Operation::Row(a.node, i), Type::Vector(columns), span))
             }
-            (Type::Vector, _) => {
+            (Type::Matrix(rows, columns), [i, j]) => {
+                let (i, j) = (within(i, rows, "row")?, within(j, columns, "column")?);
+                Ok(self.push(Operation::Entry(a.node, i, j), Type::Scalar, span))
+            }
+            (Type::Vector(_), _) => {
                 let error = FormulaError::new(brackets, "a vector has one index");
                 Err(error.with_help(format!("write `{}[1]`", self.written(a))))
             }
-            (Type::Matrix, _) => {
+            (Type::Matrix(..), _) => {
                 let error = FormulaError::new(brackets, "a matrix has two indices");
                 Err(error.with_help(format!("write `{}[1,2]`", self.written(a))))
             }
             (Type::Scalar, _) => Err(FormulaError::new(brackets, "a scalar has no components")),
         }
+    }
+
+    /// `[a,b,…]`: the vector of some scalars.
+    pub fn vector(&mut self, parts: &[Operand], span: Span) -> Built {
+        if let Some(wrong) = parts.iter().find(|part| part.value_type != Type::Scalar) {
+            let message = format!("a component is a scalar, this is a {}", wrong.value_type);
+            let help = "a matrix with the rows u, v, w is written `mat(u,v,w)`";
+            return Err(FormulaError::new(wrong.span.clone(), message).with_help(help));
+        }
+        let nodes = parts.iter().map(|part| part.node).collect();
+        self.push_sized(Operation::Vector(nodes), Type::Vector(parts.len()), span)
+    }
+
+    /// The matrix with some vectors as rows.
+    pub fn rows(&mut self, rows: &[Operand], span: Span) -> Built {
+        let first = rows.first().map_or(Type::Scalar, |row| row.value_type);
+        if let Some(wrong) = rows.iter().find(|row| !matches!(row.value_type, Type::Vector(_))) {
+            let message =
+                format!("a row of a matrix is written `[a,b,c]`, this is a {}", wrong.value_type);
+            let help = "a matrix with the rows u, v, w is written `mat(u,v,w)`";
+            return Err(FormulaError::new(wrong.span.clone(), message).with_help(help));
+        }
+        if let Some(wrong) = rows.iter().find(|row| row.value_type != first) {
+            let (first, own) = (first.size(), wrong.value_type.size());
+            let message = format!("this row has {own} entries, and the first has {first}");
+            return Err(FormulaError::new(wrong.span.clone(), message));
+        }
+        let nodes = rows.iter().map(|row| row.node).collect();
+        self.push_sized(Operation::Rows(nodes), Type::Matrix(rows.len(), first.size()), span)
     }
 }

@@ -1,43 +1,13 @@
-//! What a formula evaluates to: a scalar, a vector of ℝ³ or a 3×3 matrix.
-
-use std::fmt;
+//! What a formula evaluates to: a scalar, a vector or a matrix.
 
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
-/// The kind of value a name or a formula stands for; known when the formula is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Type {
-    /// A number.
-    Scalar,
-    /// Three components.
-    Vector,
-    /// Three rows of three entries.
-    Matrix,
-}
-
-impl Type {
-    /// How many scalars make up a value of this type: 1, 3 or 9.
-    pub fn size(self) -> usize {
-        match self {
-            Type::Scalar => 1,
-            Type::Vector => 3,
-            Type::Matrix => 9,
-        }
-    }
-}
-
-impl fmt::Display for Type {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(match self {
-            Type::Scalar => "scalar",
-            Type::Vector => "vector",
-            Type::Matrix => "matrix",
-        })
-    }
-}
+use super::kind::Type;
 
 /// A scalar, vector or matrix over the numbers `T`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// Vectors of three components and matrices of three rows and columns are always those of ℝ³.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Value<T> {
     /// A number.
     Scalar(T),
@@ -45,6 +15,54 @@ pub enum Value<T> {
     Vector(Vector3<T>),
     /// A 3×3 matrix.
     Matrix(Matrix3<T>),
+    /// A vector of another length.
+    List(Box<[T]>),
+    /// A matrix of another size.
+    Table(Table<T>),
+}
+
+/// The entries of a matrix of any size, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table<T> {
+    rows: usize,
+    columns: usize,
+    entries: Box<[T]>,
+}
+
+impl<T> Table<T> {
+    /// A matrix of so many rows and columns, entry by entry.
+    pub(super) fn from_fn(
+        (rows, columns): (usize, usize),
+        mut entry: impl FnMut(usize, usize) -> T,
+    ) -> Self {
+        let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+        let entries = places.map(|(i, j)| entry(i, j)).collect();
+        Self { rows, columns, entries }
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// How many columns there are.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The entries, row by row.
+    pub fn entries(&self) -> &[T] {
+        &self.entries
+    }
+}
+
+impl<T> std::ops::Index<(usize, usize)> for Table<T> {
+    type Output = T;
+
+    /// The entry in a row and a column, both counted from 0.
+    fn index(&self, (row, column): (usize, usize)) -> &T {
+        &self.entries[row * self.columns + column]
+    }
 }
 
 impl<T> Value<T> {
@@ -52,28 +70,30 @@ impl<T> Value<T> {
     pub fn value_type(&self) -> Type {
         match self {
             Value::Scalar(_) => Type::Scalar,
-            Value::Vector(_) => Type::Vector,
-            Value::Matrix(_) => Type::Matrix,
+            Value::Vector(_) => Type::VECTOR,
+            Value::Matrix(_) => Type::MATRIX,
+            Value::List(list) => Type::Vector(list.len()),
+            Value::Table(table) => Type::Matrix(table.rows, table.columns),
         }
-    }
-
-    /// The number, if this is a scalar.
-    pub fn scalar(self) -> Option<T> {
-        if let Value::Scalar(value) = self { Some(value) } else { None }
-    }
-
-    /// The vector, if this is one.
-    pub fn vector(self) -> Option<Vector3<T>> {
-        if let Value::Vector(value) = self { Some(value) } else { None }
-    }
-
-    /// The matrix, if this is one.
-    pub fn matrix(self) -> Option<Matrix3<T>> {
-        if let Value::Matrix(value) = self { Some(value) } else { None }
     }
 }
 
 impl<T: Copy> Value<T> {
+    /// The number, if this is a scalar.
+    pub fn scalar(&self) -> Option<T> {
+        if let Value::Scalar(value) = self { Some(*value) } else { None }
+    }
+
+    /// The vector, if this is one of ℝ³.
+    pub fn vector(&self) -> Option<Vector3<T>> {
+        if let Value::Vector(value) = self { Some(*value) } else { None }
+    }
+
+    /// The matrix, if this is one of ℝ³.
+    pub fn matrix(&self) -> Option<Matrix3<T>> {
+        if let Value::Matrix(value) = self { Some(*value) } else { None }
+    }
+
     /// The value with `f` applied to every component, in the order of [`components`].
     ///
     /// [`components`]: Value::components
@@ -82,15 +102,22 @@ impl<T: Copy> Value<T> {
             Value::Scalar(value) => Value::Scalar(f(*value)),
             Value::Vector(value) => Value::Vector(vector(value.data.0[0].map(f))),
             Value::Matrix(value) => Value::Matrix(matrix(rows(value).map(f))),
+            Value::List(list) => Value::List(list.iter().map(|x| f(*x)).collect()),
+            Value::Table(Table { rows, columns, entries }) => {
+                let entries = entries.iter().map(|x| f(*x)).collect();
+                Value::Table(Table { rows: *rows, columns: *columns, entries })
+            }
         }
     }
 
-    /// The components: 1 for a scalar, 3 for a vector, 9 for a matrix in row-major order.
+    /// The components: 1 for a scalar, one a place of a vector, a matrix in row-major order.
     pub fn components(&self) -> Vec<T> {
         match self {
             Value::Scalar(value) => vec![*value],
             Value::Vector(value) => value.data.0[0].to_vec(),
             Value::Matrix(value) => rows(value).to_vec(),
+            Value::List(list) => list.to_vec(),
+            Value::Table(table) => table.entries.to_vec(),
         }
     }
 
@@ -102,8 +129,13 @@ impl<T: Copy> Value<T> {
         let at = |i: usize| components[i];
         match ty {
             Type::Scalar => Value::Scalar(at(0)),
-            Type::Vector => Value::Vector(vector(std::array::from_fn(at))),
-            Type::Matrix => Value::Matrix(matrix(std::array::from_fn(at))),
+            Type::VECTOR => Value::Vector(vector(std::array::from_fn(at))),
+            Type::MATRIX => Value::Matrix(matrix(std::array::from_fn(at))),
+            Type::Vector(length) => Value::List(components[..length].into()),
+            Type::Matrix(rows, columns) => {
+                let entries = components[..rows * columns].into();
+                Value::Table(Table { rows, columns, entries })
+            }
         }
     }
 }
@@ -130,7 +162,10 @@ mod tests {
     fn components_are_row_major_and_invert() {
         let matrix = Value::Matrix(Matrix3::new(1, 2, 3, 4, 5, 6, 7, 8, 9));
         assert_eq!(matrix.components(), [1, 2, 3, 4, 5, 6, 7, 8, 9], "row by row");
-        for value in [Value::Scalar(4), Value::Vector(Vector3::new(1, 2, 3)), matrix] {
+        let list = Value::from_components(Type::Vector(2), &[4, 5]);
+        let table = Value::from_components(Type::Matrix(2, 3), &[1, 2, 3, 4, 5, 6]);
+        let vector = Value::Vector(Vector3::new(1, 2, 3));
+        for value in [Value::Scalar(4), vector, matrix, list, table] {
             let back = Value::from_components(value.value_type(), &value.components());
             assert_eq!(back, value, "from_components undoes components");
             assert_eq!(value.components().len(), value.value_type().size(), "size counts them");
@@ -140,19 +175,23 @@ mod tests {
     #[test]
     fn map_visits_the_components_in_order() {
         let matrix = Value::Matrix(Matrix3::new(1, 2, 3, 4, 5, 6, 7, 8, 9));
-        let mut seen = Vec::new();
-        let doubled = matrix.map(|x| {
-            seen.push(x);
-            2 * x
-        });
-        assert_eq!(seen, matrix.components(), "the order of components");
-        assert_eq!(doubled.matrix().map(|m| m[(0, 1)]), Some(4), "entries keep their place");
+        let table = Value::Table(Table::from_fn((2, 4), |i, j| (10 * i + j) as i32));
+        for value in [matrix, table] {
+            let mut seen = Vec::new();
+            let doubled = value.map(|x| {
+                seen.push(x);
+                2 * x
+            });
+            assert_eq!(seen, value.components(), "the order of components");
+            assert_eq!(doubled.components()[1], 2 * seen[1], "entries keep their place");
+        }
     }
 
     #[test]
     fn values_open_only_as_what_they_are() {
         assert_eq!(Value::Scalar(1).vector(), None, "a scalar is no vector");
         assert_eq!(Value::Scalar(1).scalar(), Some(1), "but a scalar");
-        assert_eq!(Type::Matrix.to_string(), "matrix", "types have names");
+        let table = Table::from_fn((2, 3), |i, j| 10 * i + j);
+        assert_eq!((table.rows(), table.columns(), table[(1, 2)]), (2, 3, 12), "its last entry");
     }
 }

@@ -17,8 +17,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::body::{Shape, axis, scalar, vector};
+use super::configuration::Configuration;
 use super::linear::{adjugate, determinant_with};
-use super::phase::{Configuration, Phase};
+use super::phase::Phase;
 use super::quantity::Quantity;
 use super::rubber::{NORMAL, Potential};
 use crate::formula::{Formula, Value};

@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
-use super::phase::Configuration;
+use super::configuration::Configuration;
 use super::rubber::{NORMAL, normal};
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;

@@ -15,8 +15,9 @@
 use num_dual::Dual;
 
 use super::calculus::{dot, solve_positive};
+use super::configuration::Configuration;
 use super::model::Variable;
-use super::phase::{Configuration, Phase};
+use super::phase::Phase;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
@@ -44,8 +45,10 @@ pub struct Lagrangian {
 pub enum Role {
     /// A coordinate whose rate is this state variable.
     Coordinate(usize),
-    /// A coordinate whose rate is given.
-    Carried(Formula),
+    /// A coordinate whose rate is given, by formulas whose components follow one after the other.
+    Carried(Vec<Formula>),
+    /// Time, whose rate is 1.
+    Time,
     /// A velocity or quasi-velocity.
     Velocity,
     /// The multiplier of the next constraint.
@@ -148,7 +151,10 @@ impl Lagrangian {
         for (role, variable) in self.roles.iter().zip(&at.model.state) {
             match role {
                 Role::Coordinate(velocity) => rates.extend(at.variable(*velocity).components()),
-                Role::Carried(rate) => rates.extend(at.evaluate(rate).components()),
+                Role::Carried(rate) => {
+                    rates.extend(rate.iter().flat_map(|part| at.evaluate(part).components()));
+                }
+                Role::Time => rates.push(T::one()),
                 Role::Velocity | Role::Multiplier => {
                     rates.extend(vec![T::zero(); variable.len()]);
                 }

@@ -5,6 +5,7 @@ mod ball;
 mod body;
 pub mod calculus;
 mod chart;
+mod configuration;
 mod draws;
 mod flat_base;
 mod lagrangian;
@@ -24,13 +25,14 @@ mod vocabulary;
 pub use ball::{BallOnSurface, Surface};
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart};
+pub use configuration::Configuration;
 pub use draws::Draws;
 pub use flat_base::FlatBase;
 pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{
     LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
 };
-pub use phase::{Configuration, Phase};
+pub use phase::Phase;
 pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
 pub use recipe::{Draw, Line, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
@@ -89,9 +91,9 @@ impl System {
                 surface.into_iter().chain(typed(&ball.potential)).collect()
             }
             System::Lagrangian(lagrangian) => {
-                let carried = lagrangian.roles.iter().filter_map(|role| match role {
-                    Role::Carried(rate) => Some(rate),
-                    _ => None,
+                let carried = lagrangian.roles.iter().flat_map(|role| match role {
+                    Role::Carried(rate) => rate.as_slice(),
+                    _ => &[],
                 });
                 let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
                 let forces = lagrangian.forces.iter().map(|(_, force)| force);

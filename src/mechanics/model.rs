@@ -6,7 +6,7 @@ use super::System;
 use super::recipe::{Draw, Recipe};
 use super::variables::Variables;
 use super::vocabulary::{Meaning, Reach, Vocabulary};
-use crate::formula::{Formula, Scope, Type, Value};
+use crate::formula::{Formula, Scope, Symbol, Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -37,7 +37,7 @@ pub enum Origin {
 pub struct Variable {
     /// Its canonical name.
     pub name: String,
-    /// Scalar or vector.
+    /// Scalar, vector or matrix.
     pub kind: Type,
 }
 
@@ -55,11 +55,7 @@ impl Variable {
 
 /// Components of a value of this kind.
 pub fn components(kind: Type) -> usize {
-    match kind {
-        Type::Scalar => 1,
-        Type::Vector => 3,
-        Type::Matrix => 9,
-    }
+    kind.size()
 }
 
 /// One equation F = 0 of the level set.
@@ -106,7 +102,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// State variables in order: the system's own, then those that a case adds.
     pub state: Vec<Variable>,
-    /// The rates of the variables that a case adds to a built-in system.
+    /// The rates of the variables that a case adds to a built-in system, one after the other; that of
+    /// a vector may take several formulas.
     pub extension: Vec<Formula>,
     /// New variables as functions of the state, with a bracket for them.
     pub variables: Option<Box<Variables>>,
@@ -114,6 +111,8 @@ pub struct Model {
     pub abbreviations: Vec<Formula>,
     /// The equations of the level set.
     pub level: Vec<LevelEquation>,
+    /// Names whose values are written into the case outside formulas: in sizes, and in keys.
+    pub fixed: Vec<Symbol>,
 }
 
 impl Model {
@@ -129,6 +128,7 @@ impl Model {
             variables: None,
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
+            fixed: self.fixed.clone(),
         };
         for (symbol, entry) in self.vocabulary.iter() {
             let Meaning::Abbreviation(index) = entry.meaning else { continue };
@@ -153,6 +153,36 @@ impl Model {
         all.into_iter().any(Formula::has_antiderivative)
     }
 
+    /// Is the value of a parameter written into the case, or into one of these formulas, as a size or an
+    /// index? Then the parameter cannot change.
+    pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
+        let given = self.parameters.iter().filter_map(|parameter| match &parameter.origin {
+            Origin::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let own = self.functions().into_iter().chain(&self.abbreviations).chain(given);
+        let all = own.chain(formulas.iter().copied());
+        let symbols = all.flat_map(Formula::fixed_symbols).chain(&self.fixed).copied();
+        let mut reached: Vec<Symbol> = symbols.collect();
+        let mut next = 0;
+        while let Some(symbol) = reached.get(next).copied() {
+            next += 1;
+            let formula = match self.vocabulary.entry(symbol).meaning {
+                Meaning::Parameter(index) if index == parameter => return true,
+                Meaning::Parameter(index) => match &self.parameters[index].origin {
+                    Origin::Formula(formula) => Some(formula),
+                    _ => None,
+                },
+                Meaning::Abbreviation(index) => self.abbreviations.get(index),
+                _ => None,
+            };
+            let inner = formula.into_iter().flat_map(Formula::symbols);
+            let new: Vec<Symbol> = inner.filter(|symbol| !reached.contains(symbol)).collect();
+            reached.extend(new);
+        }
+        false
+    }
+
     /// The formulas that are functions of the state before anything is claimed: the equations of
     /// motion, the new variables, and the level.
     pub fn functions(&self) -> Vec<&Formula> {
@@ -167,6 +197,17 @@ impl Model {
     pub fn dynamics(&self) -> Vec<&Formula> {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
         self.system.functions().into_iter().chain(&self.extension).chain(images).collect()
+    }
+
+    /// How many state variables are the system's own, before those that a case adds.
+    pub fn own_variables(&self) -> usize {
+        let mut added: usize = self.extension.iter().map(|rate| rate.value_type().size()).sum();
+        let mut count = self.state.len();
+        while added > 0 && count > 0 {
+            count -= 1;
+            added = added.saturating_sub(self.state[count].len());
+        }
+        count
     }
 
     /// The dimension of phase space.
@@ -185,13 +226,10 @@ impl Model {
         found.map(|(variable, start)| (variable, component - start))
     }
 
-    /// The name of a component of the state, such as `γ3`.
+    /// The name of a component of the state, such as `γ3` or `L[2,1]`.
     pub fn component_name(&self, component: usize) -> String {
         match self.variable_of(component) {
-            Some((variable, place)) if variable.kind != Type::Scalar => {
-                format!("{}{}", variable.name, place + 1)
-            }
-            Some((variable, _)) => variable.name.clone(),
+            Some((variable, place)) => variable.kind.component(&variable.name, place),
             None => String::new(),
         }
     }

@@ -5,14 +5,15 @@
 //! functions and potentials live. The two are kept apart because a `Phase<T>` differentiates the
 //! body, and so needs `Configuration<Dual<T>>`, but never the reverse.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use num_dual::Dual;
 use rustc_hash::FxHashMap;
 
 use super::ball::BallMotion;
-use super::model::{LevelFunction, Model, Origin, Variable};
+use super::configuration::{Configuration, DEEP, formula_of, lift_parameters, settle};
+use super::model::{LevelFunction, Model, Variable};
 use super::quantity::Quantity;
 use super::rolling::Motion;
 use super::rubber::{angular_velocity, normal};
@@ -20,123 +21,12 @@ use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::scalar::Scalar;
 
-/// A point of configuration space over the scalar T: parameters and γ.
-pub struct Configuration<'m, T> {
-    /// The case this belongs to.
-    pub model: &'m Model,
-    parameters: Rc<[Option<Value<T>>]>,
-    state: Vec<Value<T>>,
-    axis_cosine: Option<T>,
-    known: RefCell<FxHashMap<Symbol, Value<T>>>,
-}
-
-impl<'m, T: Scalar> Configuration<'m, T> {
-    fn new(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: Vec<Value<T>>) -> Self {
-        Self { model, parameters, state, axis_cosine: None, known: RefCell::default() }
-    }
-
-    /// The same point with another value of state variable `index`.
-    pub fn moved(&self, index: usize, value: Value<T>) -> Self {
-        let mut state = self.state.clone();
-        state[index] = value;
-        Self::new(self.model, Rc::clone(&self.parameters), state)
-    }
-
-    /// The same point, with `z` as the cosine that a profile is evaluated at.
-    pub fn with_axis_cosine(&self, z: T) -> Self {
-        let mut moved = Self::new(self.model, Rc::clone(&self.parameters), self.state.clone());
-        moved.axis_cosine = Some(z);
-        moved
-    }
-
-    /// `z`, by its definition γ₃/|γ| unless it was given.
-    pub fn axis_cosine(&self) -> T {
-        self.axis_cosine.unwrap_or_else(|| {
-            let gamma = normal(self);
-            gamma.z / gamma.dot(&gamma).sqrt()
-        })
-    }
-
-    /// The value of a formula that reaches no further than the configuration.
-    pub fn evaluate(&self, formula: &Formula) -> Value<T> {
-        formula.evaluate(&mut |symbol| self.value(symbol))
-    }
-
-    /// The value of state variable `index`.
-    pub fn variable(&self, index: usize) -> Value<T> {
-        self.state[index]
-    }
-
-    /// The value of parameter `index`.
-    pub fn parameter(&self, index: usize) -> Value<T> {
-        match (&self.parameters[index], &self.model.parameters[index].origin) {
-            (Some(value), _) => *value,
-            (None, Origin::Formula(formula)) => self.evaluate(formula),
-            (None, _) => unreachable!("only formulas have no value of their own"),
-        }
-    }
-
-    /// The value of a parameter by name, if it is declared.
-    pub fn named(&self, name: &str) -> Option<Value<T>> {
-        match self.model.vocabulary.find(name)?.meaning {
-            Meaning::Parameter(index) => Some(self.parameter(index)),
-            _ => None,
-        }
-    }
-
-    fn value(&self, symbol: Symbol) -> Value<T> {
-        if let Some(value) = self.known.borrow().get(&symbol) {
-            return *value;
-        }
-        let value = match self.model.vocabulary.entry(symbol).meaning {
-            Meaning::Parameter(index) => self.parameter(index),
-            Meaning::State(index) => self.variable(index),
-            Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
-            Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
-        };
-        self.known.borrow_mut().insert(symbol, value);
-        value
-    }
-
-    /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
-    pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
-        let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
-        state[index] = dual_value(self.state[index], direction);
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
-    }
-
-    /// The components of all state variables in order.
-    pub fn components(&self) -> Vec<T> {
-        self.state.iter().flat_map(|value| value.components()).collect()
-    }
-
-    /// The same point with the derivative part `direction`, one entry a component of the state.
-    pub fn lift_state(&self, direction: &[T]) -> Configuration<'m, Dual<T>> {
-        let mut rest = direction;
-        let state = self
-            .state
-            .iter()
-            .map(|value| {
-                let (own, others) = rest.split_at(value.value_type().size());
-                rest = others;
-                dual_value(*value, Value::from_components(value.value_type(), own))
-            })
-            .collect();
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
-    }
-
-    /// The same point with all derivative parts 0.
-    pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
-        let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
-    }
-}
-
 /// A point of phase space over the scalar T.
 pub struct Phase<'m, T> {
     /// The part without velocities.
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    depth: Cell<u32>,
     /// Values that keep the domain of what is written.
     literal: RefCell<FxHashMap<Symbol, Value<T>>>,
     motion: OnceCell<Box<Motion<T>>>,
@@ -166,6 +56,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self {
             configuration: Configuration::new(model, parameters, state),
             known: RefCell::default(),
+            depth: Cell::new(0),
             literal: RefCell::default(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
@@ -192,24 +83,43 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The value of a formula, with one exactly where every operation has one that is written in it,
     /// in the abbreviations or in the parameters it uses.
     pub fn evaluate_literally(&self, formula: &Formula) -> Value<T> {
-        formula.evaluate_literally(&mut |symbol| {
-            if let Some(value) = self.literal.borrow().get(&symbol) {
-                return *value;
-            }
-            let model = self.model();
-            let value = match model.vocabulary.entry(symbol).meaning {
-                Meaning::Abbreviation(index) => {
-                    self.evaluate_literally(&model.abbreviations[index])
-                }
-                Meaning::Parameter(index) => match &model.parameters[index].origin {
-                    Origin::Formula(formula) => self.evaluate_literally(formula),
-                    _ => self.value(symbol),
+        formula.evaluate_literally(&mut |symbol| self.literal_value(symbol))
+    }
+
+    fn literal_value(&self, symbol: Symbol) -> Value<T> {
+        if let Some(value) = self.literal.borrow().get(&symbol) {
+            return value.clone();
+        }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.literal_formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.literal_value(symbol);
+                    self.depth.set(DEEP);
                 },
-                _ => self.value(symbol),
-            };
-            self.literal.borrow_mut().insert(symbol, value);
-            value
-        })
+            );
+            return self.literal_value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
+        let value = match self.literal_formula(symbol) {
+            Some(formula) => self.evaluate_literally(formula),
+            None => self.value(symbol),
+        };
+        self.depth.set(self.depth.get() - 1);
+        self.literal.borrow_mut().insert(symbol, value.clone());
+        value
+    }
+
+    /// The formula behind a symbol that has no literal value yet.
+    fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        match self.model().vocabulary.entry(symbol).meaning {
+            _ if self.literal.borrow().contains_key(&symbol) => None,
+            // the value of a changed parameter is not that of its formula
+            Meaning::Parameter(index) if self.configuration.parameters[index].is_some() => None,
+            _ => formula_of(self.model(), symbol),
+        }
     }
 
     /// The value of a scalar formula.
@@ -220,8 +130,21 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// The value behind a symbol.
     pub fn value(&self, symbol: Symbol) -> Value<T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
-            return *value;
+            return value.clone();
         }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.value(symbol);
+                    self.depth.set(DEEP);
+                },
+            );
+            return self.value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
         let model = self.model();
         let value = match model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(_) | Meaning::State(_) => self.configuration.value(symbol),
@@ -229,8 +152,17 @@ impl<'m, T: Scalar> Phase<'m, T> {
             Meaning::Quantity(Quantity::Rate(index)) => self.rate(index),
             Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
         };
-        self.known.borrow_mut().insert(symbol, value);
+        self.depth.set(self.depth.get() - 1);
+        self.known.borrow_mut().insert(symbol, value.clone());
         value
+    }
+
+    /// The formula behind a symbol that has no value yet.
+    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        if self.known.borrow().contains_key(&symbol) {
+            return None;
+        }
+        formula_of(self.model(), symbol)
     }
 
     /// The rate of state variable `index`.
@@ -288,7 +220,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         if !parameters.is_empty() {
             let mut changed = all.to_vec();
             for (index, value) in parameters {
-                changed[*index] = Some(*value);
+                changed[*index] = Some(value.clone());
             }
             all = changed.into();
         }
@@ -323,14 +255,4 @@ impl<'m, T: Scalar> Phase<'m, T> {
         direction[index] = T::one();
         self.lift(&direction)
     }
-}
-
-fn lift_parameters<T: Scalar>(parameters: &[Option<Value<T>>]) -> Rc<[Option<Value<Dual<T>>>]> {
-    parameters.iter().map(|value| value.map(|value| value.map(Dual::from_re))).collect()
-}
-
-fn dual_value<T: Scalar>(value: Value<T>, direction: Value<T>) -> Value<Dual<T>> {
-    let parts = value.components().into_iter().zip(direction.components());
-    let parts: Vec<_> = parts.map(|(re, eps)| Dual::new(re, eps)).collect();
-    Value::from_components(value.value_type(), &parts)
 }

@@ -107,30 +107,32 @@ pub struct Features {
 pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     use Reach::{Configuration, Parameters, Phase};
-    use Type::{Matrix, Scalar, Vector};
+    use Type::Scalar;
+    const VECTOR: Type = Type::VECTOR;
+    const MATRIX: Type = Type::MATRIX;
     let mut all = vec![
-        ("r", Contact, Vector, Phase),
-        ("r'", ContactRate, Vector, Phase),
-        ("ṙ", ContactRate, Vector, Phase),
+        ("r", Contact, VECTOR, Phase),
+        ("r'", ContactRate, VECTOR, Phase),
+        ("ṙ", ContactRate, VECTOR, Phase),
         ("h", Support, Scalar, Configuration),
-        ("∂r", Slope, Matrix, Phase),
-        ("Ĩ", InertiaAtContact, Matrix, Phase),
+        ("∂r", Slope, MATRIX, Phase),
+        ("Ĩ", InertiaAtContact, MATRIX, Phase),
         ("energy", Energy, Scalar, Phase),
-        ("ω'", AngularAcceleration, Vector, Phase),
-        ("γ'", NormalRate, Vector, Phase),
+        ("ω'", AngularAcceleration, VECTOR, Phase),
+        ("γ'", NormalRate, VECTOR, Phase),
         ("λ0", Multiplier, Scalar, Phase),
     ];
     if features.radius {
-        all.push(("J", BallInertia, Matrix, Parameters));
+        all.push(("J", BallInertia, MATRIX, Parameters));
     }
     if features.radius && features.displacement {
-        all.push(("𝒥", ScriptInertia, Matrix, Configuration));
+        all.push(("𝒥", ScriptInertia, MATRIX, Configuration));
     }
     if features.potential {
         all.push(("U", Potential, Scalar, Configuration));
     }
     if features.curvature {
-        all.push(("Γ", Gamma, Matrix, Phase));
+        all.push(("Γ", Gamma, MATRIX, Phase));
         all.push(("D_T", GammaDeterminant, Scalar, Phase));
         if features.radius {
             all.push(("κ", Kappa, Scalar, Parameters));
@@ -157,9 +159,9 @@ pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach
 pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     vec![
-        ("r", Contact, Type::Vector, Reach::Phase),
-        ("ω", AngularVelocity, Type::Vector, Reach::Phase),
-        ("Ĩ", InertiaAtContact, Type::Matrix, Reach::Phase),
+        ("r", Contact, Type::VECTOR, Reach::Phase),
+        ("ω", AngularVelocity, Type::VECTOR, Reach::Phase),
+        ("Ĩ", InertiaAtContact, Type::MATRIX, Reach::Phase),
         ("energy", Energy, Type::Scalar, Reach::Phase),
     ]
 }
@@ -168,22 +170,22 @@ pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
 pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     let mut all = vec![
-        ("ω", AngularVelocity, Type::Vector, Reach::Phase),
+        ("ω", AngularVelocity, Type::VECTOR, Reach::Phase),
         ("D", RollingMoment, Type::Scalar, Reach::Parameters),
         ("energy", Energy, Type::Scalar, Reach::Phase),
     ];
     all.extend(match by_support {
         true => [
-            ("r", Contact, Type::Vector, Reach::Phase),
-            ("r'", ContactRate, Type::Vector, Reach::Phase),
-            ("∂r", Slope, Type::Matrix, Reach::Phase),
+            ("r", Contact, Type::VECTOR, Reach::Phase),
+            ("r'", ContactRate, Type::VECTOR, Reach::Phase),
+            ("∂r", Slope, Type::MATRIX, Reach::Phase),
             ("h", Support, Type::Scalar, Reach::Configuration),
         ],
         false => [
-            ("γ", Normal, Type::Vector, Reach::Phase),
-            ("γ'", NormalRate, Type::Vector, Reach::Phase),
-            ("n", SurfaceGradient, Type::Vector, Reach::Phase),
-            ("r'", ContactRate, Type::Vector, Reach::Phase),
+            ("γ", Normal, Type::VECTOR, Reach::Phase),
+            ("γ'", NormalRate, Type::VECTOR, Reach::Phase),
+            ("n", SurfaceGradient, Type::VECTOR, Reach::Phase),
+            ("r'", ContactRate, Type::VECTOR, Reach::Phase),
         ],
     });
     all

@@ -2,7 +2,6 @@
 
 use nalgebra::Matrix3;
 
-use super::linear::isotropic;
 use crate::formula::{Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -68,14 +67,18 @@ pub enum Line {
 pub enum Recipe {
     /// A number.
     Scalar(Draw),
-    /// A vector with independent components.
-    Vector(Draw),
-    /// A matrix with independent entries.
-    Matrix(Draw),
-    /// A matrix with independent positive entries on the diagonal.
-    Diagonal(Draw),
+    /// A vector of some length with independent components.
+    Vector(usize, Draw),
+    /// A matrix of some size with independent entries.
+    Matrix(usize, usize, Draw),
+    /// A symmetric matrix with independent entries on and above the diagonal.
+    Symmetric(usize, Draw),
+    /// A skew matrix with independent entries above the diagonal.
+    Skew(usize, Draw),
+    /// A matrix with independent entries on the diagonal.
+    Diagonal(usize, Draw),
     /// μE
-    Spherical(Draw),
+    Spherical(usize, Draw),
     /// Principal moments that keep the triangle inequalities.
     Inertia(Range),
     /// The same with I₁ = I₂.
@@ -91,8 +94,13 @@ impl Recipe {
     pub fn kind(&self) -> Type {
         match self {
             Recipe::Scalar(_) => Type::Scalar,
-            Recipe::Vector(_) => Type::Vector,
-            _ => Type::Matrix,
+            Recipe::Vector(length, _) => Type::Vector(*length),
+            Recipe::Matrix(rows, columns, _) => Type::Matrix(*rows, *columns),
+            Recipe::Symmetric(rows, _)
+            | Recipe::Skew(rows, _)
+            | Recipe::Diagonal(rows, _)
+            | Recipe::Spherical(rows, _) => Type::Matrix(*rows, *rows),
+            _ => Type::MATRIX,
         }
     }
 
@@ -101,9 +109,13 @@ impl Recipe {
         // Moments are sums of two of three positive numbers: I₁ = p₂ + p₃ and so on.
         let halves = |range: &Range, count| vec![Draw::Within(range.halved()); count];
         match self {
-            Recipe::Scalar(draw) | Recipe::Spherical(draw) => vec![draw.clone()],
-            Recipe::Vector(draw) | Recipe::Diagonal(draw) => vec![draw.clone(); 3],
-            Recipe::Matrix(draw) => vec![draw.clone(); 9],
+            Recipe::Scalar(draw) | Recipe::Spherical(_, draw) => vec![draw.clone()],
+            Recipe::Vector(count, draw) | Recipe::Diagonal(count, draw) => {
+                vec![draw.clone(); *count]
+            }
+            Recipe::Matrix(rows, columns, draw) => vec![draw.clone(); rows * columns],
+            Recipe::Symmetric(rows, draw) => vec![draw.clone(); rows * (rows + 1) / 2],
+            Recipe::Skew(rows, draw) => vec![draw.clone(); rows * (rows - 1) / 2],
             Recipe::Inertia(range) => halves(range, 3),
             Recipe::AxisymmetricInertia(range) => halves(range, 2),
             Recipe::FullInertia(range) => [halves(range, 3), rotation_draws()].concat(),
@@ -115,11 +127,6 @@ impl Recipe {
     pub fn make<T: Scalar>(&self, draws: &[T]) -> Value<T> {
         let principal = |p: [T; 3]| diagonal([p[1] + p[2], p[0] + p[2], p[0] + p[1]]);
         match (self, draws) {
-            (Recipe::Scalar(_), [x, ..]) => Value::Scalar(*x),
-            (Recipe::Vector(_), [x, y, z, ..]) => Value::Vector([*x, *y, *z].into()),
-            (Recipe::Diagonal(_), [x, y, z, ..]) => Value::Matrix(diagonal([*x, *y, *z])),
-            (Recipe::Matrix(_), entries) => Value::from_components(Type::Matrix, entries),
-            (Recipe::Spherical(_), [x, ..]) => Value::Matrix(isotropic(*x)),
             (Recipe::Inertia(_), [x, y, z, ..]) => Value::Matrix(principal([*x, *y, *z])),
             (Recipe::AxisymmetricInertia(_), [x, z, ..]) => Value::Matrix(principal([*x, *x, *z])),
             (Recipe::FullInertia(_), [x, y, z, turn @ ..]) => {
@@ -127,8 +134,37 @@ impl Recipe {
                 Value::Matrix(turn * principal([*x, *y, *z]) * turn.transpose())
             }
             (Recipe::Rotation, turn) => Value::Matrix(rotation(turn)),
+            (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..), components) => {
+                Value::from_components(self.kind(), components)
+            }
+            (Recipe::Diagonal(rows, _), entries) => {
+                self.by_entries(*rows, |i, j| if i == j { entries[i] } else { T::zero() })
+            }
+            (Recipe::Spherical(rows, _), entries) => {
+                self.by_entries(*rows, |i, j| if i == j { entries[0] } else { T::zero() })
+            }
+            (Recipe::Symmetric(rows, _), entries) => self.by_entries(*rows, |i, j| {
+                let (above, below) = (i.min(j), i.max(j));
+                // the rows before this one have n, n - 1, … entries
+                entries[above * rows - above * above.saturating_sub(1) / 2 + below - above]
+            }),
+            (Recipe::Skew(rows, _), entries) => self.by_entries(*rows, |i, j| {
+                let (above, below) = (i.min(j), i.max(j));
+                if i == j {
+                    return T::zero();
+                }
+                let entry = entries[above * (rows - 1) - above * above.saturating_sub(1) / 2
+                    + (below - above - 1)];
+                if i < j { entry } else { -entry }
+            }),
             _ => unreachable!("a recipe is given as many numbers as it asks for"),
         }
+    }
+
+    fn by_entries<T: Scalar>(&self, rows: usize, entry: impl Fn(usize, usize) -> T) -> Value<T> {
+        let places = (0..rows).flat_map(|i| (0..rows).map(move |j| (i, j)));
+        let entries: Vec<T> = places.map(|(i, j)| entry(i, j)).collect();
+        Value::from_components(self.kind(), &entries)
     }
 }
 
@@ -170,6 +206,30 @@ mod tests {
         assert!(error < 1e-15, "orthogonal");
         let volume = turn.column(0).cross(&turn.column(1)).dot(&turn.column(2));
         assert!((volume - 1.0).abs() < 1e-15, "and proper");
+    }
+
+    #[test]
+    fn matrices_are_filled_by_their_symmetry() {
+        let draw = Draw::Within(Range::between((1, 1), (2, 1)));
+        for rows in 1..6 {
+            let symmetric = Recipe::Symmetric(rows, draw.clone());
+            let skew = Recipe::Skew(rows, draw.clone());
+            for (recipe, sign) in [(symmetric, 1.0), (skew, -1.0)] {
+                let count = recipe.draws().len();
+                let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
+                let entries = recipe.make(&numbers).components();
+                let at = |i: usize, j: usize| entries[i * rows + j];
+                let pairs = (0..rows).flat_map(|i| (0..rows).map(move |j| (i, j)));
+                assert!(pairs.clone().all(|(i, j)| at(i, j) == sign * at(j, i)), "{recipe:?}");
+                let mut above: Vec<f64> =
+                    pairs.filter(|(i, j)| i <= j).map(|(i, j)| at(i, j)).collect();
+                above.retain(|x| *x != 0.0);
+                assert_eq!(above, numbers, "each number has one place above the diagonal");
+            }
+        }
+        let diagonal = Recipe::Diagonal(4, draw).make(&[1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(diagonal.value_type(), Type::Matrix(4, 4), "of its size");
+        assert_eq!(diagonal.components()[10], 3.0, "on the diagonal");
     }
 
     #[test]

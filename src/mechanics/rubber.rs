@@ -6,8 +6,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::AcrossNormal;
 use super::body::{Polynomial, Shape, axis, matrix, scalar, vector};
+use super::configuration::Configuration;
 use super::linear::{isotropic, point_mass};
-use super::phase::{Configuration, Phase};
+use super::phase::Phase;
 use super::rolling::{Motion, Pose};
 use crate::formula::Formula;
 use crate::scalar::Scalar;

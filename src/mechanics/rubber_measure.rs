@@ -14,8 +14,8 @@ use nalgebra::Vector3;
 use num_dual::Dual;
 
 use super::body::axis;
+use super::configuration::Configuration;
 use super::linear::{across, adjugate};
-use super::phase::Configuration;
 use super::rubber::{NORMAL, Rubber, normal};
 use crate::scalar::Scalar;
 

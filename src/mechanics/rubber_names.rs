@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::body::{matrix, scalar, vector};
+use super::configuration::Configuration;
 use super::linear::{isotropic, point_mass};
-use super::phase::{Configuration, Phase};
+use super::phase::Phase;
 use super::quantity::Quantity;
 use super::rubber::{Rubber, normal};
 use crate::formula::Value;

@@ -40,6 +40,8 @@ pub struct Entry {
     pub kind: Type,
     /// What it depends on.
     pub reach: Reach,
+    /// The whole number that it is, if the file fixes one.
+    pub whole: Option<i64>,
 }
 
 /// All names of a case.
@@ -53,12 +55,19 @@ impl Vocabulary {
     /// Adds a name; a later entry of the same name hides the earlier one.
     pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) {
         self.by_name.insert(name.to_string(), self.entries.len() as u32);
-        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach });
+        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
+    }
+
+    /// Notes that a name stands for a whole number that the file fixes.
+    pub fn set_whole(&mut self, name: &str, whole: i64) {
+        if let Some(index) = self.by_name.get(name) {
+            self.entries[*index as usize].whole = Some(whole);
+        }
     }
 
     /// Adds an entry that no name finds; gives its symbol.
     pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) -> Symbol {
-        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach });
+        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
         Symbol(self.entries.len() as u32 - 1)
     }
 
@@ -138,5 +147,9 @@ impl Scope for Vocabulary {
 
     fn names(&self) -> Vec<String> {
         self.by_name.keys().cloned().collect()
+    }
+
+    fn whole_number(&self, name: &str) -> Option<i64> {
+        self.find(name)?.whole
     }
 }

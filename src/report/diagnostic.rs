@@ -1,18 +1,59 @@
 //! Problems shown at their place in the user's file, in the manner of rustc.
 
+use std::ops::Range;
+
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Failure;
-use crate::case::CaseError;
+use crate::case::{CaseError, Mistake};
+use crate::verdict::JudgeError;
 
-/// A problem of the file `path` with the text `source`.
-pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Failure {
-    let span = error.span.clone().filter(|span| source.get(span.clone()).is_some());
+/// The mistakes of the file `path` with the text `source`.
+pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec<Failure> {
+    let told = |mistake: &Mistake| of_mistake(path, source, mistake, colour);
+    error.mistakes().iter().map(told).collect()
+}
+
+/// All of them, as they are shown on a terminal.
+pub fn rendered(failures: &[Failure]) -> String {
+    let texts: Vec<&str> = failures.iter().map(|failure| failure.rendered.as_str()).collect();
+    texts.join("\n\n")
+}
+
+fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> Failure {
+    at(path, source, mistake.span.clone(), mistake.message(), mistake.help(), colour)
+}
+
+/// What stands against judging the case in the file `path` with the text `source`.
+pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> Failure {
+    let place = |text: &str| source.find(text).map(|start| start..start + text.len());
+    let span = match error {
+        JudgeError::NotInvariant { equation, .. } | JudgeError::Dependent(equation) => {
+            place(equation)
+        }
+        JudgeError::Quadrature(formula) => place(formula),
+        JudgeError::OffLevel { equation, .. } => place("[level.chart]").or_else(|| place(equation)),
+        JudgeError::PartialChart { .. } => place("[level.chart]"),
+        JudgeError::Unreachable(_) => place("[level]").or_else(|| place("[level.chart]")),
+        _ => None,
+    };
+    at(path, source, span, error.to_string(), Some(error.help().to_string()), colour)
+}
+
+/// A problem at a place, or in the file as a whole.
+fn at(
+    path: &str,
+    source: &str,
+    span: Option<Range<usize>>,
+    message: String,
+    help: Option<String>,
+    colour: bool,
+) -> Failure {
+    let span = span.filter(|span| source.get(span.clone()).is_some());
     let before = span.as_ref().map(|span| &source[..span.start]);
     let line = before.map(|before| before.matches('\n').count() + 1);
     let column = before.map(|before| before.chars().rev().take_while(|c| *c != '\n').count() + 1);
-    let (message, help) = (error.message(), error.help());
     let title = Level::ERROR.primary_title(message.as_str());
     let group = match span {
         Some(span) => title.element(

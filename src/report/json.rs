@@ -49,7 +49,9 @@ pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
                 claims: &report.claims,
                 mutants: report.mutants.as_ref(),
             }),
-            Err(failure) => root.errors.push(ErrorEntry { path: &outcome.path, failure }),
+            Err(failures) => root
+                .errors
+                .extend(failures.iter().map(|failure| ErrorEntry { path: &outcome.path, failure })),
         }
     }
     serde_json::to_string_pretty(&root)

@@ -41,7 +41,7 @@ pub struct Outcome {
     /// The case's title, source, system and column; empty where it could not be read.
     pub heading: Heading,
     /// The verdicts, or why there are none.
-    pub result: Result<CaseReport, Failure>,
+    pub result: Result<CaseReport, Vec<Failure>>,
 }
 
 /// Why a file could not be judged.

@@ -2,7 +2,7 @@
 
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
-use super::{Outcome, RunReport};
+use super::{Outcome, RunReport, diagnostic};
 use crate::verdict::{CaseReport, ClaimReport, Independence, Measurement, Sign, Verdict};
 
 /// Decimal places of measured numbers in the table, and with `-v`.
@@ -35,7 +35,7 @@ pub fn render(run: &RunReport, style: Style) -> String {
 fn case(outcome: &Outcome, style: Style) -> String {
     let heading = &outcome.heading;
     let report = match &outcome.result {
-        Err(failure) => return format!("{}\n", failure.rendered),
+        Err(failures) => return format!("{}\n", diagnostic::rendered(failures)),
         Ok(report) => report,
     };
     let mut out = format!("{}\n  {}", outcome.path, heading.title);

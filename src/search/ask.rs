@@ -79,11 +79,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
 fn components(text: &str, kind: Type) -> Vec<String> {
     match kind {
         Type::Scalar => vec![text.to_string()],
-        Type::Vector => (1..=3).map(|i| format!("({text})[{i}]")).collect(),
-        Type::Matrix => {
-            let pairs = (1..=3).flat_map(|i| (1..=3).map(move |j| (i, j)));
-            pairs.map(|(i, j)| format!("({text})[{i},{j}]")).collect()
-        }
+        _ => kind.indices().iter().map(|index| format!("({text}){index}")).collect(),
     }
 }
 

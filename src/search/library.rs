@@ -70,9 +70,9 @@ fn separable(parameter: &str, a: &str) -> Texts {
 }
 
 fn pieces(model: &Model) -> Pieces {
-    let matrix = |name: &str| has(model, name, Type::Matrix);
+    let matrix = |name: &str| has(model, name, Type::MATRIX);
     let scalar = |name: &str| has(model, name, Type::Scalar);
-    let vector = |name: &str| has(model, name, Type::Vector);
+    let vector = |name: &str| has(model, name, Type::VECTOR);
     let mut pieces = Pieces {
         linear: Vec::new(),
         forms: Vec::new(),
@@ -160,9 +160,15 @@ fn pieces(model: &Model) -> Pieces {
         System::Lagrangian(_) | System::Field(_) => {
             for variable in &model.state {
                 match variable.kind {
-                    Type::Vector => pieces.linear.push(variable.name.clone()),
+                    Type::VECTOR => pieces.linear.push(variable.name.clone()),
                     Type::Scalar => pieces.forms.push(variable.name.clone()),
-                    Type::Matrix => {}
+                    Type::Vector(_) => {
+                        let indices = variable.kind.indices();
+                        let components =
+                            indices.iter().map(|index| format!("{}{index}", variable.name));
+                        pieces.forms.extend(components);
+                    }
+                    Type::Matrix(..) => {}
                 }
             }
         }
@@ -208,7 +214,7 @@ pub fn denominators(model: &Model) -> Texts {
     let mut found = vec!["1".to_string()];
     let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
     for (name, text) in offers {
-        if has(model, name, Type::Matrix)
+        if has(model, name, Type::MATRIX)
             && matches!(model.system, System::Rubber(_) | System::Ball(_))
         {
             found.push(text.to_string());
@@ -219,7 +225,7 @@ pub fn denominators(model: &Model) -> Texts {
 
 /// Factors of which a density, or an integral, may be a product of powers, simple ones first.
 pub fn factors(model: &Model) -> Texts {
-    let matrix = |name: &str| has(model, name, Type::Matrix);
+    let matrix = |name: &str| has(model, name, Type::MATRIX);
     let scalar = |name: &str| has(model, name, Type::Scalar);
     let mut factors: Texts = Vec::new();
     match &model.system {
@@ -275,7 +281,7 @@ pub fn factors(model: &Model) -> Texts {
 /// β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that I₁ = I₂ is
 /// no exception: for I = μE they are the factors of (3.7).
 pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
-    if !matches!(model.system, System::Rubber(_)) || !has(model, "B", Type::Matrix) {
+    if !matches!(model.system, System::Rubber(_)) || !has(model, "B", Type::MATRIX) {
         return Vec::new();
     }
     vec![

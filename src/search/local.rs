@@ -57,7 +57,9 @@ impl Coordinates {
                 for (role, variable) in lagrangian.roles.iter().zip(&model.state) {
                     let own = start..start + variable.len();
                     match role {
-                        Role::Coordinate(_) | Role::Carried(_) => positions.extend(own),
+                        Role::Coordinate(_) | Role::Carried(_) | Role::Time => {
+                            positions.extend(own)
+                        }
                         Role::Velocity | Role::Multiplier => velocities.extend(own),
                     }
                     start += variable.len();

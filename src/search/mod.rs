@@ -83,7 +83,7 @@ pub enum SearchError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// A find cannot be asked about the case.
-    #[error("a find cannot be read in the names of the case: {}", .0.message())]
+    #[error("a find cannot be read in the names of the case: {0}")]
     Unreadable(#[from] CaseError),
     /// Judging failed.
     #[error(transparent)]

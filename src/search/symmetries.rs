@@ -102,7 +102,11 @@ fn spelled(
             texts.into_iter().map(|text| text.unwrap_or_else(|| "0".to_string())).collect();
         let value = match variable.kind {
             Type::Scalar => texts.concat(),
-            _ => format!("[{}]", texts.join(", ")),
+            Type::Matrix(_, columns) => {
+                let rows = texts.chunks(columns).map(|row| format!("[{}]", row.join(", ")));
+                format!("[{}]", rows.collect::<Vec<String>>().join(", "))
+            }
+            Type::Vector(_) => format!("[{}]", texts.join(", ")),
         };
         entries.push((variable.name.clone(), value));
     }
@@ -126,14 +130,7 @@ fn component_names(case: &Case) -> Vec<String> {
     let mut names = Vec::new();
     for variable in &case.model.state {
         let name = &variable.name;
-        match variable.kind {
-            Type::Scalar => names.push(name.clone()),
-            Type::Vector => names.extend((1..=3).map(|i| format!("{name}[{i}]"))),
-            Type::Matrix => {
-                let pairs = (1..=3).flat_map(|i| (1..=3).map(move |j| (i, j)));
-                names.extend(pairs.map(|(i, j)| format!("{name}[{i},{j}]")));
-            }
-        }
+        names.extend(variable.kind.indices().iter().map(|index| format!("{name}{index}")));
     }
     names
 }

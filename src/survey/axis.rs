@@ -36,7 +36,7 @@ pub fn tried(case: &Case) -> Vec<Axis> {
             second,
         })
         .collect();
-    let vectors = case.model.parameters.iter().filter(|one| one.kind == Type::Vector);
+    let vectors = case.model.parameters.iter().filter(|one| one.kind == Type::VECTOR);
     axes.extend(vectors.map(|one| Axis {
         name: one.name.clone(),
         vector: format!("({0}/|{0}|)", one.name),

@@ -202,11 +202,11 @@ impl Geometry {
             if !named("R", Type::Scalar, "−trace(∂r)/2")? {
                 self.bindings.push(define("R", "−trace(∂r)/2"));
             }
-            if !named("c", Type::Vector, "trace(∂r)/2*γ − r")? {
+            if !named("c", Type::VECTOR, "trace(∂r)/2*γ − r")? {
                 self.bindings.push(define("c", "−(r + R*γ)"));
             }
         }
-        if self.has("ellipsoid") && !named("B", Type::Matrix, "r ⊗ r − h*∂r")? {
+        if self.has("ellipsoid") && !named("B", Type::MATRIX, "r ⊗ r − h*∂r")? {
             self.bindings.push(define("B", "r ⊗ r − h*∂r"));
         }
         Ok(())

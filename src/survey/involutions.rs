@@ -202,7 +202,10 @@ const MOST_COMPONENTS: usize = 6;
 fn sign_changes(case: &Case) -> Vec<Candidate> {
     let model = &case.model;
     let single = model.dimension() <= MOST_COMPONENTS;
-    let parts = |kind: Type| if single && kind == Type::Vector { 3 } else { 1 };
+    let parts = |kind: Type| match kind {
+        Type::Vector(length) if single => length,
+        _ => 1,
+    };
     let count: usize = model.state.iter().map(|variable| parts(variable.kind)).sum();
     if count > MOST_COMPONENTS {
         return Vec::new();
@@ -226,7 +229,10 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
                     |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
                 let image = match whole {
                     true => format!("−{name}"),
-                    false => format!("[{}, {}, {}]", sign(0), sign(1), sign(2)),
+                    false => {
+                        let signs: Vec<String> = (0..flips.len()).map(sign).collect();
+                        format!("[{}]", signs.join(", "))
+                    }
                 };
                 changed.push(format!("{name} → {image}"));
                 images.push((name.clone(), image));

@@ -54,7 +54,7 @@ impl Mirror {
 
 /// Vectors that a plane of symmetry may be normal to, as formulas in brackets.
 fn normals(model: &Model) -> Vec<String> {
-    let named = model.parameters.iter().filter(|one| one.kind == Type::Vector);
+    let named = model.parameters.iter().filter(|one| one.kind == Type::VECTOR);
     // The coefficients of an arbitrary function say nothing of a direction.
     let vectors: Vec<&str> =
         named.map(|one| one.name.as_str()).filter(|name| !name.contains('[')).collect();

@@ -83,14 +83,7 @@ pub fn parameters(case: &Case) -> Vec<Given> {
         value: match &parameter.origin {
             Origin::Fixed(values) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
-                Some(match values.as_slice() {
-                    [one] => one.clone(),
-                    [_, _, _] => format!("({})", values.join(", ")),
-                    rows => {
-                        let rows = rows.chunks(3).map(|row| format!("({})", row.join(", ")));
-                        format!("({})", rows.collect::<Vec<_>>().join(", "))
-                    }
-                })
+                Some(parameter.kind.listed(&values, ["(", ", ", ")"]))
             }
             Origin::Formula(formula) => Some(formula.text().to_string()),
             Origin::Free(_) => None,

@@ -3,6 +3,7 @@
 use super::evidence::Witness;
 use super::point::named;
 use crate::case::Case;
+use crate::formula::Type;
 
 /// A state as it is printed, with its number under the seed if it has one, the residual that was
 /// found there, and a bound on its error.
@@ -13,21 +14,20 @@ pub fn witness(
     (residual, error_bound): (f64, f64),
 ) -> Witness {
     let (parameters, state) = named(&case.model, printed);
-    let parameters = parameters.into_iter().map(|(name, value)| (name, listed(&value)));
-    let state: Vec<String> =
-        state.iter().map(|(name, value)| format!("{name}={}", listed(value))).collect();
+    let kinds = case.model.free_parameters().map(|parameter| parameter.kind);
+    let parameters =
+        parameters.into_iter().zip(kinds).map(|((name, value), kind)| (name, listed(kind, &value)));
+    let kinds = case.model.state.iter().map(|variable| variable.kind);
+    let state: Vec<String> = state
+        .iter()
+        .zip(kinds)
+        .map(|((name, value), kind)| format!("{name}={}", listed(kind, value)))
+        .collect();
     let parameters = parameters.collect();
     Witness { index, parameters, state: state.join(" "), residual, error_bound, digits: None }
 }
 
 /// A value as `--set` and `--state` take it: a number, a list, rows of lists.
-fn listed(components: &[String]) -> String {
-    match components {
-        [one] => one.clone(),
-        [_, _, _] => format!("[{}]", components.join(",")),
-        _ => {
-            let rows: Vec<String> = components.chunks(3).map(listed).collect();
-            format!("[{}]", rows.join(","))
-        }
-    }
+fn listed(kind: Type, components: &[String]) -> String {
+    kind.listed(components, ["[", ",", "]"])
 }

@@ -14,7 +14,7 @@ use serde_json::Value;
 
 /// A case from its text; the text is shown when it is refused.
 pub fn case(text: &str) -> Case {
-    Case::parse(text, &[]).unwrap_or_else(|error| panic!("{:?} in\n{text}", error.problem))
+    Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error} in\n{text}"))
 }
 
 /// The report on a case at a given state.

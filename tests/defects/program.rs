@@ -16,7 +16,7 @@ pub fn complaint(complaint: Complaint) -> Trial {
         std::fs::write(&path, &complaint.case)?;
         let mut command = Command::cargo_bin("liouville")?;
         let output = command.arg("check").arg(&path).output()?;
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let told = String::from_utf8_lossy(&output.stdout).into_owned();
         if output.status.code() != Some(2) {
             let code = output.status.code();
             return Err(Failed::from(format!("the exit code is {code:?}: {told}")));

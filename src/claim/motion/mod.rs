@@ -129,11 +129,18 @@ fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, 
     })
 }
 
+/// No motion is followed for more crossings, and no cycle is longer.
+const MOST: usize = 1_000_000_000;
+
 /// A whole number from 1 on.
 fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Error> {
     let Some(text) = from.text(key)? else { return Ok(None) };
     match text.parse() {
-        Ok(count) if count > 0 => Ok(Some(count)),
+        Ok(count) if (1..=MOST).contains(&count) => Ok(Some(count)),
+        Ok(1..) => {
+            let message = format!("`{text}` is beyond all that can be followed");
+            Err(from.complaint(key, message, &format!("write a number up to {MOST}")))
+        }
         _ => Err(from.complaint(key, format!("`{text}` is no count"), "write 1, 2, 3, …")),
     }
 }

@@ -48,7 +48,9 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
         let measured = item.and_then(|item| measured(&item, &amount));
         match measured {
             Ok(measured) => run.measured.extend(measured),
-            Err(failure) => run.errors.push((path, failure)),
+            Err(failures) => {
+                run.errors.extend(failures.into_iter().map(|failure| (path.clone(), failure)));
+            }
         }
         files::advance(&bar, started);
     }
@@ -70,24 +72,24 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
     Ok(Answer { text, code: if run.errors.is_empty() { 0 } else { 2 } })
 }
 
-type Named = (String, Result<Item, Failure>);
+type Named = (String, Result<Item, Vec<Failure>>);
 
 /// The work items, or the cases under the paths.
 fn items(options: &Bench) -> Result<Vec<Named>, String> {
     if options.paths.is_empty() {
-        let items = work_items().map_err(|error| format!("error: {}", error.message()))?;
+        let items = work_items().map_err(|error| format!("error: {error}"))?;
         return Ok(items.into_iter().map(|item| (item.name.clone(), Ok(item))).collect());
     }
     let found = files::collect(&options.paths).into_iter();
     Ok(found
         .map(|file| match file {
             Ok(path) => (path.display().to_string(), item(&path)),
-            Err((path, failure)) => (path.display().to_string(), Err(failure)),
+            Err((path, failure)) => (path.display().to_string(), Err(vec![failure])),
         })
         .collect())
 }
 
-fn item(path: &Path) -> Result<Item, Failure> {
+fn item(path: &Path) -> Result<Item, Vec<Failure>> {
     let shown = path.display().to_string();
     let (text, case) = Case::read(path, &[]);
     match case {
@@ -96,7 +98,8 @@ fn item(path: &Path) -> Result<Item, Failure> {
     }
 }
 
-fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Failure> {
-    measure_item(item, amount)
-        .map_err(|error| files::plain(Path::new(&item.name), &error.to_string(), error.help()))
+fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Vec<Failure>> {
+    measure_item(item, amount).map_err(|error| {
+        vec![files::plain(Path::new(&item.name), &error.to_string(), error.help())]
+    })
 }

@@ -124,6 +124,12 @@ fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, 
         let what = format!("`{name}` is computed from other parameters");
         return Err(wrong(&what, "vary those that it is computed from"));
     }
+    if let Coordinate::Parameter { index, .. } = coordinate
+        && case.model.is_rigid(index, &[])
+    {
+        let what = format!("`{name}` is a size, or stands in an index");
+        return Err(wrong(&what, "vary another parameter"));
+    }
     Ok((name, Axis { coordinate, from, to, count }))
 }
 
@@ -146,9 +152,11 @@ fn coordinate(case: &Case, name: &str) -> Option<Coordinate> {
     let places: Vec<usize> =
         digits.bytes().map(|digit| usize::from(digit).wrapping_sub(usize::from(b'1'))).collect();
     let component = match (case.model.parameters[index].kind, &places[..]) {
-        (Type::Vector, [k]) if *k < 3 => *k,
-        (Type::Matrix, [k]) if *k < 3 => 4 * k,
-        (Type::Matrix, [row, column]) if *row < 3 && *column < 3 => 3 * row + column,
+        (Type::Vector(length), _) => {
+            digits.parse::<usize>().ok()?.checked_sub(1).filter(|k| *k < length)?
+        }
+        (Type::Matrix(rows, columns), [k]) if *k < rows.min(columns) => (columns + 1) * k,
+        (Type::Matrix(rows, columns), [i, j]) if *i < rows && *j < columns => columns * i + j,
         _ => return None,
     };
     Some(Coordinate::Parameter { index, component })

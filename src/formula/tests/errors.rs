@@ -34,9 +34,18 @@ fn unknown_names_are_guessed_at() {
     error("mγ3", "unknown name `mγ3`", "mγ3", Some("write `m*γ3`?"));
     error("x + g2", "unknown name `g2`", "g2", Some("did you mean `g1`?"));
     error("X", "unknown name `X`", "X", Some("did you mean `x`?"));
-    error("energy", "unknown name `energy`", "energy", None);
-    error("pi", "unknown name `pi`", "pi", None);
+    let names = "the names here are A, B, I, P, R, c, g1, k, m, n, r', u, v, x, y, Ĩ, γ, ω";
+    error("energy", "unknown name `energy`", "energy", Some(names));
+    error("I^T", "unknown name `T`", "T", Some("a transpose is written `Iᵀ`"));
+    error("rdot", "unknown name `rdot`", "rdot", Some("the rate of `r` is written `r'`"));
+    error("e3", "unknown name `e3`", "e3", Some("write `[0,0,1]`"));
     error("sqr(x)", "unknown function `sqr`", "sqr", Some("did you mean `sqrt`?"));
+    error("sec(x)", "unknown function `sec`", "sec", Some("write `1/cos(x)`"));
+    error("cot(x)", "unknown function `cot`", "cot", Some("write `1/tan(x)`"));
+    error("coshh(x)", "unknown function `coshh`", "coshh", Some("did you mean `cosh`?"));
+    assert!(refuse("sn(x)").help().is_some_and(|help| help.contains("s' = c*d")), "elliptic");
+    let functions = refuse("Wronskian(x)");
+    assert!(functions.help().is_some_and(|help| help.contains("sinh, solve")), "all are listed");
     error("γ4", "there is no component `γ4`", "γ4", Some("`γ` has the components γ1, γ2, γ3"));
     error("I14", "there is no component `I14`", "I14", Some("`I` has the entries I11 to I33"));
 }
@@ -130,27 +139,124 @@ fn functions_check_their_arguments() {
     error("x + det", "`det` is a function", "det", Some("write `det(matrix)`"));
     error("∫ x", "`∫` is a function", "∫", Some("write `∫(integrand, variable)`"));
     error(
-        "diag(x,y)",
-        "`diag` takes 1 or 3 arguments, not 2",
-        "diag(x,y)",
-        Some("write `diag(vector)` or `diag(scalar, scalar, scalar)`"),
+        "diag(x)",
+        "`diag` takes a vector here, this is a scalar",
+        "x",
+        Some("write `diag(vector)` or `diag(scalar, scalar, …)`"),
     );
+    error(
+        "solve(B)",
+        "`solve` takes 2 arguments, not 1",
+        "solve(B)",
+        Some("write `solve(matrix, vector)`"),
+    );
+    let filled = Some("give 4, 9, 16, … entries, or the rows: `mat([a,b,c],[d,e,f])`");
+    error("mat(1,2,3)", "3 entries do not fill a square matrix", "mat(1,2,3)", filled);
 }
 
 #[test]
-fn literals_and_indices_have_three_places() {
-    let vector = Some("a vector is written `[a,b,c]`, a dot product `(a,b)`");
-    error("[1,2]", "a vector has 3 components, not 2", "[1,2]", vector);
+fn literals_and_indices_fit_their_sizes() {
     let rows = Some("a matrix with the rows u, v, w is written `mat(u,v,w)`");
     error("[x,γ,1]", "a component is a scalar, this is a vector", "γ", rows);
     error("[γ,ω,c]", "a component is a scalar, this is a vector", "γ", rows);
     error("[[1,2,3],γ,c]", "a row of a matrix is written `[a,b,c]`, this is a vector", "γ", rows);
-    let index = Some("write `γ[3]` or `B[1,2]`");
-    error("γ[4]", "an index is 1, 2 or 3", "4", index);
-    error("γ[x]", "an index is 1, 2 or 3", "x", index);
+    error("[[1,2],[3]]", "this row has 1 entries, and the first has 2", "[3]", None);
+    error("γ[4]", "there is no component 4", "4", Some("`γ` has the components 1 to 3"));
+    error("A[5,1]", "there is no row 5", "5", Some("`A` has the rows 1 to 4"));
+    error("P[2,0]", "there is no column 0", "0", Some("`P` has the columns 1 to 4"));
+    error("u5", "there is no component `u5`", "u5", Some("`u` has the components u1 to u4"));
+    let fixed = Some("use numbers, indices, and parameters such as n = 4");
+    error("γ[x]", "`x` is not a whole number that the file fixes", "x", fixed);
+    error("γ[1/2]", "an index is a whole number that the file fixes", "1/2", fixed);
+    error("γ[]", "an index is missing", "]", Some("write `γ[3]` or `B[1,2]`"));
     error("γ[1,2]", "a vector has one index", "[1,2]", Some("write `γ[1]`"));
-    error("B[1]", "a matrix has two indices", "[1]", Some("write `B[1,2]`"));
+    error("B[1,2,3]", "a matrix has two indices", "[1,2,3]", Some("write `B[1,2]`"));
     error("x[1]", "a scalar has no components", "[1]", None);
+}
+
+#[test]
+fn sizes_have_to_agree() {
+    let sum = "a vector of length 4 cannot be added to a vector of length 3";
+    error("u + γ", sum, "u + γ", None);
+    error(
+        "x + A",
+        "a scalar cannot be added to a matrix of size 4×4",
+        "x + A",
+        Some("write `x*E(4)`"),
+    );
+    let dot = "a dot product takes two vectors of one length, not a vector of length 4 and a vector \
+               of length 3";
+    error("(u,γ)", dot, "(u,γ)", None);
+    let product = "a matrix of size 4×4 does not multiply a vector of length 3";
+    error("A*γ", product, "A*γ", Some("the factor on the right has 4 rows"));
+    let product = "a matrix of size 4×4 does not multiply a matrix of size 2×4";
+    error("A*P", product, "A*P", Some("the factor on the right has 4 rows"));
+    error("u × v", "`×` takes vectors of length 3, this is a vector of length 4", "u", None);
+    error("P²", "a matrix of size 2×4 has no powers", "P", None);
+    error(
+        "det(P)",
+        "`det` takes a square matrix here, this is a matrix of size 2×4",
+        "P",
+        Some("write `det(matrix)`"),
+    );
+    let large = Some("vectors and matrices have at most 1024 components");
+    error("zero(40,40)", "a matrix of size 40×40 is too large", "zero(40,40)", large);
+    let small = Some("determinants and inverses take at most 16 rows");
+    let message = "a matrix of size 20×20 is too large for a determinant";
+    error("det(E(20))", message, "E(20)", small);
+}
+
+#[test]
+fn forms_with_indices_say_what_is_missing() {
+    let sum = Some("write `sum(i, 1..n, a[i])`");
+    error("sum", "`sum` is written with brackets", "sum", sum);
+    error("sum(u)", "an index and its range should stand here", "u", sum);
+    error("sum(i, n, u[i])", "the range of `i` should stand here", "n", sum);
+    error("sum(i, 1..n)", "`sum` has no body", ")", sum);
+    error(
+        "sum(i, 1..n, u[i], x)",
+        "this `(` is not closed",
+        "(",
+        Some("it should close before `,`"),
+    );
+    error("sum(i, 1..n, u[i]", "this `(` is not closed", "(", None);
+    error(
+        "sum(i, 1..n, u[i+1])",
+        "there is no component 5",
+        "i+1",
+        Some("`u` has the components 1 to 4"),
+    );
+    let fixed = Some("use numbers, indices, and parameters such as n = 4");
+    error("sum(i, 1..x, u[i])", "`x` is not a whole number that the file fixes", "x", fixed);
+    error("vector(i, 1..0, x)", "this vector has no components", "vector(i, 1..0, x)", None);
+    let large = refuse("sum(i, 1..1000, sum(j, 1..1000, i*j*x))");
+    assert_eq!(large.message(), "this has too many terms when written out", "a limit");
+    let endless = refuse("sum(i, 1..2000000000, j, 1..0, x)");
+    assert_eq!(endless.message(), "this has too many terms when written out", "of nothing, too");
+    error("if(x = 1, x, y)", "`x` is not a whole number that the file fixes", "x", fixed);
+    let equation = Some("a formula is a value, not an equation");
+    error("x ≠ y", "`≠` has no meaning in a formula", "≠", equation);
+    error(
+        "1..n",
+        "`..` has no meaning here",
+        "..",
+        Some("a range stands in `sum(i, 1..n, …)` and the like"),
+    );
+    error(
+        "γ x ω",
+        "there is no operator between two vectors",
+        "x",
+        Some("a cross product is written `γ × …`"),
+    );
+    error(
+        "<ω,γ>",
+        "a number, a name or a bracket should stand before `<`",
+        "<",
+        Some("a dot product is written `(a,b)`"),
+    );
+    let mixed = refuse("sum(i, 1..2, if(i = 1, γ, x))");
+    let message = "the terms of a sum are of one kind, not a vector of length 3 and a scalar";
+    assert_eq!(mixed.message(), message, "kinds are told");
 }
 
 #[test]

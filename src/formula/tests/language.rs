@@ -108,6 +108,33 @@ fn functions_of_scalars() {
 }
 
 #[test]
+fn constants_have_names() {
+    let x = scalar_of("x");
+    is("π", std::f64::consts::PI);
+    is("2*pi", std::f64::consts::TAU);
+    is("e", std::f64::consts::E);
+    is("e^x + e²", x.exp() + 1f64.exp().powi(2));
+    is("e^-1", (-1f64).exp());
+    assert_eq!(refuse("2π").help(), Some("write `2*π`"), "a product is written");
+}
+
+#[test]
+fn hyperbolic_functions_and_inverses() {
+    let x = scalar_of("x");
+    is("sinh(x) + cosh(x)", x.exp());
+    is("cosh(x)^2 − sinh(x)²", 1.0);
+    is("tanh(x)*cosh(x)", x.sinh());
+    is("asinh(sinh(x)) + arsinh(1)", x + 1f64.asinh());
+    is("acosh(cosh(x)) + arcosh(2)", x + 2f64.acosh());
+    is("atanh(tanh(x)/2)", (x.tanh() / 2.0).atanh());
+    is("asin(1) + arcsin(1/2)", 1f64.asin() + 0.5f64.asin());
+    is("acos(-1) + arccos(1/2)", std::f64::consts::PI + 0.5f64.acos());
+    is("atan2(1, -2)", 1f64.atan2(-2.0));
+    is("sign(-x) + sgn(x) + sign(3)", 1.0);
+    is("min(x, 1 + x) + max(x, 1 + x)", 2.0 * x + 1.0);
+}
+
+#[test]
 fn integrals_give_their_integrand_and_variable() {
     let formula = read("exp(∫(2*x, y) + integral(k, ω3))");
     assert!(formula.has_antiderivative(), "it contains integrals");
@@ -147,15 +174,16 @@ fn a_name_of_the_scope_wins() {
     struct Odd;
     impl Scope for Odd {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
-            let place = ["E", "det", "gamma"].iter().position(|known| *known == name)?;
+            let place = ["E", "det", "gamma", "e"].iter().position(|known| *known == name)?;
             Some((Symbol(place as u32), Type::Scalar))
         }
         fn names(&self) -> Vec<String> {
             Vec::new()
         }
     }
-    let formula = Formula::parse("E*det*gamma", &Odd).expect("three scalars");
+    let formula = Formula::parse("E*det*gamma*e", &Odd).expect("four scalars");
     assert_eq!(formula.value_type(), Type::Scalar, "neither a matrix nor a function");
+    assert_eq!(formula.symbols().count(), 4, "nor a constant");
     let error = Formula::parse("det(E)", &Odd).expect_err("det is a scalar here");
     assert_eq!(error.help(), Some("write `det*(E)`"));
 }
@@ -187,6 +215,8 @@ fn reading_and_evaluating_keep_within_a_small_stack() {
             ("(1 + γ1*(", "))", 95),
             ("[1,2,3]*((γ,γ + γ × 2*", "))", 95),
             ("-", "", 190),
+            ("sum(i, 1..1, ", ")", 190),
+            ("if(1 = 1, ", ", 0)", 190),
         ] {
             // most of these are no formulas of fitting types; all must come back
             let text = format!("{}x{}", open.repeat(times), close.repeat(times));

@@ -7,7 +7,7 @@ struct Letters;
 impl Scope for Letters {
     fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
         let kinds =
-            [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::Vector), ("J", Type::Matrix)];
+            [("m", Type::Scalar), ("k", Type::Scalar), ("ω", Type::VECTOR), ("J", Type::MATRIX)];
         let place = kinds.iter().position(|(known, _)| *known == name)?;
         Some((Symbol(place as u32), kinds[place].1))
     }
@@ -59,4 +59,6 @@ fn brackets_are_those_that_the_tree_needs() {
     assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
     assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
     assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
+    assert_eq!(set("2*π*e^m"), "2 π exp(m)", "constants");
+    assert_eq!(set("max(m, k)*sinh(2*m)"), "max(m,k) sinh(2 m)", "of several arguments");
 }

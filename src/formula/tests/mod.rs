@@ -1,6 +1,7 @@
 //! Tests of the whole language, over one small scope.
 
 mod errors;
+mod forms;
 mod language;
 mod layout;
 mod logarithm;
@@ -12,20 +13,25 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Formula, FormulaError, Scope, Symbol, Type, Value};
 
 /// The names the tests use.
-const NAMES: [(&str, Type); 13] = [
+const NAMES: [(&str, Type); 18] = [
     ("m", Type::Scalar),
     ("R", Type::Scalar),
     ("k", Type::Scalar),
     ("x", Type::Scalar),
     ("y", Type::Scalar),
     ("g1", Type::Scalar),
-    ("γ", Type::Vector),
-    ("ω", Type::Vector),
-    ("c", Type::Vector),
-    ("r'", Type::Vector),
-    ("I", Type::Matrix),
-    ("Ĩ", Type::Matrix),
-    ("B", Type::Matrix),
+    ("γ", Type::VECTOR),
+    ("ω", Type::VECTOR),
+    ("c", Type::VECTOR),
+    ("r'", Type::VECTOR),
+    ("I", Type::MATRIX),
+    ("Ĩ", Type::MATRIX),
+    ("B", Type::MATRIX),
+    ("u", Type::Vector(4)),
+    ("v", Type::Vector(4)),
+    ("A", Type::Matrix(4, 4)),
+    ("P", Type::Matrix(2, 4)),
+    ("n", Type::Scalar),
 ];
 
 struct Names;
@@ -39,6 +45,10 @@ impl Scope for Names {
     fn names(&self) -> Vec<String> {
         NAMES.iter().map(|(name, _)| name.to_string()).collect()
     }
+
+    fn whole_number(&self, name: &str) -> Option<i64> {
+        (name == "n").then_some(4)
+    }
 }
 
 fn symbol(name: &str) -> Symbol {
@@ -50,11 +60,16 @@ fn value_of(Symbol(number): Symbol) -> Value<f64> {
     let place = number as usize;
     let entry = |i: usize| 0.5 + 0.37 * ((7 * place + 3 * i + i * i * place) % 11) as f64;
     match NAMES[place].1 {
+        Type::Scalar if NAMES[place].0 == "n" => Value::Scalar(4.0),
         Type::Scalar => Value::Scalar(entry(0) + 0.25 * place as f64),
-        Type::Vector => Value::Vector(Vector3::from_fn(|i, _| entry(i))),
-        Type::Matrix => Value::Matrix(Matrix3::from_fn(|i, j| {
+        Type::VECTOR => Value::Vector(Vector3::from_fn(|i, _| entry(i))),
+        Type::MATRIX => Value::Matrix(Matrix3::from_fn(|i, j| {
             entry(i + 2 * j) + if i == j { 6.0 } else { 0.0 }
         })),
+        other => {
+            let components: Vec<f64> = (0..other.size()).map(entry).collect();
+            Value::from_components(other, &components)
+        }
     }
 }
 

@@ -42,6 +42,8 @@ fn operations_carry_weights() {
     weighs("∫(ω1, ω2) + ω3²", whole(-2));
     weighs("ln(ω3) + 1", whole(0));
     weighs("exp(ω1/ω2)*sin(2)", whole(0));
+    weighs("π*e*sign(ω1)*tanh(ω1/ω2)*atan2(ω1, ω2)", whole(0));
+    weighs("max(ω1, ω2) − min(ω1, 0)", whole(-1));
     weighs("|ω1|^(3/2)", Some(Rational::new(-3, 2)));
 }
 
@@ -76,6 +78,13 @@ fn unequal_terms_are_named() {
         "vec(x, x*ω1, 0)",
     );
     unequal("exp(ω3)", "the argument of exp must have weight 0: `ω3` scales as time^-1", "ω3");
+    let cosh = "the argument of cosh must have weight 0: `ω3` scales as time^-1";
+    unequal("cosh(ω3)", cosh, "ω3");
+    unequal(
+        "max(ω3, γ3)",
+        "terms of unequal weight: `ω3` scales as time^-1, `γ3` as time^0",
+        "max(ω3, γ3)",
+    );
     unequal("m^ω3", "an exponent must have weight 0: `ω3` scales as time^-1", "ω3");
 }
 

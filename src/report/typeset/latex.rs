@@ -54,7 +54,9 @@ fn name(letter: &str, kind: Type, index: &str, primes: usize) -> String {
     let mut text = match (kind, plain.chars().count()) {
         (_, 2..) => format!("\\mathit{{{}}}", plain.chars().map(letters).collect::<String>()),
         (Type::Scalar, _) => letters_of(&plain),
-        (Type::Vector | Type::Matrix, _) => format!("\\boldsymbol{{{}}}", letters_of(&plain)),
+        (Type::Vector(_) | Type::Matrix(..), _) => {
+            format!("\\boldsymbol{{{}}}", letters_of(&plain))
+        }
     };
     if tilde {
         text = format!("\\tilde{{{text}}}");

@@ -49,8 +49,8 @@ fn row(layout: &Layout) -> String {
 fn name(letter: &str, kind: Type, index: &str, primes: usize) -> String {
     let class = match kind {
         Type::Scalar => "",
-        Type::Vector => " class=\"vector\"",
-        Type::Matrix => " class=\"matrix\"",
+        Type::Vector(_) => " class=\"vector\"",
+        Type::Matrix(..) => " class=\"matrix\"",
     };
     let (plain, tilde) = without_tilde(letter);
     let mut text = match plain.strip_prefix('∂').filter(|rest| !rest.is_empty()) {
@@ -94,12 +94,12 @@ mod tests {
             "an index"
         );
         assert_eq!(
-            set("Ĩ", Type::Matrix),
+            set("Ĩ", Type::MATRIX),
             "<math><mover accent=\"true\"><mi class=\"matrix\">I</mi><mo>~</mo></mover></math>",
             "a tilde"
         );
         assert_eq!(
-            set("ω'", Type::Vector),
+            set("ω'", Type::VECTOR),
             "<math><msup><mi class=\"vector\">ω</mi><mo>′</mo></msup></math>",
             "a rate"
         );

@@ -1,5 +1,7 @@
 //! How a bracket is written: its entries as formulas, and in the case that asks about it.
 
+use std::cmp::Ordering;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{Signed, Zero};
@@ -75,9 +77,10 @@ impl Family<'_> {
             let place =
                 (0..low).map(|k| count - 1 - k).sum::<usize>() + high.saturating_sub(low + 1);
             let text = entries.get(place).map_or("0", String::as_str);
-            match i < j {
-                true => text.to_string(),
-                false => format!("−({text})"),
+            match i.cmp(&j) {
+                Ordering::Less => text.to_string(),
+                Ordering::Equal => "0".to_string(),
+                Ordering::Greater => format!("−({text})"),
             }
         };
         let list = |row: Vec<String>| format!("[{}]", row.join(", "));
@@ -97,17 +100,22 @@ impl Family<'_> {
                 let block = match (a.kind, b.kind) {
                     (Type::Scalar, Type::Scalar) if i == j => continue,
                     (Type::Scalar, Type::Scalar) => entry(*i, *j),
-                    (Type::Scalar, _) => list((0..3).map(|k| entry(*i, j + k)).collect()),
-                    (_, Type::Scalar) => list((0..3).map(|k| entry(i + k, *j)).collect()),
+                    (Type::Scalar, across) => {
+                        list((0..across.size()).map(|k| entry(*i, j + k)).collect())
+                    }
+                    (down, Type::Scalar) => {
+                        list((0..down.size()).map(|k| entry(i + k, *j)).collect())
+                    }
                     // hat(u) has −u₃, u₂, −u₁ above its diagonal.
-                    _ if i == j => {
+                    (Type::VECTOR, _) if i == j => {
                         let axis = vec![entry(i + 2, i + 1), entry(*i, i + 2), entry(i + 1, *i)];
                         format!("hat({})", list(axis))
                     }
-                    _ => {
-                        let row = |k: usize| list((0..3).map(|l| entry(i + k, j + l)).collect());
-                        let (first, second, third) = (row(0), row(1), row(2));
-                        format!("[1,0,0] ⊗ {first} + [0,1,0] ⊗ {second} + [0,0,1] ⊗ {third}")
+                    (down, across) => {
+                        let row = |k: usize| {
+                            list((0..across.size()).map(|l| entry(i + k, j + l)).collect())
+                        };
+                        list((0..down.size()).map(row).collect())
                     }
                 };
                 let key = format!("{},{}", a.name, b.name);

@@ -48,7 +48,7 @@ pub fn brackets(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let model = &case.model;
-    let is_matrix = model.state.iter().any(|variable| variable.kind == Type::Matrix);
+    let is_matrix = model.state.iter().any(|variable| matches!(variable.kind, Type::Matrix(..)));
     if !model.level.is_empty()
         || !model.extension.is_empty()
         || model.dimension() > DIMENSION

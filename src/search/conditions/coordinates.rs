@@ -13,9 +13,15 @@ pub fn components(case: &Case) -> Vec<Term> {
         let name = &parameter.name;
         match parameter.kind {
             Type::Scalar => vec![name.clone()],
-            Type::Vector => (1..=3).map(|i| format!("{name}{i}")).collect(),
-            Type::Matrix => {
-                let pairs = (1..=3).flat_map(|i| (i..=3).map(move |j| (i, j)));
+            Type::Vector(_) | Type::Matrix(..) if parameter.kind.size() > 9 => {
+                let indices = parameter.kind.indices().into_iter();
+                indices.map(|index| format!("{name}{index}")).collect()
+            }
+            Type::Vector(length) => (1..=length).map(|i| format!("{name}{i}")).collect(),
+            Type::Matrix(rows, columns) => {
+                let upper = rows == columns;
+                let first = move |i: usize| if upper { i } else { 1 };
+                let pairs = (1..=rows).flat_map(|i| (first(i)..=columns).map(move |j| (i, j)));
                 let entry = |(i, j)| match name == "I" && i == j {
                     true => format!("I{i}"),
                     false => format!("{name}{i}{j}"),

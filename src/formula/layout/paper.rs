@@ -1,51 +1,10 @@
-//! How a formula looks on paper: boxes made from its tree, for any typesetter.
-//!
-//! Brackets are those that the tree needs; products stand side by side, quotients over each other,
-//! and in line within exponents.
+//! The tree of a formula becomes boxes.
 
-use super::Formula;
-use super::arena::{Arena, Function, NodeId, Operation};
-use super::scope::Symbol;
-use super::value::Type;
+use super::Layout;
+use crate::formula::arena::{Arena, Constant, Extreme, Function, NodeId, Operation};
+use crate::formula::kind::Type;
+use crate::formula::scope::Symbol;
 use crate::number::rational::Rational;
-
-/// A box on paper.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Layout {
-    /// Digits, without a sign.
-    Number(String),
-    /// A name: letter, what it stands for, index, and how many primes.
-    Name {
-        /// One letter, perhaps with an accent, or a word.
-        letter: String,
-        /// Vectors and matrices are set bold.
-        kind: Type,
-        /// The index; empty where there is none.
-        index: String,
-        /// Primes.
-        primes: usize,
-    },
-    /// The name of a function, upright.
-    Word(&'static str),
-    /// A sign between or before others.
-    Sign(&'static str),
-    /// The small space of a product.
-    Space,
-    /// Boxes in a row.
-    Row(Vec<Layout>),
-    /// Between brackets or bars.
-    Fenced(&'static str, Box<Layout>, &'static str),
-    /// One over the other.
-    Fraction(Box<Layout>, Box<Layout>),
-    /// Under a root.
-    Root(Box<Layout>),
-    /// With an exponent.
-    Raised(Box<Layout>, Box<Layout>),
-    /// With an index.
-    Lowered(Box<Layout>, Box<Layout>),
-    /// Rows of a matrix.
-    Matrix(Vec<Vec<Layout>>),
-}
 
 /// How tightly a box holds together; one that is looser than its place asks for gets brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,64 +18,14 @@ enum Bond {
 
 type Bonded = (Layout, Bond);
 
-impl Layout {
-    /// A name by itself.
-    pub fn name(text: &str, kind: Type) -> Self {
-        let bare = text.trim_end_matches('\'');
-        let primes = text.len() - bare.len();
-        let (letter, index) = match bare.split_once('_') {
-            Some((letter, index)) => (letter, index),
-            None => bare.split_at(bare.trim_end_matches(|c: char| c.is_ascii_digit()).len()),
-        };
-        let (letter, index) = (letter.to_string(), index.to_string());
-        Layout::Name { letter, kind, index, primes }
-    }
-
-    /// left = right
-    pub fn equation(left: Layout, right: Layout) -> Self {
-        Layout::Row(vec![left, Layout::Sign("="), right])
-    }
-
-    /// left ↦ right
-    pub fn image(left: Layout, right: Layout) -> Self {
-        Layout::Row(vec![left, Layout::Sign("↦"), right])
-    }
-
-    /// Is it so high that brackets around it have to grow?
-    pub fn is_tall(&self) -> bool {
-        match self {
-            Layout::Fraction(..) | Layout::Matrix(_) => true,
-            Layout::Row(parts) => parts.iter().any(Layout::is_tall),
-            Layout::Fenced(_, inner, _) | Layout::Root(inner) => inner.is_tall(),
-            Layout::Raised(base, _) | Layout::Lowered(base, _) => base.is_tall(),
-            Layout::Number(_)
-            | Layout::Name { .. }
-            | Layout::Word(_)
-            | Layout::Sign(_)
-            | Layout::Space => false,
-        }
-    }
-
-    fn fenced(self) -> Self {
-        Layout::Fenced("(", Box::new(self), ")")
-    }
-
-    fn raised(self, exponent: Layout) -> Self {
-        Layout::Raised(Box::new(self), Box::new(exponent))
-    }
-}
-
-impl Formula {
-    /// The formula as it looks on paper, with the names that symbols have.
-    pub fn layout(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
-        let paper = Paper { arena: &self.arena, names };
-        paper.set(self.arena.nodes.len() - 1, false).0
-    }
-}
-
 struct Paper<'f> {
     arena: &'f Arena,
     names: &'f dyn Fn(Symbol) -> String,
+}
+
+/// The box of the whole formula.
+pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String) -> Layout {
+    Paper { arena, names }.set(arena.nodes.len() - 1, false).0
 }
 
 impl Paper<'_> {
@@ -126,8 +35,10 @@ impl Paper<'_> {
         let whole = |layout| (layout, Bond::Whole);
         match &self.arena.nodes[node].operation {
             Number(value) => number(value, inline),
+            Constant(value) => whole(Layout::name(letter(*value), Type::Scalar)),
             Symbol(slot) => whole(self.symbol(*slot)),
-            Identity => whole(Layout::name("E", Type::Matrix)),
+            Identity => whole(Layout::name("E", Type::MATRIX)),
+            Zero => whole(digits("0")),
             Negate(a) => {
                 let positive = self.at(*a, Bond::Product, inline);
                 (Layout::Row(vec![Layout::Sign("−"), positive]), Bond::Sum)
@@ -180,18 +91,23 @@ impl Paper<'_> {
                 ];
                 (Layout::Row(parts), Bond::Product)
             }
-            Component(a, i) => whole(self.indexed(*a, (i + 1).to_string(), inline)),
+            Component(a, i) | Row(a, i) => whole(self.indexed(*a, (i + 1).to_string(), inline)),
             Entry(a, i, j) if i == j => whole(self.indexed(*a, (i + 1).to_string(), inline)),
-            Entry(a, i, j) => whole(self.indexed(*a, format!("{}{}", i + 1, j + 1), inline)),
+            Entry(a, i, j) => {
+                let comma = if *i.max(j) < 9 { "" } else { "," };
+                whole(self.indexed(*a, format!("{}{comma}{}", i + 1, j + 1), inline))
+            }
             Adjugate(a) => self.applied("adj", *a, inline),
             Determinant(a) => self.applied("det", *a, inline),
             Trace(a) => self.applied("tr", *a, inline),
             Diagonal(a) => self.applied("diag", *a, inline),
+            Sum(terms) => self.chain(terms, Some("+"), Bond::Sum, inline),
+            Product(factors) => self.chain(factors, None, Bond::Product, inline),
             Vector(parts) => whole(self.list(parts, inline)),
-            Rows(rows) => {
-                whole(Layout::Matrix(rows.iter().map(|row| self.row(*row, inline)).collect()))
-            }
+            Rows(rows) => whole(self.matrix(rows, inline)),
             Function(function, a) => self.function(*function, *a, inline),
+            Angle(y, x) => self.called("atan2", &[*y, *x], inline),
+            Extreme(which, all) => self.called(which_word(*which), all, inline),
             Antiderivative(f, x) => {
                 let parts = vec![
                     Layout::Sign("∫"),
@@ -268,6 +184,11 @@ impl Paper<'_> {
         (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), Bond::Power)
     }
 
+    /// `max(a,b)`
+    fn called(&self, word: &'static str, arguments: &[NodeId], inline: bool) -> Bonded {
+        (Layout::Row(vec![Layout::Word(word), self.list(arguments, inline)]), Bond::Power)
+    }
+
     fn indexed(&self, a: NodeId, digits: String, inline: bool) -> Layout {
         if let Operation::Symbol(slot) = self.arena.nodes[a].operation
             && let Layout::Name { letter, index, primes, .. } = self.symbol(slot)
@@ -281,22 +202,53 @@ impl Paper<'_> {
 
     fn list(&self, parts: &[NodeId], inline: bool) -> Layout {
         let mut row = Vec::new();
-        for part in parts {
+        for part in shown(parts) {
             if !row.is_empty() {
                 row.push(Layout::Sign(","));
             }
-            row.push(self.set(*part, inline).0);
+            row.push(part.map_or(Layout::Sign("…"), |part| self.set(*part, inline).0));
         }
         Layout::Row(row).fenced()
     }
 
+    fn matrix(&self, rows: &[NodeId], inline: bool) -> Layout {
+        let lines: Vec<Option<Vec<Layout>>> =
+            shown(rows).into_iter().map(|row| row.map(|row| self.row(*row, inline))).collect();
+        let width = lines.iter().flatten().map(Vec::len).max().unwrap_or(1);
+        let dots = || vec![Layout::Sign("…"); width];
+        Layout::Matrix(lines.into_iter().map(|line| line.unwrap_or_else(dots)).collect())
+    }
+
     fn row(&self, node: NodeId, inline: bool) -> Vec<Layout> {
         match &self.arena.nodes[node].operation {
-            Operation::Vector(parts) => {
-                parts.iter().map(|part| self.set(*part, inline).0).collect()
-            }
+            Operation::Vector(parts) => shown(parts)
+                .into_iter()
+                .map(|part| part.map_or(Layout::Sign("…"), |part| self.set(*part, inline).0))
+                .collect(),
             _ => vec![self.set(node, inline).0],
         }
+    }
+
+    /// Terms or factors in a row, those in the middle of a long one left out.
+    fn chain(
+        &self,
+        parts: &[NodeId],
+        sign: Option<&'static str>,
+        bond: Bond,
+        inline: bool,
+    ) -> Bonded {
+        if let [only] = parts {
+            return self.set(*only, inline);
+        }
+        let mut row = Vec::new();
+        for part in shown(parts) {
+            if !row.is_empty() {
+                row.push(sign.map_or(Layout::Space, Layout::Sign));
+            }
+            let tighter = if bond == Bond::Sum { Bond::Cross } else { Bond::Power };
+            row.push(part.map_or(Layout::Sign("…"), |part| self.at(*part, tighter, inline)));
+        }
+        (Layout::Row(row), bond)
     }
 
     fn function(&self, function: Function, a: NodeId, inline: bool) -> Bonded {
@@ -315,10 +267,46 @@ impl Paper<'_> {
             Function::Sin => "sin",
             Function::Cos => "cos",
             Function::Tan => "tan",
+            Function::Asin => "arcsin",
+            Function::Acos => "arccos",
             Function::Atan => "arctan",
+            Function::Sinh => "sinh",
+            Function::Cosh => "cosh",
+            Function::Tanh => "tanh",
+            Function::Asinh => "arsinh",
+            Function::Acosh => "arcosh",
+            Function::Atanh => "artanh",
+            Function::Sign => "sgn",
         };
         let argument = self.set(a, inline).0.fenced();
         (Layout::Row(vec![Layout::Word(word), argument]), Bond::Power)
+    }
+}
+
+/// How many parts of a list, a sum or a matrix are shown.
+const MOST_SHOWN: usize = 6;
+
+/// The parts that are shown: all, or the first two and the last, with a gap between.
+fn shown(parts: &[NodeId]) -> Vec<Option<&NodeId>> {
+    match parts {
+        [first, second, .., last] if parts.len() > MOST_SHOWN => {
+            vec![Some(first), Some(second), None, Some(last)]
+        }
+        _ => parts.iter().map(Some).collect(),
+    }
+}
+
+fn letter(constant: Constant) -> &'static str {
+    match constant {
+        Constant::Pi => "π",
+        Constant::Euler => "e",
+    }
+}
+
+fn which_word(which: Extreme) -> &'static str {
+    match which {
+        Extreme::Least => "min",
+        Extreme::Greatest => "max",
     }
 }
 

@@ -1,0 +1,87 @@
+//! Formulas of a file: read in the names that are known, checked for their kind and their reach.
+
+use super::error::{Mistake, Problem};
+use super::section::Text;
+use crate::formula::{Formula, Scope, Type};
+use crate::mechanics::{Meaning, Reach, Vocabulary};
+
+/// Reads a formula and checks its kind and what it depends on.
+pub fn formula(
+    text: &Text,
+    vocabulary: &Vocabulary,
+    what: &str,
+    expected: Option<Type>,
+    reach: Reach,
+) -> Result<Formula, Mistake> {
+    inside(text, ("", ""), vocabulary, what, expected, reach)
+}
+
+/// Reads a formula of which the file holds what stands between two ends.
+pub fn inside(
+    text: &Text,
+    (before, after): (&str, &str),
+    vocabulary: &Vocabulary,
+    what: &str,
+    expected: Option<Type>,
+    reach: Reach,
+) -> Result<Formula, Mistake> {
+    let whole = || text.locate(0..text.value.len());
+    if !before.is_empty() && !is_balanced(&text.value) {
+        let message = "the brackets of this formula do not match".to_string();
+        let remedy = "give each bracket its partner".to_string();
+        return Err(Mistake::at(whole(), Problem::Other { message, remedy }));
+    }
+    let written = format!("{before}{}{after}", text.value);
+    let formula = Formula::parse(&written, vocabulary).map_err(|error| {
+        let place = error.span();
+        let end = before.len() + text.value.len();
+        let is_inside = before.len() <= place.start && place.end <= end;
+        let place = match is_inside {
+            true => text.locate(place.start - before.len()..place.end - before.len()),
+            false => whole(),
+        };
+        Mistake::at(place, Problem::Formula(error))
+    })?;
+    if let Some(expected) = expected.filter(|expected| *expected != formula.value_type()) {
+        let (what, found) = (what.to_string(), formula.value_type());
+        return Err(Mistake::at(whole(), Problem::WrongKind { what, expected, found }));
+    }
+    match vocabulary.reach(&formula) {
+        Some(entry) if entry.reach > reach => {
+            let allowed = match reach {
+                Reach::Parameters => "parameters".to_string(),
+                _ => format!("{} and parameters", position(vocabulary)),
+            };
+            let (what, name) = (what.to_string(), entry.name.clone());
+            Err(Mistake::at(whole(), Problem::Reach { what, allowed, name }))
+        }
+        _ => Ok(formula),
+    }
+}
+
+/// Does every bracket close one that stands before it?
+fn is_balanced(text: &str) -> bool {
+    let mut open = Vec::new();
+    for letter in text.chars() {
+        match letter {
+            '(' | '[' => open.push(letter),
+            ')' if open.pop() != Some('(') => return false,
+            ']' if open.pop() != Some('[') => return false,
+            _ => {}
+        }
+    }
+    open.is_empty()
+}
+
+/// What a system calls the part of its state that shapes and potentials are functions of.
+fn position(vocabulary: &Vocabulary) -> &str {
+    let mut names = vocabulary.iter().filter(|(symbol, entry)| {
+        let is_state = matches!(entry.meaning, Meaning::State(_));
+        let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == *symbol);
+        is_state && is_found && entry.reach == Reach::Configuration
+    });
+    match (names.next(), names.next()) {
+        (Some((_, only)), None) => &only.name,
+        _ => "the state",
+    }
+}

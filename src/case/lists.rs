@@ -1,0 +1,106 @@
+//! Is a list of numbers a vector, or the diagonal of a matrix? Its use decides.
+//!
+//! Lists are vectors, except those that have to be diagonal matrices for all formulas of the file to
+//! have a meaning: as few as possible. Where no choice gives all of them one, a list that is used in
+//! both ways is told.
+
+use std::collections::BTreeSet;
+
+use super::build::Attempt;
+use super::error::{Mistake, Problem};
+
+/// Beyond so many lists, not more than two of them are tried as matrices at once.
+const MOST_TRIED: usize = 6;
+
+/// Reads a file with the right choice, where `read` reads it with some lists as matrices.
+pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
+    let mut best = read(&BTreeSet::new());
+    let mut chosen = BTreeSet::new();
+    if of_kind(&best) == 0 {
+        return best;
+    }
+    // tensors of inertia and of shape are likelier than others
+    let mut lists = best.lists.clone();
+    lists.sort_by_key(|name| (name != "I", name != "B"));
+    lists.dedup();
+    for subset in subsets(&lists) {
+        let attempt = read(&subset);
+        if of_kind(&attempt) < of_kind(&best) {
+            (best, chosen) = (attempt, subset);
+        }
+        if of_kind(&best) == 0 {
+            return best;
+        }
+    }
+    for name in &lists {
+        let mut other = chosen.clone();
+        if !other.remove(name) {
+            other.insert(name.clone());
+        }
+        tell(&mut best, &read(&other), name, chosen.contains(name));
+    }
+    best
+}
+
+/// How many mistakes there are that a list of the wrong kind may make.
+fn of_kind(attempt: &Attempt) -> usize {
+    attempt.mistakes.iter().filter(|mistake| may_be_of_kind(mistake)).count()
+}
+
+/// Could the mistake come from the kind of a name?
+fn may_be_of_kind(mistake: &Mistake) -> bool {
+    match &mistake.problem {
+        Problem::Formula(error) => error.unknown_name().is_none(),
+        Problem::UnknownKey { .. }
+        | Problem::BadName { .. }
+        | Problem::WrongType { .. }
+        | Problem::Parameter(_)
+        | Problem::Sense { .. }
+        | Problem::Cycle(..) => false,
+        _ => true,
+    }
+}
+
+/// Some of the lists at a time, few before many.
+fn subsets(lists: &[String]) -> Vec<BTreeSet<String>> {
+    if lists.len() > MOST_TRIED {
+        let single = lists.iter().map(|name| BTreeSet::from([name.clone()]));
+        let pairs = lists.iter().enumerate().flat_map(|(k, a)| {
+            lists[k + 1..].iter().map(|b| BTreeSet::from([a.clone(), b.clone()]))
+        });
+        return single.chain(pairs).chain([lists.iter().cloned().collect()]).collect();
+    }
+    let mut masks: Vec<u32> = (1..1 << lists.len()).collect();
+    masks.sort_by_key(|mask| mask.count_ones());
+    let chosen = |mask: u32| {
+        let inside = lists.iter().enumerate().filter(move |(k, _)| mask >> k & 1 == 1);
+        inside.map(|(_, name)| name.clone()).collect()
+    };
+    masks.into_iter().map(chosen).collect()
+}
+
+/// Tells that a list is used in both ways, where the other choice mends one mistake and makes others.
+fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
+    let is_in = |mistake: &Mistake, list: &[Mistake]| {
+        list.iter().any(|known| known.span == mistake.span && known.message() == mistake.message())
+    };
+    let is_new = |mistake: &&Mistake| may_be_of_kind(mistake) && !is_in(mistake, &best.mistakes);
+    let makes_others = other.mistakes.iter().any(|mistake| is_new(&mistake));
+    let (there, here) = match is_diagonal {
+        true => ("a diagonal matrix", "a vector"),
+        false => ("a vector", "a diagonal matrix"),
+    };
+    let would_be_mended =
+        |mistake: &&mut Mistake| may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes);
+    for mistake in best.mistakes.iter_mut().filter(would_be_mended).filter(|_| makes_others) {
+        mistake.problem = Problem::Other {
+            message: format!(
+                "the list `{name}` is {there} in other formulas, and {here} in this one"
+            ),
+            remedy: format!(
+                "declare the one as {name} = \"vec(…)\" and the other, under another name, as \
+                 \"diag(…)\""
+            ),
+        };
+    }
+}

@@ -1,0 +1,139 @@
+//! The mistakes of a file, gathered while it is read.
+
+use std::cell::{Cell, RefCell};
+
+use rustc_hash::FxHashSet;
+
+use super::error::{Mistake, Problem};
+use crate::formula::canonical_name;
+
+/// What is wrong so far, and which names are unknown for that reason alone.
+#[derive(Default)]
+pub struct Mistakes {
+    list: RefCell<Vec<Mistake>>,
+    failed: RefCell<FxHashSet<String>>,
+    /// Abbreviations that are not known yet because they contain rates.
+    waiting: RefCell<Vec<String>>,
+    /// Are there tables that could not be read, so that any name may be unknown?
+    blind: Cell<bool>,
+}
+
+impl Mistakes {
+    /// What was read, or nothing, with the mistake noted.
+    pub fn keep<T>(&self, result: Result<T, Mistake>) -> Option<T> {
+        result.map_err(|mistake| self.add(mistake)).ok()
+    }
+
+    /// Notes a mistake, unless it follows from another.
+    pub fn add(&self, mistake: Mistake) {
+        if mistake.unknown_name().is_some_and(|name| self.has_failed(name)) {
+            return;
+        }
+        let mistake = self.explained(mistake);
+        let mut list = self.list.borrow_mut();
+        let is_known =
+            |known: &Mistake| known.span == mistake.span && known.message() == mistake.message();
+        if !list.iter().any(is_known) {
+            list.push(mistake);
+        }
+    }
+
+    /// A name that is not known yet is no unknown one.
+    fn explained(&self, mistake: Mistake) -> Mistake {
+        let written = mistake.unknown_name().unwrap_or_default();
+        let name = canonical_name(written).unwrap_or_default();
+        let waiting = self.waiting.borrow();
+        match bases(&name).find_map(|base| waiting.iter().find(|known| *known == base)) {
+            None => mistake,
+            Some(name) => {
+                let message = format!("`{name}` contains a rate, which [field] defines");
+                let remedy = "write the formula out, without rates".to_string();
+                Mistake::new(mistake.span, Problem::Other { message, remedy })
+            }
+        }
+    }
+
+    /// Notes which abbreviations are not known yet.
+    pub fn wait_for(&self, names: Vec<String>) {
+        *self.waiting.borrow_mut() = names;
+    }
+
+    /// Notes that a name is declared, but not known for a mistake in its declaration.
+    pub fn fail(&self, name: &str) {
+        self.failed.borrow_mut().insert(name.to_string());
+    }
+
+    /// Notes that names may be unknown because a whole table was not read.
+    pub fn blind(&self) {
+        self.blind.set(true);
+    }
+
+    /// Is the name, as written, unknown because of a mistake elsewhere?
+    pub fn has_failed(&self, written: &str) -> bool {
+        if self.blind.get() {
+            return true;
+        }
+        let failed = self.failed.borrow();
+        let name = canonical_name(written).unwrap_or_else(|| written.to_string());
+        bases(&name).any(|base| failed.contains(base))
+    }
+
+    /// Is nothing wrong so far?
+    pub fn is_empty(&self) -> bool {
+        self.list.borrow().is_empty()
+    }
+
+    /// All mistakes, without those keys that are missing where a key is misspelt.
+    pub fn into_list(self) -> Vec<Mistake> {
+        let mut list = self.list.into_inner();
+        let misspelt: Vec<String> = list
+            .iter()
+            .filter_map(|mistake| match &mistake.problem {
+                Problem::UnknownKey { section, .. } => Some(section.clone()),
+                _ => None,
+            })
+            .collect();
+        list.retain(|mistake| match &mistake.problem {
+            Problem::MissingKey { section, .. } | Problem::Incomplete { section, .. } => {
+                !misspelt.contains(section)
+            }
+            _ => true,
+        });
+        list
+    }
+}
+
+/// The declared names that a name may be read as: itself, what it is a component of, or the rate of.
+pub fn bases(name: &str) -> impl Iterator<Item = &str> {
+    let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let plain = bare.trim_end_matches('_');
+    let own = [name, bare, plain].into_iter();
+    own.chain([name, bare].map(|name| name.trim_end_matches('\'')))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_follows_from_a_failed_name_is_left_out() {
+        let mistakes = Mistakes::default();
+        mistakes.fail("γ");
+        for name in ["γ", "gamma3", "γ'", "γ'2", "γ_1"] {
+            assert!(mistakes.has_failed(name), "`{name}` is of γ");
+        }
+        assert!(!mistakes.has_failed("ω"), "another name");
+        mistakes.blind();
+        assert!(mistakes.has_failed("ω"), "anything may be meant");
+    }
+
+    #[test]
+    fn the_same_mistake_is_told_once() {
+        let mistakes = Mistakes::default();
+        for _ in 0..2 {
+            mistakes.add(Mistake::at(3..4, Problem::Parameter("wrong".to_string())));
+        }
+        mistakes.add(Mistake::at(5..6, Problem::Parameter("wrong".to_string())));
+        assert_eq!(mistakes.into_list().len(), 2, "two places");
+    }
+}

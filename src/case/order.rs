@@ -1,0 +1,185 @@
+//! Parameters and abbreviations stand in any order: each is read after those that it uses.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::error::{Mistake, Problem};
+use super::mistakes::bases;
+use super::section::Text;
+use super::systems::Reading;
+use crate::formula::canonical_name;
+
+/// A name of `[parameters]` or `[let]` that waits for what it uses.
+pub struct Item<'s> {
+    /// Its canonical name.
+    pub name: String,
+    /// Where the name stands.
+    pub key: Range<usize>,
+    /// What is read under it.
+    pub kind: ItemKind<'s>,
+    state: State,
+}
+
+/// What is read under a name.
+#[derive(Clone)]
+pub enum ItemKind<'s> {
+    /// A parameter, by its number, with its value.
+    Parameter(usize, &'s Spanned<DeValue<'s>>),
+    /// An abbreviation, with its formula.
+    Abbreviation(Text),
+}
+
+/// How far the reading of a file has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Only parameters have names; abbreviations are read if a parameter uses them.
+    Parameters,
+    /// The state and the quantities of the system have names.
+    State,
+    /// Rates have names too.
+    Rates,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Pending,
+    /// It is being read, and waits for what stands above it on the stack.
+    Open,
+    Done,
+    Failed,
+    /// It uses what has no name at this stage.
+    Later,
+}
+
+impl<'s> Item<'s> {
+    /// A name that is not read yet.
+    pub fn new(name: String, key: Range<usize>, kind: ItemKind<'s>) -> Self {
+        Self { name, key, kind, state: State::Pending }
+    }
+}
+
+impl Reading<'_, '_> {
+    /// Reads all names that can be read at this stage.
+    pub(super) fn settle(&mut self, stage: Stage) {
+        for item in &mut self.items {
+            if item.state == State::Later {
+                item.state = State::Pending;
+            }
+        }
+        for start in 0..self.items.len() {
+            let is_parameter = matches!(self.items[start].kind, ItemKind::Parameter(..));
+            let begins = is_parameter == (stage == Stage::Parameters);
+            if begins && self.items[start].state == State::Pending {
+                self.settle_from(start, stage);
+            }
+        }
+        let waits = |item: &&Item<'_>| stage == Stage::State && item.state == State::Later;
+        let names = self.items.iter().filter(waits).map(|item| item.name.clone());
+        self.mistakes().wait_for(names.collect());
+    }
+
+    /// Reads a name, and before it those that it uses.
+    fn settle_from(&mut self, start: usize, stage: Stage) {
+        let mut stack = vec![start];
+        while let Some(&top) = stack.last() {
+            self.items[top].state = State::Open;
+            let end = match self.read_item(top, stage) {
+                Ok(()) => State::Done,
+                Err(mistake) => match self.item_of(&mistake) {
+                    Some(other) if self.items[other].state == State::Pending => {
+                        stack.push(other);
+                        continue;
+                    }
+                    Some(other) if self.items[other].state == State::Open => {
+                        self.cycle(&stack, other);
+                        for item in &stack {
+                            self.give_up(*item);
+                        }
+                        return;
+                    }
+                    Some(other) if self.items[other].state == State::Later => {
+                        self.later(top, other, stage)
+                    }
+                    Some(other) if self.items[other].state == State::Failed => {
+                        self.give_up(top);
+                        State::Failed
+                    }
+                    _ => self.trouble(top, mistake, stage),
+                },
+            };
+            self.items[top].state = end;
+            stack.pop();
+        }
+    }
+
+    fn read_item(&mut self, item: usize, stage: Stage) -> Result<(), Mistake> {
+        match self.items[item].kind.clone() {
+            ItemKind::Parameter(index, value) => self.read_parameter(index, item, value),
+            ItemKind::Abbreviation(text) => self.abbreviate(item, &text, stage),
+        }
+    }
+
+    /// The name that is missing where a formula cannot be read, if it is one that waits.
+    fn item_of(&self, mistake: &Mistake) -> Option<usize> {
+        let written = mistake.unknown_name()?;
+        let name = canonical_name(written).unwrap_or_else(|| written.to_string());
+        bases(&name).find_map(|base| self.items.iter().position(|item| item.name == base))
+    }
+
+    fn give_up(&mut self, item: usize) {
+        self.items[item].state = State::Failed;
+        self.mistakes().fail(&self.items[item].name);
+    }
+
+    /// A name uses another that cannot be read at this stage.
+    fn later(&mut self, item: usize, other: usize, stage: Stage) -> State {
+        if stage != Stage::Parameters || matches!(self.items[item].kind, ItemKind::Abbreviation(_))
+        {
+            return State::Later;
+        }
+        let (name, used) = (&self.items[item].name, &self.items[other].name);
+        let message =
+            format!("the parameter `{name}` uses `{used}`, which depends on more than parameters");
+        let remedy = format!("move `{name}` to [let]");
+        let span = self.items[item].key.clone();
+        self.mistakes().add(Mistake::at(span, Problem::Other { message, remedy }));
+        self.give_up(item);
+        State::Failed
+    }
+
+    /// A name cannot be read for another reason.
+    fn trouble(&mut self, item: usize, mistake: Mistake, stage: Stage) -> State {
+        let is_abbreviation = matches!(self.items[item].kind, ItemKind::Abbreviation(_));
+        let is_rate = |name: &str| {
+            let name = canonical_name(name).unwrap_or_default();
+            let variables = &self.state.variables;
+            bases(&name).any(|base| {
+                base.strip_suffix('\'')
+                    .is_some_and(|base| variables.iter().any(|variable| variable.name == base))
+            })
+        };
+        let waits = match stage {
+            // the state may come to have the name
+            Stage::Parameters => is_abbreviation && mistake.unknown_name().is_some(),
+            Stage::State => mistake.unknown_name().is_some_and(is_rate),
+            Stage::Rates => false,
+        };
+        if waits {
+            return State::Later;
+        }
+        self.mistakes().add(mistake);
+        self.give_up(item);
+        State::Failed
+    }
+
+    /// Tells that a name is defined by itself.
+    fn cycle(&self, stack: &[usize], first: usize) {
+        let start = stack.iter().position(|item| *item == first).unwrap_or_default();
+        let around = stack[start..].iter().chain([&first]);
+        let names: Vec<&str> = around.map(|item| self.items[*item].name.as_str()).collect();
+        let problem = Problem::Cycle(names[0].to_string(), names.join(" → "));
+        self.mistakes().add(Mistake::at(self.items[first].key.clone(), problem));
+    }
+}

@@ -1,0 +1,228 @@
+//! What a value of `[parameters]` or `[state]` says: a number, a list, a range with a shape, a formula.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::section::numbers;
+use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
+use crate::mechanics::{Draw, Range, Recipe};
+use crate::number::rational::{Rational, RationalError};
+
+/// What a value says.
+pub enum Given {
+    /// Components that are fixed.
+    Fixed(Type, Vec<Rational>),
+    /// Numbers that are a vector, or the diagonal of a matrix: its use decides.
+    List(Vec<Rational>),
+    /// Components drawn anew for every state.
+    Drawn(Recipe),
+    /// Anything else: to be read as a formula.
+    Formula(String),
+}
+
+/// Why a value cannot be read.
+pub enum Refusal {
+    /// It is none of the ways to write one.
+    Message(String),
+    /// A size in it, which begins so many bytes inside the text, cannot be read.
+    Size(FormulaError, usize),
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        Refusal::Message(message)
+    }
+}
+
+/// A list as a vector, or as a diagonal matrix.
+pub fn list(values: Vec<Rational>, is_diagonal: bool) -> (Type, Vec<Rational>) {
+    let count = values.len();
+    match is_diagonal {
+        false => (Type::Vector(count), values),
+        true => (Type::Matrix(count, count), diagonal(values)),
+    }
+}
+
+/// The meaning of a value; sizes are whole numbers in the names of `scope`.
+pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, Refusal> {
+    match value.get_ref() {
+        DeValue::Integer(number) => fixed_scalar(&number.to_string()),
+        DeValue::Float(number) => fixed_scalar(&number.to_string()),
+        DeValue::Array(array) => {
+            if let Some(entries) = numbers(array) {
+                let values = read_all(&entries)?;
+                if values.is_empty() {
+                    return Err("an empty list has no components".to_string())?;
+                }
+                sized(Type::Vector(values.len()))?;
+                return Ok(Given::List(values));
+            }
+            let rows: Option<Vec<Vec<String>>> = array
+                .iter()
+                .map(|row| match row.get_ref() {
+                    DeValue::Array(row) => numbers(row),
+                    _ => None,
+                })
+                .collect();
+            let width = rows.iter().flatten().map(Vec::len).next().unwrap_or(0);
+            match rows.filter(|rows| width > 0 && rows.iter().all(|row| row.len() == width)) {
+                Some(rows) => {
+                    let kind = sized(Type::Matrix(rows.len(), width))?;
+                    Ok(Given::Fixed(kind, read_all(&rows.concat())?))
+                }
+                None => Err("a matrix is a list of rows, each with as many numbers".to_string())?,
+            }
+        }
+        DeValue::String(text) => described(text, scope),
+        _ => Err("a parameter is a number, a list, a range or a formula".to_string())?,
+    }
+}
+
+fn sized(kind: Type) -> Result<Type, Refusal> {
+    match kind.size() <= MAX_COMPONENTS {
+        true => Ok(kind),
+        false => Err(format!(
+            "a {} is too large: there are at most {MAX_COMPONENTS} components",
+            kind.in_full()
+        ))?,
+    }
+}
+
+fn fixed_scalar(text: &str) -> Result<Given, Refusal> {
+    Ok(Given::Fixed(Type::Scalar, read_all(&[text.to_string()])?))
+}
+
+fn read_all(texts: &[String]) -> Result<Vec<Rational>, String> {
+    texts
+        .iter()
+        .map(|text| text.parse().map_err(|error: RationalError| error.to_string()))
+        .collect()
+}
+
+fn diagonal(values: Vec<Rational>) -> Vec<Rational> {
+    let count = values.len();
+    let mut entries = vec![Rational::from(0); count * count];
+    for (k, value) in values.into_iter().enumerate() {
+        entries[(count + 1) * k] = value;
+    }
+    entries
+}
+
+/// A string: a number, a range with its shape, a list of alternatives, or a formula.
+fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
+    let start = text.len() - text.trim_start().len();
+    let text = text.trim();
+    if let Ok(number) = text.parse::<Rational>() {
+        return Ok(Given::Fixed(Type::Scalar, vec![number]));
+    }
+    if text == "rotation" {
+        return Ok(Given::Drawn(Recipe::Rotation));
+    }
+    if let Some(list) = text.strip_prefix("one of ") {
+        let values: Vec<String> = list.split(',').map(|item| item.trim().to_string()).collect();
+        return Ok(Given::Drawn(Recipe::Scalar(Draw::OneOf(read_all(&values)?))));
+    }
+    let (shape, inner) = match text.split_once('(') {
+        Some((shape, rest)) if text.ends_with(')') => (shape.trim(), &rest[..rest.len() - 1]),
+        _ => ("", text),
+    };
+    let parts = arguments(inner);
+    // the range stands last; a form with indices has a body there
+    let Some((low, high)) = parts.last().and_then(|(_, last)| last.split_once("..")) else {
+        return Ok(Given::Formula(text.to_string()));
+    };
+    if low.contains(['(', '[']) || high.contains(['(', '[']) {
+        return Ok(Given::Formula(text.to_string()));
+    }
+    let range = range(low, high)?;
+    let inside = start + text.len() - inner.len() - usize::from(inner.len() < text.len());
+    let sizes = parts[..parts.len() - 1].iter().map(|(at, size)| {
+        let refused = |error| Refusal::Size(error, inside + at);
+        Formula::whole_number(size, scope).map_err(refused)
+    });
+    let sizes = sizes.collect::<Result<Vec<i64>, Refusal>>()?;
+    Ok(Given::Drawn(recipe(shape, &sizes, range)?))
+}
+
+/// The parts between commas that stand in no brackets, with the places where they begin.
+fn arguments(text: &str) -> Vec<(usize, &str)> {
+    let (mut depth, mut start) = (0i32, 0);
+    let mut parts = Vec::new();
+    for (place, letter) in text.char_indices() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            ',' if depth == 0 => {
+                parts.push((start, &text[start..place]));
+                start = place + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push((start, &text[start..]));
+    parts
+}
+
+fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<Recipe, Refusal> {
+    let size = |size: &i64| {
+        usize::try_from(*size)
+            .ok()
+            .filter(|size| *size > 0)
+            .ok_or_else(|| format!("a size is positive, this is {size}"))
+    };
+    let sizes = sizes.iter().map(size).collect::<Result<Vec<usize>, String>>()?;
+    let draw = Draw::Within(range.clone());
+    let square = |most: usize| match sizes[..] {
+        [] => Ok(3),
+        [rows] if most == 1 => Ok(rows),
+        [rows, columns] if rows == columns => Ok(rows),
+        _ => Err(format!("`{shape}` has one size: {shape}(4, a..b)")),
+    };
+    let recipe = match shape {
+        "" if sizes.is_empty() => Recipe::Scalar(draw),
+        "vector" => match sizes[..] {
+            [] => Recipe::Vector(3, draw),
+            [length] => Recipe::Vector(length, draw),
+            _ => Err("a vector has one size: vector(4, a..b)".to_string())?,
+        },
+        "matrix" => match sizes[..] {
+            [] => Recipe::Matrix(3, 3, draw),
+            [rows, columns] => Recipe::Matrix(rows, columns, draw),
+            _ => Err("a matrix has two sizes: matrix(4, 4, a..b)".to_string())?,
+        },
+        "diag" => Recipe::Diagonal(square(1)?, draw),
+        "spherical" => Recipe::Spherical(square(1)?, draw),
+        "symmetric" => Recipe::Symmetric(square(1)?, draw),
+        "skew" => Recipe::Skew(square(1)?, draw),
+        "inertia" if sizes.is_empty() => Recipe::Inertia(range),
+        "axisymmetric" if sizes.is_empty() => Recipe::AxisymmetricInertia(range),
+        "full" if sizes.is_empty() => Recipe::FullInertia(range),
+        "inertia" | "axisymmetric" | "full" => {
+            Err(format!("`{shape}` is a tensor of ℝ³ and has no size: {shape}(a..b)"))?
+        }
+        other => Err(format!("`{other}(a..b)` is no kind of parameter"))?,
+    };
+    sized(recipe.kind())?;
+    Ok(recipe)
+}
+
+fn range(low: &str, high: &str) -> Result<Range, String> {
+    let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
+    let range = Range { low: read(low)?, high: read(high)? };
+    let (width, _) = (&range.high - &range.low).to_f64();
+    match range.low < range.high {
+        false => Err(format!("the range {}..{} is empty", range.low, range.high)),
+        true if width.is_normal() => Ok(range),
+        true => Err("this range is beyond the numbers that f64 can hold".to_string()),
+    }
+}
+
+/// A range for each component of a state variable.
+pub fn state_draws(given: &Given) -> Option<(Type, Vec<Draw>)> {
+    match given {
+        Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..))) => {
+            Some((recipe.kind(), recipe.draws()))
+        }
+        _ => None,
+    }
+}

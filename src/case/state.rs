@@ -1,0 +1,110 @@
+//! `[state]`: variables with the ranges that their values are drawn from.
+
+use std::borrow::Cow;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::error::{Mistake, Problem};
+use super::parameters::named;
+use super::section::Section;
+use super::shapes::{Given, Refusal, given, state_draws};
+use crate::formula::Type;
+use crate::mechanics::{Draw, Meaning, Range, Reach, Variable, Vocabulary};
+
+/// State variables with the draws of their components.
+pub struct State {
+    /// The variables in order.
+    pub variables: Vec<Variable>,
+    /// One draw a component.
+    pub draws: Vec<Draw>,
+}
+
+/// Time, where formulas use it and nothing else has its name.
+pub const TIME: &str = "t";
+
+/// Reads a table of names and ranges; `reach` is what it means to depend on them.
+pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary, reach: Reach) -> State {
+    let mut state = State { variables: Vec::new(), draws: Vec::new() };
+    add_state(section, vocabulary, reach, &mut state);
+    state
+}
+
+/// Reads further state variables.
+pub fn add_state(
+    section: &Section<'_>,
+    vocabulary: &mut Vocabulary,
+    reach: Reach,
+    state: &mut State,
+) {
+    for (key, value) in section.entries() {
+        let Some(name) = section.keep(named(key)) else { continue };
+        match variable(section, &name, (key, value), vocabulary) {
+            Ok((kind, draws)) => state.add(&name, kind, draws, vocabulary, reach),
+            Err(mistake) => {
+                section.mistakes().add(mistake);
+                if vocabulary.find(&name).is_none() {
+                    section.mistakes().fail(&name);
+                }
+            }
+        }
+    }
+}
+
+impl State {
+    /// Adds a variable, and its name.
+    pub fn add(
+        &mut self,
+        name: &str,
+        kind: Type,
+        draws: Vec<Draw>,
+        vocabulary: &mut Vocabulary,
+        reach: Reach,
+    ) {
+        vocabulary.add(name, Meaning::State(self.variables.len()), kind, reach);
+        self.variables.push(Variable { name: name.to_string(), kind });
+        self.draws.extend(draws);
+    }
+
+    /// Adds time, between -2 and 2.
+    pub fn add_time(&mut self, vocabulary: &mut Vocabulary, reach: Reach) {
+        let draw = Draw::Within(Range::between((-2, 1), (2, 1)));
+        self.add(TIME, Type::Scalar, vec![draw], vocabulary, reach);
+    }
+}
+
+type Entry<'a> = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>);
+
+/// The kind of a state variable, and the draws of its components.
+fn variable(
+    section: &Section<'_>,
+    name: &str,
+    key: Entry<'_>,
+    vocabulary: &Vocabulary,
+) -> Result<(Type, Vec<Draw>), Mistake> {
+    let (key, value) = key;
+    if vocabulary.find(name).is_some() {
+        let (name, reason) = (name.to_string(), "it is taken already".to_string());
+        return Err(Mistake::at(key.span(), Problem::BadName { name, reason }));
+    }
+    let remedy =
+        "write \"-2..2\", \"vector(-1..1)\", \"vector(5, -1..1)\" or \"matrix(4, 4, -1..1)\"";
+    let wrong = |message: String| {
+        Mistake::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
+    };
+    let given = given(value, vocabulary).map_err(|refusal| match refusal {
+        Refusal::Message(message) => wrong(message),
+        Refusal::Size(error, start) => {
+            let inner = start + error.span().start..start + error.span().end;
+            let text = section.as_text(name, value);
+            let place = text.map_or(value.span(), |text| text.locate(inner));
+            Mistake::at(place, Problem::Formula(error))
+        }
+    })?;
+    state_draws(&given).ok_or_else(|| match given {
+        Given::Drawn(_) => wrong(format!(
+            "`{name}` has components that depend on each other: states are drawn component by component"
+        )),
+        _ => wrong(format!("`{name}` needs the range that its states are drawn from")),
+    })
+}

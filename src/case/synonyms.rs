@@ -1,0 +1,40 @@
+//! Keys by the names that other people give them.
+
+/// What else a key may be called.
+const SYNONYMS: [(&str, &[&str]); 14] = [
+    ("parameters", &["params", "param", "parameter", "constants", "constant"]),
+    ("state", &["states", "vars", "phase", "coordinates", "unknowns"]),
+    ("field", &["equations", "rates", "ode", "dynamics", "motion", "vector-field"]),
+    ("let", &["definitions", "define", "abbreviations", "where", "aliases"]),
+    ("variables", &["new-variables"]),
+    ("claim", &["claims", "theorem", "statement"]),
+    ("integral", &["first-integral", "conserved", "invariant", "constant-of-motion"]),
+    ("density", &["measure", "invariant-measure", "jacobian-multiplier"]),
+    ("identity", &["equation", "equality"]),
+    ("invariant-relation", &["invariant-manifold", "darboux", "darboux-polynomial"]),
+    ("expect", &["expected", "verdict", "result"]),
+    ("where", &["place", "domain", "on"]),
+    ("kinetic", &["T", "kinetic-energy"]),
+    ("potential", &["U", "V", "potential-energy"]),
+];
+
+/// The key that is meant by another name, if it is one of `known`.
+pub fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    let plain = name.to_lowercase().replace(['_', ' '], "-");
+    let is_meant = |(key, all): &&(&'static str, &[&str])| {
+        known.contains(key) && (all.contains(&name) || all.contains(&plain.as_str()))
+    };
+    SYNONYMS.iter().find(is_meant).map(|(key, _)| *key)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_names_are_understood_where_they_fit() {
+        assert_eq!(meant("params", &["parameters", "state"]), Some("parameters"));
+        assert_eq!(meant("First_Integral", &["integral"]), Some("integral"));
+        assert_eq!(meant("measure", &["title"]), None, "not a key of this table");
+    }
+}

@@ -1,0 +1,99 @@
+//! What is no TOML: where, and what to write instead.
+
+use super::error::{Mistake, Problem};
+
+/// The mistakes of a text that is no TOML, one a line.
+pub fn mistakes(text: &str, errors: &[toml::de::Error]) -> Vec<Mistake> {
+    let mut seen = Vec::new();
+    let mut all = Vec::new();
+    for error in errors {
+        let span = error.span();
+        let line = span
+            .as_ref()
+            .map(|span| text.get(..span.start).map_or(0, |before| before.matches('\n').count()));
+        // one slip makes several errors on its line
+        if !seen.contains(&line) {
+            seen.push(line);
+            let help = span.as_ref().and_then(|span| help(text, span.start));
+            let message = error.message().to_string();
+            all.push(Mistake::new(span, Problem::Toml { message, help }));
+        }
+    }
+    all
+}
+
+/// What the line at a place should say.
+fn help(text: &str, place: usize) -> Option<String> {
+    let before = text.get(..place)?;
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = text[start..].lines().next()?;
+    let place = place - start;
+    if line.contains(['“', '”', '„', '‘', '«', '»']) {
+        return Some("write straight quotes: \"…\"".to_string());
+    }
+    let (key, value) = parts(line)?;
+    let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    let is_quoted = |text: &str| text.starts_with(['"', '\'']);
+    let key_is_wrong = !is_quoted(key) && !key.chars().all(bare);
+    let is_table = value.starts_with(['[', '{']);
+    let is_plain = value.parse::<f64>().is_ok() || matches!(value, "true" | "false");
+    let value_is_wrong = !is_quoted(value) && !is_table && !is_plain && !value.is_empty();
+    let quoted = |text: &str| format!("\"{}\"", text.trim().trim_matches('"'));
+    match (key_is_wrong, value_is_wrong) {
+        (true, false) if key.chars().all(|c| bare(c) || c.is_alphabetic()) => Some(
+            "a key that is not ASCII is quoted: \"μ\" = …; or write the letter's name: mu = …"
+                .to_string(),
+        ),
+        (true, false) => Some(format!("quote the key: {} = {value}", quoted(key))),
+        (true, true) => Some(format!("quote both: {} = {}", quoted(key), quoted(value))),
+        (false, true) => Some(format!("quote the formula: {key} = {}", quoted(value))),
+        (false, false) if value.is_empty() && place >= key.len() => {
+            Some(format!("write a value: {key} = \"…\""))
+        }
+        (false, false) => None,
+    }
+}
+
+/// Key and value of a line, without a comment.
+fn parts(line: &str) -> Option<(&str, &str)> {
+    let (mut quote, mut equals) = (None, None);
+    let mut end = line.len();
+    for (place, letter) in line.char_indices() {
+        match (quote, letter) {
+            (Some(open), _) if open == letter => quote = None,
+            (Some(_), _) => {}
+            // the prime of an unquoted key opens nothing
+            (None, '\'') if equals.is_none() && !line[..place].trim().is_empty() => {}
+            (None, '"' | '\'') if equals.is_none() || line[..place].trim_end().ends_with('=') => {
+                quote = Some(letter);
+            }
+            (None, '=') if equals.is_none() => equals = Some(place),
+            (None, '#') => {
+                end = place;
+                break;
+            }
+            _ => {}
+        }
+    }
+    let equals = equals?;
+    Some((line[..equals].trim(), line[equals + 1..end].trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_of_a_line_are_mended() {
+        let mended = |line: &str| help(line, 0).unwrap_or_default();
+        assert_eq!(mended("x' = \"y\""), "quote the key: \"x'\" = \"y\"");
+        assert_eq!(mended("x' = y − x"), "quote both: \"x'\" = \"y − x\"");
+        assert_eq!(mended("x = -2..2   # a range"), "quote the formula: x = \"-2..2\"");
+        assert_eq!(mended("integral = energy"), "quote the formula: integral = \"energy\"");
+        assert_eq!(mended("\"x'\" = y"), "quote the formula: \"x'\" = \"y\"");
+        assert_eq!(mended("title = “Top”"), "write straight quotes: \"…\"");
+        assert!(mended("μ = 1").contains("the letter's name"), "{}", mended("μ = 1"));
+        assert_eq!(help("title = ", 8).as_deref(), Some("write a value: title = \"…\""));
+        assert_eq!(help("x = [1, 2", 4), None, "nothing can be told");
+    }
+}

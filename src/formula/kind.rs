@@ -1,0 +1,115 @@
+//! The kinds of values: scalars, vectors and matrices of any size.
+
+use std::fmt;
+
+/// The most components that a value has.
+pub const MAX_COMPONENTS: usize = 1024;
+
+/// The kind of value a name or a formula stands for; known when the formula is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// A number.
+    Scalar,
+    /// So many components.
+    Vector(usize),
+    /// So many rows of so many entries.
+    Matrix(usize, usize),
+}
+
+impl Type {
+    /// The vectors of ℝ³.
+    pub const VECTOR: Type = Type::Vector(3);
+    /// The 3×3 matrices.
+    pub const MATRIX: Type = Type::Matrix(3, 3);
+
+    /// How many scalars make up a value of this type: 1, 3 and 9 for those of ℝ³.
+    pub fn size(self) -> usize {
+        match self {
+            Type::Scalar => 1,
+            Type::Vector(length) => length,
+            Type::Matrix(rows, columns) => rows * columns,
+        }
+    }
+
+    /// The kind with its size, also where that is the usual one.
+    pub fn in_full(self) -> String {
+        match self {
+            Type::Scalar => "scalar".to_string(),
+            Type::Vector(length) => format!("vector of length {length}"),
+            Type::Matrix(rows, columns) => format!("matrix of size {rows}×{columns}"),
+        }
+    }
+
+    /// Both are vectors, or both are matrices, of different sizes.
+    pub(crate) fn differs_in_size(self, other: Type) -> bool {
+        self != other && std::mem::discriminant(&self) == std::mem::discriminant(&other)
+    }
+
+    /// How the component at `place` of a value called `name` is written: `γ3`, `L[2,12]`.
+    pub fn component(self, name: &str, place: usize) -> String {
+        match self {
+            Type::Scalar => name.to_string(),
+            Type::Vector(_) if place >= 99 => format!("{name}[{}]", place + 1),
+            Type::Vector(_) => format!("{name}{}", place + 1),
+            Type::Matrix(_, columns) => {
+                format!("{name}[{},{}]", place / columns + 1, place % columns + 1)
+            }
+        }
+    }
+
+    /// A value with these components in order, between the brackets of lists and rows.
+    pub fn listed(self, components: &[String], [open, between, close]: [&str; 3]) -> String {
+        let list = |parts: &[String]| format!("{open}{}{close}", parts.join(between));
+        match self {
+            Type::Scalar => components.concat(),
+            Type::Vector(_) => list(components),
+            Type::Matrix(_, columns) => {
+                let rows: Vec<String> = components.chunks(columns.max(1)).map(list).collect();
+                list(&rows)
+            }
+        }
+    }
+
+    /// The indices of the components, as they are written: none for a scalar, `[3]`, `[2,1]`.
+    pub fn indices(self) -> Vec<String> {
+        match self {
+            Type::Scalar => vec![String::new()],
+            Type::Vector(length) => (1..=length).map(|i| format!("[{i}]")).collect(),
+            Type::Matrix(rows, columns) => {
+                let pairs = (1..=rows).flat_map(|i| (1..=columns).map(move |j| (i, j)));
+                pairs.map(|(i, j)| format!("[{i},{j}]")).collect()
+            }
+        }
+    }
+}
+
+impl fmt::Display for Type {
+    /// The kind, with its size unless that is 3.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Type::VECTOR => out.write_str("vector"),
+            Type::MATRIX => out.write_str("matrix"),
+            other => out.write_str(&other.in_full()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn types_have_names_and_components() {
+        assert_eq!(Type::MATRIX.to_string(), "matrix", "of ℝ³");
+        assert_eq!(Type::Vector(4).to_string(), "vector of length 4", "with its length");
+        assert_eq!(Type::Matrix(2, 3).to_string(), "matrix of size 2×3", "rows, columns");
+        assert_eq!(Type::Vector(12).component("x", 11), "x12", "the last");
+        assert_eq!(Type::Matrix(2, 3).component("A", 4), "A[2,2]", "row by row");
+        let numbers: Vec<String> = (1..=4).map(|k| k.to_string()).collect();
+        let listed = |kind: Type| kind.listed(&numbers, ["[", ",", "]"]);
+        assert_eq!(listed(Type::Matrix(2, 2)), "[[1,2],[3,4]]", "by rows");
+        assert_eq!(listed(Type::Vector(4)), "[1,2,3,4]", "a list");
+        assert_eq!(Type::Matrix(2, 1).indices(), ["[1,1]", "[2,1]"], "as they are written");
+        assert_eq!(Type::Matrix(2, 3).size(), 6, "entries");
+    }
+}

@@ -1,0 +1,109 @@
+//! Names that nobody knows: what may be meant.
+
+use super::error::{FormulaError, Span, excerpt};
+use super::lexer::Kind;
+use super::names::canonical_name;
+use super::parser::Parser;
+use super::scope::resolve;
+use super::spelling::{nearest, split};
+use super::{binders, functions};
+
+/// How many names a message lists.
+const MOST_LISTED: usize = 24;
+
+/// Functions of other languages, and what is written here.
+const ELSEWHERE: [(&[&str], &str); 21] = [
+    (&["sec"], "write `1/cos(x)`"),
+    (&["csc", "cosec"], "write `1/sin(x)`"),
+    (&["cot", "cotan", "ctg"], "write `1/tan(x)`"),
+    (&["sech"], "write `1/cosh(x)`"),
+    (&["csch", "cosech"], "write `1/sinh(x)`"),
+    (&["coth", "cth"], "write `1/tanh(x)`"),
+    (&["tg"], "write `tan(x)`"),
+    (&["arctg"], "write `atan(x)`"),
+    (&["sh"], "write `sinh(x)`"),
+    (&["ch"], "write `cosh(x)`"),
+    (&["th"], "write `tanh(x)`"),
+    (&["log10", "lg"], "write `log(x)/log(10)`"),
+    (&["log2"], "write `log(x)/log(2)`"),
+    (&["cbrt"], "write `x^(1/3)`, for x > 0"),
+    (&["pow"], "write `a^b`"),
+    (&["fabs"], "write `|x|`"),
+    (&["heaviside", "step", "theta", "θ"], "write `(1 + sign(x))/2`"),
+    (&["eye", "identity", "unit"], "write `E`, or `E(4)` for four rows"),
+    (&["zeros", "ones"], "write `zero(4)`, or `vector(i, 1..4, 1)`"),
+    (&["Σ", "Π", "prod"], "write `sum(i, 1..n, a[i])` or `product(i, 1..n, a[i])`"),
+    (
+        &["sn", "cn", "dn", "am"],
+        "elliptic functions are not known here: make them state variables, s' = c*d, c' = −s*d, \
+         d' = −k²*s*c",
+    ),
+];
+
+impl Parser<'_> {
+    /// A name nobody knows.
+    pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
+        let called = self.peek() == Kind::Open;
+        let kind = if called { "function" } else { "name" };
+        let error = FormulaError::new(span.clone(), format!("unknown {kind} `{}`", excerpt(name)))
+            .with_unknown(name);
+        match self.meant(name, &span, called) {
+            Some(help) => error.with_help(help),
+            None => error,
+        }
+    }
+
+    /// What may be meant by an unknown name.
+    fn meant(&self, name: &str, span: &Span, called: bool) -> Option<String> {
+        let known = |piece: &str| resolve(piece, self.scope).is_some();
+        if called && let Some((_, help)) = ELSEWHERE.iter().find(|(all, _)| all.contains(&name)) {
+            return Some(help.to_string());
+        }
+        let before = self.builder.text[..span.start].trim_end();
+        if let ("T" | "t", Some(base)) = (name, before.strip_suffix('^')) {
+            let start = base
+                .rfind(|c: char| !c.is_alphanumeric())
+                .map_or(0, |at| at + base[at..].chars().next().map_or(0, char::len_utf8));
+            return Some(format!("a transpose is written `{}ᵀ`", &base[start..]));
+        }
+        if let Some(base) = name.strip_suffix("dot").filter(|base| known(&format!("{base}'"))) {
+            return Some(format!("the rate of `{base}` is written `{base}'`"));
+        }
+        if let Some(pieces) = split(name, known) {
+            return Some(format!("write `{}`?", pieces.join("*")));
+        }
+        let mut names = self.scope.names();
+        names.sort();
+        let canonical = canonical_name(name).unwrap_or_default();
+        let own =
+            if called { functions::names().chain(binders::names()).collect() } else { vec![] };
+        let all = || names.iter().map(String::as_str).chain(own.iter().copied());
+        let guess = [name, &canonical].into_iter().find_map(|name| nearest(name, all()));
+        if let Some(guess) = guess {
+            return Some(format!("did you mean `{guess}`?"));
+        }
+        if let ("e1" | "e2" | "e3", false) = (name, called) {
+            let axis =
+                ["[1,0,0]", "[0,1,0]", "[0,0,1]"][usize::from(name.as_bytes()[1] - b'1') % 3];
+            return Some(format!("write `{axis}`"));
+        }
+        if called {
+            let mut own = own;
+            own.sort_unstable();
+            return Some(format!("the functions are {}", own.join(", ")));
+        }
+        listed(names)
+    }
+}
+
+/// The names that are known, in one sentence.
+fn listed(names: Vec<String>) -> Option<String> {
+    let count = names.len();
+    let shown: Vec<String> = names.into_iter().take(MOST_LISTED).collect();
+    let rest = count - shown.len();
+    match (count, rest) {
+        (0, _) => None,
+        (_, 0) => Some(format!("the names here are {}", shown.join(", "))),
+        _ => Some(format!("the names here are {} and {rest} more", shown.join(", "))),
+    }
+}

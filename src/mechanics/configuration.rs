@@ -1,0 +1,201 @@
+//! The part of a point of phase space without velocities; see [`phase`](super::phase).
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use num_dual::Dual;
+use rustc_hash::FxHashMap;
+
+use super::model::{Model, Origin};
+use super::rubber::normal;
+use super::vocabulary::Meaning;
+use crate::formula::{Formula, Symbol, Value};
+use crate::scalar::Scalar;
+
+/// Beyond so many formulas in formulas, those inside are evaluated first.
+pub(super) const DEEP: u32 = 64;
+
+/// Evaluates what the formula of `symbol` uses before it, so that long chains of formulas that use
+/// each other take no deep stack. `formula` gives the formula of a symbol that has no value yet.
+pub(super) fn settle<'f>(
+    symbol: Symbol,
+    formula: impl Fn(Symbol) -> Option<&'f Formula>,
+    evaluate: impl Fn(Symbol),
+) {
+    let mut stack = vec![symbol];
+    while let Some(top) = stack.last().copied() {
+        let inner = formula(top).and_then(|own| own.symbols().find(|s| formula(*s).is_some()));
+        match inner {
+            Some(inner) => stack.push(inner),
+            None => {
+                evaluate(top);
+                stack.pop();
+            }
+        }
+    }
+}
+
+/// A point of configuration space over the scalar T: parameters and γ.
+pub struct Configuration<'m, T> {
+    /// The case this belongs to.
+    pub model: &'m Model,
+    pub(super) parameters: Rc<[Option<Value<T>>]>,
+    state: Vec<Value<T>>,
+    axis_cosine: Option<T>,
+    known: RefCell<FxHashMap<Symbol, Value<T>>>,
+    depth: Cell<u32>,
+}
+
+impl<'m, T: Scalar> Configuration<'m, T> {
+    pub(super) fn new(
+        model: &'m Model,
+        parameters: Rc<[Option<Value<T>>]>,
+        state: Vec<Value<T>>,
+    ) -> Self {
+        let (known, depth) = (RefCell::default(), Cell::new(0));
+        Self { model, parameters, state, axis_cosine: None, known, depth }
+    }
+
+    /// The same point with another value of state variable `index`.
+    pub fn moved(&self, index: usize, value: Value<T>) -> Self {
+        let mut state = self.state.clone();
+        state[index] = value;
+        Self::new(self.model, Rc::clone(&self.parameters), state)
+    }
+
+    /// The same point, with `z` as the cosine that a profile is evaluated at.
+    pub fn with_axis_cosine(&self, z: T) -> Self {
+        let mut moved = Self::new(self.model, Rc::clone(&self.parameters), self.state.clone());
+        moved.axis_cosine = Some(z);
+        moved
+    }
+
+    /// `z`, by its definition γ₃/|γ| unless it was given.
+    pub fn axis_cosine(&self) -> T {
+        self.axis_cosine.unwrap_or_else(|| {
+            let gamma = normal(self);
+            gamma.z / gamma.dot(&gamma).sqrt()
+        })
+    }
+
+    /// The value of a formula that reaches no further than the configuration.
+    pub fn evaluate(&self, formula: &Formula) -> Value<T> {
+        formula.evaluate(&mut |symbol| self.value(symbol))
+    }
+
+    /// The value of state variable `index`.
+    pub fn variable(&self, index: usize) -> Value<T> {
+        self.state[index].clone()
+    }
+
+    /// The value of parameter `index`.
+    pub fn parameter(&self, index: usize) -> Value<T> {
+        match (&self.parameters[index], &self.model.parameters[index].origin) {
+            (Some(value), _) => value.clone(),
+            (None, Origin::Formula(formula)) => self.evaluate(formula),
+            (None, _) => unreachable!("only formulas have no value of their own"),
+        }
+    }
+
+    /// The value of a parameter by name, if it is declared.
+    pub fn named(&self, name: &str) -> Option<Value<T>> {
+        match self.model.vocabulary.find(name)?.meaning {
+            Meaning::Parameter(index) => Some(self.parameter(index)),
+            _ => None,
+        }
+    }
+
+    pub(super) fn value(&self, symbol: Symbol) -> Value<T> {
+        if let Some(value) = self.known.borrow().get(&symbol) {
+            return value.clone();
+        }
+        if self.depth.get() == DEEP {
+            settle(
+                symbol,
+                |symbol| self.formula(symbol),
+                |symbol| {
+                    self.depth.set(0);
+                    self.value(symbol);
+                    self.depth.set(DEEP);
+                },
+            );
+            return self.value(symbol);
+        }
+        self.depth.set(self.depth.get() + 1);
+        let value = match self.model.vocabulary.entry(symbol).meaning {
+            Meaning::Parameter(index) => self.parameter(index),
+            Meaning::State(index) => self.variable(index),
+            Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
+            Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
+        };
+        self.depth.set(self.depth.get() - 1);
+        self.known.borrow_mut().insert(symbol, value.clone());
+        value
+    }
+
+    /// The formula behind a symbol that has no value yet.
+    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+        if self.known.borrow().contains_key(&symbol) {
+            return None;
+        }
+        formula_of(self.model, symbol)
+    }
+
+    /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
+    pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
+        let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
+        state[index] = dual_value(&self.state[index], &direction);
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+
+    /// The components of all state variables in order.
+    pub fn components(&self) -> Vec<T> {
+        self.state.iter().flat_map(|value| value.components()).collect()
+    }
+
+    /// The same point with the derivative part `direction`, one entry a component of the state.
+    pub fn lift_state(&self, direction: &[T]) -> Configuration<'m, Dual<T>> {
+        let mut rest = direction;
+        let state = self
+            .state
+            .iter()
+            .map(|value| {
+                let (own, others) = rest.split_at(value.value_type().size());
+                rest = others;
+                dual_value(value, &Value::from_components(value.value_type(), own))
+            })
+            .collect();
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+
+    /// The same point with all derivative parts 0.
+    pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
+        let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
+        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+    }
+}
+
+/// The formula of an abbreviation, or of a parameter that has one.
+pub(super) fn formula_of(model: &Model, symbol: Symbol) -> Option<&Formula> {
+    match model.vocabulary.entry(symbol).meaning {
+        Meaning::Abbreviation(index) => model.abbreviations.get(index),
+        Meaning::Parameter(index) => match &model.parameters[index].origin {
+            Origin::Formula(formula) => Some(formula),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+pub(super) fn lift_parameters<T: Scalar>(
+    parameters: &[Option<Value<T>>],
+) -> Rc<[Option<Value<Dual<T>>>]> {
+    let lift = |value: &Value<T>| value.map(Dual::from_re);
+    parameters.iter().map(|value| value.as_ref().map(lift)).collect()
+}
+
+fn dual_value<T: Scalar>(value: &Value<T>, direction: &Value<T>) -> Value<Dual<T>> {
+    let parts = value.components().into_iter().zip(direction.components());
+    let parts: Vec<_> = parts.map(|(re, eps)| Dual::new(re, eps)).collect();
+    Value::from_components(value.value_type(), &parts)
+}

@@ -1,0 +1,648 @@
+//! The language of case files: families, sizes, forms with indices, time, lists, names in any order.
+//!
+//! Each case is judged; a claim passes when its verdict is what the case expects.
+
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
+
+/// Judges a case, asserts that all is as expected, and gives the words of the verdicts.
+#[track_caller]
+fn judged(text: &str) -> Vec<Verdict> {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report =
+        judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    for claim in &report.claims {
+        assert!(claim.agrees, "{} came out {}", claim.name, claim.verdict.word());
+    }
+    report.claims.iter().map(|claim| claim.verdict).collect()
+}
+
+/// Judges a case whose claims all have to be settled by proof or by a witness.
+#[track_caller]
+fn settled(text: &str) {
+    let verdicts = judged(text);
+    assert!(!verdicts.is_empty(), "something is claimed");
+    let is_settled = |verdict: &Verdict| matches!(verdict, Verdict::Proved | Verdict::Refuted);
+    assert!(verdicts.iter().all(is_settled), "{verdicts:?}");
+}
+
+fn error(text: &str) -> Vec<(usize, String, String)> {
+    let error = Case::parse(text, &[]).expect_err("the file has mistakes");
+    let told = |mistake: &liouville::case::Mistake| {
+        let help = mistake.help().unwrap_or_default();
+        (mistake.line.unwrap_or(0) as usize, mistake.message(), help)
+    };
+    error.mistakes().iter().map(told).collect()
+}
+
+const TODA: &str = r#"
+title = "Toda lattice with free ends, in Flaschka's variables"
+[parameters]
+n = 5
+[state]
+a = "vector(n-1, 0.5..2)"
+b = "vector(n, -1..1)"
+[field]
+"a[i]'" = "a[i]*(b[i+1] − b[i])"
+"b[i]', i = 2..n-1" = "2*(a[i]² − a[i−1]²)"
+"b[1]'" = "2*a[1]²"
+"b[n]'" = "−2*a[n−1]²"
+[let]
+L = "matrix(i, 1..n, j, 1..n, if(i = j, b[i], if(j = i+1, a[i], if(i = j+1, a[j], 0))))"
+B = "matrix(i, 1..n, j, 1..n, if(j = i+1, a[i], if(i = j+1, −a[j], 0)))"
+L1 = "matrix(i, 1..n, j, 1..n, if(i = j, b'[i], if(j = i+1, a'[i], if(i = j+1, a'[j], 0))))"
+[[claim]]
+identity = "L1 = B*L − L*B"
+[[claim]]
+integral = "vector(k, 1..n, tr(L^k))"
+[[claim]]
+integral = "det(L)"
+[[claim]]
+density = "1/product(i, 1..n-1, a[i])"
+[[claim]]
+integral = "sum(i, 1..n, b[i]³)"
+expect = "fails"
+"#;
+
+#[test]
+fn the_toda_lattice_is_typed_once_for_any_number() {
+    settled(TODA);
+    settled(&TODA.replace("n = 5", "n = 2"));
+    let case = Case::parse(TODA, &[]).expect("a case");
+    assert_eq!(case.model.dimension(), 9, "a₁ … a₄, b₁ … b₅");
+    assert_eq!(case.model.component_name(4), "b1", "components have names");
+}
+
+#[test]
+fn particles_vortices_and_species() {
+    settled(
+        r#"
+title = "Calogero-Moser"
+[parameters]
+n = 4
+g = "0.5..2"
+[state]
+q = "vector(n, -3..3)"
+p = "vector(n, -1..1)"
+[field]
+"q'" = "p"
+"p[i]'" = "sum(j, 1..n, j ≠ i, 2*g²/(q[i] − q[j])^3)"
+[[claim]]
+integral = "(p,p)/2 + sum(i, 1..n−1, sum(j, i+1..n, g²/(q[i]−q[j])²))"
+[[claim]]
+integral = "sum(i, 1..n, p[i]^3/3 + sum(j, 1..n, j ≠ i, g²*p[i]/(q[i]−q[j])²))"
+[[claim]]
+symmetry-field = { q = "vector(i, 1..n, 1)" }
+[[claim]]
+reversor = { p = "−p" }
+"#,
+    );
+    settled(
+        r#"
+title = "Vortices in the plane"
+[parameters]
+n = 4
+Gamma = "vector(n, 0.5..2)"
+[state]
+z = "matrix(n, 2, -2..2)"
+[field]
+"z[i]'" = "sum(j, 1..n, j ≠ i, Gamma[j]*[z[j,2] − z[i,2], z[i,1] − z[j,1]]/(z[i] − z[j])²)"
+[[claim]]
+integral = "sum(i, 1..n, j, i+1..n, Gamma[i]*Gamma[j]*log((z[i] − z[j])²))"
+[[claim]]
+integral = "sum(i, 1..n, Gamma[i]*z[i])"
+[[claim]]
+density = "1"
+"#,
+    );
+    settled(
+        r#"
+title = "Closed chain of species"
+[parameters]
+n = 5
+[state]
+x = "vector(n, 0.5..2)"
+[field]
+"x[i]'" = "x[i]*(x[i+1 mod n] − x[i−1 mod n])"
+[[claim]]
+integral = "sum(i, 1..n, x[i])"
+[[claim]]
+integral = "product(i, 1..n, x[i])"
+[[claim]]
+density = "1/product(i, 1..n, x[i])"
+[[claim]]
+integral = "sum(i, 1..n, x[i]²)"
+expect = "fails"
+"#,
+    );
+    settled(
+        r#"
+title = "N bodies in space"
+system = "nonholonomic"
+[parameters]
+n = 3
+m = "vector(n, 0.5..2)"
+[state]
+q = "matrix(n, 3, -2..2)"
+"q'" = "matrix(n, 3, -1..1)"
+[lagrangian]
+kinetic = "sum(i, 1..n, m[i]*q'[i]²)/2"
+potential = "−sum(i, 1..n, j, i+1..n, m[i]*m[j]/|q[i] − q[j]|)"
+[[claim]]
+integral = "energy"
+[[claim]]
+integral = "sum(i, 1..n, m[i]*(q[i] × q'[i]))"
+[[claim]]
+integral = "sum(i, 1..n, m[i]*(q[i] − t*q'[i]))"
+"#,
+    );
+}
+
+#[test]
+fn rates_of_components_and_rows() {
+    let chain = |field: &str| {
+        format!(
+            "title = 't'\n[parameters]\nn = 4\n[state]\nx = 'vector(n, -1..1)'\n\
+             A = 'matrix(2, 3, -1..1)'\n[field]\n{field}[[claim]]\nidentity = \"x' = [x[2], x[3], x[4], \
+             −x[1]]\"\n[[claim]]\nidentity = \"A' = [[1,2,3],[x[1],x[1],x[1]]]\"\n"
+        )
+    };
+    let rows = "\"A[i]'\" = '[x[1],x[1],x[1]]'\n\"A[1]'\" = '[1,2,3]'\n";
+    let entries = "\"A[i,j]'\" = 'x[1]'\n\"A[1,j]'\" = 'j'\n";
+    settled(&chain(&format!("\"x[i]'\" = 'x[i+1]'\n\"x[n]'\" = '−x[1]'\n{rows}")));
+    settled(&chain(&format!("\"x'[i]\" = 'if(i = n, −x[1], x[i+1 mod n])'\n{entries}")));
+    let ranges = "\"x[i]', i = 1..n-1\" = 'x[i+1]'\n\"x[i]', i = n..n\" = '−x[1]'\n";
+    settled(&chain(&format!("{ranges}{rows}")));
+    let twice = error(&chain(&format!("\"x[i]', i = 1..3\" = 'x[i]'\n\"x[i]'\" = 'x[i]'\n{rows}")));
+    assert_eq!(twice[0].1, "`x[1]` cannot be a name here: the rate of `x[1]` is given twice");
+    let missing = error(&chain(&format!("\"x[i]', i = 1..3\" = 'x[i]'\n{rows}")));
+    assert_eq!(missing[0].1, "[field] has no rate for `x[4]`");
+    let beyond = error(&chain(&format!("\"x[i]'\" = 'x[i+1]'\n{rows}")));
+    assert_eq!((beyond[0].0, beyond[0].1.as_str()), (8, "there is no component 5"));
+    assert!(beyond[0].2.contains("x[i+1 mod 4]"), "{}", beyond[0].2);
+    let odd = error(&chain(&format!("\"x[i]'\" = 'x[i]) + (x[i]'\n{rows}")));
+    assert_eq!(odd[0].1, "the brackets of this formula do not match");
+}
+
+#[test]
+fn an_isospectral_flow_of_any_size() {
+    settled(
+        r#"
+title = "Isospectral flow"
+[parameters]
+n = 4
+S = "skew(n, -1..1)"
+D = "diag(n, 1..3)"
+Y = "symmetric(n, -1..1)"
+F = [[1, 2], [3, 4], [5, 6]]
+f = [1, 2, 3, 4, 5]
+[state]
+L = "matrix(n, n, -1..1)"
+v = "vector(n, -1..1)"
+[field]
+"L'" = "S*L − L*S"
+"v'" = "S*v"
+[[claim]]
+integral = "vector(k, 1..3, tr(L^k))"
+[[claim]]
+integral = "(v, L*v) + det(L)"
+[[claim]]
+identity = "adj(L)*L = det(L)*E(n)"
+[[claim]]
+identity = "L*solve(L, v) = v"
+[[claim]]
+identity = "Yᵀ + S*S = Y + (S*S)ᵀ"
+[[claim]]
+identity = "det(D) = D[1,1]*D[2,2]*D[3,3]*D[4,4]"
+[[claim]]
+identity = "(f,f) + det(F[1] ⊗ F[2]) = 55"
+[[claim]]
+identity = "Fᵀ*F = [[35, 44], [44, 56]]"
+[[claim]]
+integral = "L[1,1]"
+expect = "fails"
+[[claim]]
+density = "1"
+"#,
+    );
+}
+
+#[test]
+fn constants_and_functions_are_exact() {
+    settled(
+        r#"
+title = "functions"
+[state]
+x = "0.2..0.9"
+y = "-2..-1"
+[field]
+"x'" = "1"
+"y'" = "0"
+[[claim]]
+identity = "e^(2*x) = exp(x)^2"
+[[claim]]
+identity = "cosh(x)^2 − sinh(x)^2 = 1"
+[[claim]]
+rate = "tanh(x)"
+equals = "1 − tanh(x)^2"
+[[claim]]
+rate = "asin(x) + 3*acos(x)"
+equals = "−2/√(1 − x²)"
+[[claim]]
+identity = "asin(x) + acos(x) = π/2"
+[[claim]]
+rate = "atan2(x, y)"
+equals = "y/(x² + y²)"
+[[claim]]
+rate = "asinh(x) + atanh(x)"
+equals = "1/√(1 + x²) + 1/(1 − x²)"
+[[claim]]
+identity = "sign(y) = −1"
+[[claim]]
+identity = "max(x, y, −3) − min(x, y, 5) = x − y"
+[[claim]]
+identity = "min(x, 1/2) = x"
+expect = "fails"
+[[claim]]
+density = "exp(atan2(x, y)) + cosh(x)"
+expect = "fails"
+"#,
+    );
+}
+
+#[test]
+fn what_is_known_of_pi_alone_is_confirmed() {
+    let verdicts = judged(
+        "title = 't'\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n[[claim]]\n\
+         identity = 'sin(π/6 + x) = cos(x)/2 + √3*sin(x)/2'\n[[claim]]\n\
+         identity = 'sin(3141592653589793/10^15 + x) = −sin(x)'\nexpect = 'fails'\n",
+    );
+    assert_eq!(verdicts, [Verdict::Confirmed, Verdict::Refuted], "π is no decimal");
+}
+
+#[test]
+fn time_is_a_variable_where_it_is_used() {
+    let lorenz = r#"
+title = "Lorenz, b = 2 sigma"
+[parameters]
+sigma = "1..10"
+r = "1..30"
+[state]
+x = "-2..2"
+y = "-2..2"
+z = "0..4"
+[field]
+"x'" = "sigma*(y − x)"
+"y'" = "r*x − y − x*z"
+"z'" = "x*y − 2*sigma*z"
+[[claim]]
+integral = "exp(2*sigma*t)*(x² − 2*sigma*z)"
+[[claim]]
+density = "exp(t*(3*sigma + 1))"
+[[claim]]
+integral = "exp(sigma*t)*(x² − 2*sigma*z)"
+expect = "fails"
+"#;
+    settled(lorenz);
+    let case = Case::parse(lorenz, &[]).expect("a case");
+    assert_eq!(case.model.state[3].name, "t", "t stands behind the others");
+    let state = liouville::verdict::read_state(&case, "x=1 y=2 z=1 t=0.5").expect("a state");
+    let report = liouville::verdict::evaluate(&case, Some(&state), 1, 0).expect("a point");
+    assert_eq!(report.field[3].map(|(mid, _)| mid), Some(1.0), "its rate is 1");
+    let without = lorenz.split("[[claim]]").next().unwrap_or_default();
+    assert_eq!(Case::parse(without, &[]).expect("a case").model.state.len(), 3, "only where used");
+    let ranged = lorenz.replace("z = \"0..4\"", "z = \"0..4\"\nt = \"3..4\"");
+    settled(&ranged);
+    settled(
+        r#"
+title = "Driven oscillator on a turning line"
+system = "nonholonomic"
+[parameters]
+w = "0.5..2"
+[state]
+x = "-2..2"
+y = "-2..2"
+"x'" = "-2..2"
+"y'" = "-2..2"
+[lagrangian]
+kinetic = "(x'² + y'²)/2"
+potential = "x*cos(w*t)"
+constraints = ["x'*sin(w*t) − y'*cos(w*t) = 0"]
+forces = { y = "−t" }
+[[claim]]
+rate = "energy"
+equals = "−t*y' − w*x*sin(w*t)"
+where = "level"
+[[claim]]
+invariant-relation = "x'*sin(w*t) − y'*cos(w*t)"
+cofactor = "0"
+"#,
+    );
+    settled(
+        r#"
+title = "a level that moves"
+[state]
+x = "-1..1"
+y = "-1..1"
+[field]
+"x'" = "cos(t)"
+"y'" = "x"
+[level]
+equations = ["x − sin(t) = 0"]
+[level.chart]
+inputs = { y = "-1..1" }
+x = "sin(t)"
+[[claim]]
+identity = "x = sin(t)"
+[[claim]]
+integral = "y + cos(t)"
+where = "level"
+"#,
+    );
+    settled(
+        r#"
+title = "a body, and time"
+system = "rubber-plane"
+[parameters]
+m = 1
+R = 2
+I = [1, 2, 2.5]
+[body]
+shape = "ball"
+[[claim]]
+rate = "t*energy"
+equals = "energy"
+"#,
+    );
+}
+
+#[test]
+fn lists_are_vectors_or_diagonal_matrices_by_their_use() {
+    settled(
+        r#"
+title = "lists"
+[parameters]
+I = [1, 2, 3]
+A = [2, 5, 7]
+c = [1, 1, 2]
+J = "A*I"
+[state]
+M = "vector(-2..2)"
+[field]
+"M'" = "M × A⁻¹*M"
+[[claim]]
+integral = "(M, A⁻¹*M)"
+[[claim]]
+identity = "(c,c) + I1*A2 = 11"
+[[claim]]
+identity = "(J, [1,1,1]) = 33"
+"#,
+    );
+    let both =
+        "title = 't'\n[parameters]\nA = [1,2,3]\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n";
+    let claims = "[[claim]]\nintegral = 'tr(A)'\n[[claim]]\nintegral = '(A,A)'\n";
+    let told = error(&format!("{both}{claims}"));
+    assert_eq!(told.len(), 1, "{told:?}");
+    let message = "the list `A` is a vector in other formulas, and a diagonal matrix in this one";
+    assert_eq!((told[0].0, told[0].1.as_str()), (9, message));
+    let late = "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n\
+                [body]\nshape = 'ball'\n[let]\nX = 'I*ω'\n[[claim]]\nintegral = '(X,γ) + foo'\n[[claim]]\n\
+                integral = '(X,X) + bar'\n[[claim]]\nintegral = '(γ,γ) + ω3'\n";
+    let told = error(late);
+    let lines: Vec<usize> = told.iter().map(|(line, _, _)| *line).collect();
+    assert_eq!(lines, [12, 14, 16], "other mistakes do not mislead: {told:?}");
+    assert!(told[2].1.contains("unequal weight"), "{told:?}");
+    let unequal = error(&late.replace(" + foo", "").replace(" + bar", ""));
+    assert!(unequal[0].1.contains("unequal weight"), "{unequal:?}");
+    let set = |value: &str| {
+        let setting = liouville::case::Setting { name: "I".into(), value: value.into() };
+        let text = "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\n\
+                    I = [1, 2, 2.5]\n[body]\nshape = 'ball'\n[[claim]]\nintegral = 'energy'\n";
+        Case::parse(text, &[setting]).map(|case| case.model.parameters[2].kind)
+    };
+    assert_eq!(set("[3,4,5]").ok(), Some(liouville::formula::Type::MATRIX), "as in the file");
+    assert!(set("[3,4]").is_err(), "of its size");
+}
+
+#[test]
+fn names_stand_in_any_order() {
+    settled(
+        r#"
+title = "order"
+[let]
+third = "second*v"
+second = "first + k"
+first = "2*a"
+v = "x'*a"
+[parameters]
+b = "a² + c"
+a = "c/2"
+n = "2*m + 1"
+m = 2
+k = "first/a"
+c = "1..2"
+[state]
+x = "vector(n, 0.5..1)"
+[field]
+"x[i]'" = "i*a*x[i]"
+[[claim]]
+identity = "third = second*a²*vector(i, 1..n, i*x[i])"
+where = "everywhere"
+[[claim]]
+identity = "b − a² = 2*a + 0*k"
+where = "everywhere"
+"#,
+    );
+    settled(
+        r#"
+title = "abbreviations in a chart"
+[parameters]
+r = "1..2"
+[let]
+square = "r²"
+[state]
+x = "-1..1"
+y = "-1..1"
+[field]
+"x'" = "−y"
+"y'" = "x"
+[level]
+equations = ["x² + y² = square"]
+[level.chart]
+inputs = { u = "-1..1" }
+x = "r*(1 − u²)/(1 + u²)"
+y = "2*r*u/(1 + u²) + square − square"
+[[claim]]
+identity = "x² + y² = square"
+"#,
+    );
+    let cycle = error(
+        "title = 't'\n[parameters]\na = 'b + 1'\nb = 'c'\nc = '2*a'\n[state]\nx = '0..1'\n[field]\n\"x'\" = 'a*b*c'\n",
+    );
+    assert_eq!(cycle.len(), 1, "{cycle:?}");
+    assert_eq!(cycle[0].1, "`a` is defined by itself: a → b → c → a");
+}
+
+#[test]
+fn a_number_that_sizes_are_made_of_does_not_change() {
+    let case = |claim: &str| {
+        format!(
+            "title = 't'\n[parameters]\nn = 3\nk = 2\nS = 'skew(2, -1..1)'\n[let]\nN = 'n − 1'\n[state]\n\
+             x = 'vector(n, 0.5..1)'\n[field]\n\"x[i]'\" = 'k*x[i]^k'\n[[claim]]\n{claim}\n"
+        )
+    };
+    let refused = |claim: &str| {
+        let told = error(&case(claim));
+        assert!(told[0].1.contains("and cannot change"), "{claim}: {told:?}");
+    };
+    refused("limit = 'n*x[1]'\nequals = '0*x[1]'\nparameter = 'n'");
+    refused("limit = 'x[k]'\nequals = 'x[1]'\nparameter = 'k'");
+    refused("limit = 'tr(S^k)'\nequals = '2'\nparameter = 'k'");
+    refused("symmetry = { x = 'sum(i, 1..N, 1)*x', n = 'n' }");
+    settled(&case("limit = 'x[1]^k + k*x[2]'\nequals = '1'\nparameter = 'k'"));
+    settled(&case("symmetry = { x = '−x', k = 'k' }\nexpect = 'fails'"));
+}
+
+#[test]
+fn an_abbreviation_waits_for_rates_by_its_names_alone() {
+    settled(
+        r#"
+title = "waiting"
+[parameters]
+k2 = "1..2"
+[state]
+x = "-2..2"
+y = "-2..2"
+[let]
+k = "x'*2"
+m2 = "k2*y"
+[field]
+"x'" = "m2"
+"y'" = "−x*k2"
+[[claim]]
+identity = "k = 2*k2*y"
+[[claim]]
+integral = "x² + y²"
+"#,
+    );
+    let told =
+        error("title = 't'\n[state]\nx = '0..1'\n[let]\nk = \"2*x'\"\n[field]\n\"x'\" = 'k'\n");
+    assert_eq!(told[0].1, "`k` contains a rate, which [field] defines");
+}
+
+#[test]
+fn every_mistake_is_told_once() {
+    let told = error(
+        r#"titel = "x"
+system = "rubber-plane"
+[parameters]
+m = "1..2"
+R = "2..1"
+I = [1, 2, 2.5]
+k = "a + b"
+[body]
+shape = "bal"
+potentail = "m*h"
+[let]
+Z = "2m"
+[[claim]]
+integral = "energgy"
+[[claim]]
+intergal = "energy"
+[[claim]]
+integral = "R*(γ,γ) + Z + k"
+[[claim]]
+density = "exists"
+[[claim]]
+integral = "(γ,γ"
+"#,
+    );
+    let lines: Vec<usize> = told.iter().map(|(line, _, _)| *line).collect();
+    assert_eq!(lines, [1, 5, 7, 9, 10, 12, 14, 16, 20, 22], "{told:#?}");
+    assert!(!told.iter().any(|(_, message, _)| message.contains("`R`")), "R is known to be wrong");
+    assert_eq!(told[0].2, "did you mean `title`?", "a title that is misspelt is not missing");
+    assert!(told[8].2.contains("analytic-density"), "{}", told[8].2);
+}
+
+#[test]
+fn first_errors_say_what_to_write() {
+    let told = error("title = 't'\n[state]\nx' = y\nx = -2..2\n[[claim]]\nintegral = energy\n");
+    let help: Vec<&str> = told.iter().map(|(_, _, help)| help.as_str()).collect();
+    let quoted = [
+        "quote both: \"x'\" = \"y\"",
+        "quote the formula: x = \"-2..2\"",
+        "quote the formula: integral = \"energy\"",
+    ];
+    assert_eq!(help, quoted, "{told:#?}");
+    let claim = |text: &str| {
+        let head = "title = 't'\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n[[claim]]\n";
+        error(&format!("{head}{text}\n")).remove(0)
+    };
+    assert_eq!(claim("integral = 'w*x'").2, "the names here are x, x'");
+    assert_eq!(claim("integral = 'xdot'").2, "the rate of `x` is written `x'`");
+    assert_eq!(claim("integral = 'cot(x)'").2, "write `1/tan(x)`");
+    let place = claim("integral = 'x'\nwhere = 'x = 0'").2;
+    assert_eq!(place, "write \"everywhere\": this case has no level set");
+    assert_eq!(claim("measure = '1'").2, "did you mean `density`?");
+    let params =
+        error("title = 't'\n[params]\na = 1\n[state]\nx = '0..1'\n[field]\n\"x'\" = 'a'\n");
+    assert_eq!(params.len(), 1, "what the table declares is not missed: {params:#?}");
+    assert_eq!(params[0].2, "did you mean `parameters`?");
+    let bare = error("title = 't'\nsystem = 'nonholonomic'\n[state]\nx = '0..1'\n");
+    assert_eq!((bare[0].0, bare[0].1.as_str()), (2, "the file has no `lagrangian`"));
+}
+
+#[test]
+fn what_could_harm_a_terminal_or_a_run_is_refused() {
+    let head =
+        |title: &str| format!("title = \"{title}\"\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n");
+    for escape in ["\\u001b[2J", "\\u202e", "\\u009b"] {
+        let told = error(&head(escape));
+        assert!(told[0].1.contains("control character U+"), "{told:?}");
+    }
+    let claim = "[[claim]]\nlimit-cycle = 9223372036854775807\ncrossings = 8\nstart = [1, 0.1]\n";
+    let told = error(&format!("{}{claim}", head("t")));
+    assert!(told[0].1.contains("beyond all that can be followed"), "{told:?}");
+    let told = error(&format!("{}{} = 1\n", head("t"), "k".repeat(100_000)));
+    assert!(told[0].1.len() < 200, "long keys are cut");
+}
+
+#[test]
+fn names_that_mislead_are_warned_of() {
+    let warnings = |parameters: &str| {
+        let text = format!(
+            "title = 't'\n[parameters]\n{parameters}\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n"
+        );
+        Case::parse(&text, &[]).expect("a case").warnings
+    };
+    let own = |name: &str| {
+        vec![format!("`{name}` has a meaning of its own here, and this file gives it another")]
+    };
+    for name in ["exp", "sqrt", "e", "sum", "max"] {
+        assert_eq!(
+            warnings(&format!("{name} = 2")),
+            own(name),
+            "{name} is a function, or a number"
+        );
+    }
+    assert_eq!(warnings("e = [0, 0, 1]"), Vec::<String>::new(), "a vector is not taken for e");
+    let alike = "`ω` and `ѡ` look alike, and are two names";
+    assert_eq!(warnings("\"ω\" = 1\n\"ѡ\" = 2"), [alike], "Greek and Cyrillic");
+    let twice = error(
+        "title = 't'\n[parameters]\n\"é\" = 1\n\"e\u{301}\" = 2\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n",
+    );
+    assert!(twice[0].1.contains("declared twice"), "one name, composed or not: {twice:?}");
+}
+
+#[test]
+fn sizes_are_bounded_and_say_so() {
+    let state = |range: &str| {
+        error(&format!("title = 't'\n[state]\nx = '{range}'\n[field]\n\"x'\" = 'x'\n")).remove(0)
+    };
+    let message = "a vector of length 2000 is too large: there are at most 1024 components";
+    assert_eq!(state("vector(2000, 0..1)").1, message);
+    assert_eq!(state("vector(0, 0..1)").1, "a size is positive, this is 0");
+    assert_eq!(state("vector(n, 0..1)").1, "unknown name `n`");
+    assert_eq!(state("matrix(4, 0..1)").1, "a matrix has two sizes: matrix(4, 4, a..b)");
+    assert!(state("symmetric(4, 0..1)").1.contains("depend on each other"), "not a state");
+}
