@@ -195,13 +195,16 @@ impl Reader for Entries<'_, '_> {
         formula(&text, scope, &format!("`{key}`"), kind, Reach::Phase).map(Some)
     }
 
-    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, Mistake> {
+    fn list_in(
+        &self,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<Formula>>, Mistake> {
         if self.section.value(key).is_none() {
             return Ok(None);
         }
         let texts = self.section.texts(key)?;
-        let read =
-            |text: &Text| formula(text, &self.model.vocabulary, "an entry", None, Reach::Phase);
+        let read = |text: &Text| formula(text, scope, "an entry", None, Reach::Phase);
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 
@@ -226,21 +229,41 @@ impl Reader for Entries<'_, '_> {
         key: &'static str,
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Mistake> {
-        let Some(section) = self.section.section(key)? else { return Ok(None) };
-        let mut entries = Vec::new();
-        for (key, value) in section.entries() {
-            let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
-            let text = section.as_text(key.get_ref(), value)?;
-            let read = formula(&text, scope, &format!("`{name}`"), None, Reach::Phase)?;
-            entries.push((name, read));
-        }
-        Ok(Some(entries))
+        let section = self.section.section(key)?;
+        section.map(|section| formulas_of(&section, scope)).transpose()
+    }
+
+    fn table_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        known: &[&'static str],
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<(String, Formula)>>, Mistake> {
+        let Some(outer) = self.section.section(key)? else { return Ok(None) };
+        outer.allow(known);
+        outer.section(inner)?.map(|section| formulas_of(&section, scope)).transpose()
     }
 
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
         let span = place_of(self.section, key);
         Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
     }
+}
+
+/// The entries of a table of formulas: name and formula.
+fn formulas_of(
+    section: &Section<'_>,
+    scope: &Vocabulary,
+) -> Result<Vec<(String, Formula)>, Mistake> {
+    let mut entries = Vec::new();
+    for (key, value) in section.entries() {
+        let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
+        let text = section.as_text(key.get_ref(), value)?;
+        let read = formula(&text, scope, &format!("`{name}`"), None, Reach::Phase)?;
+        entries.push((name, read));
+    }
+    Ok(entries)
 }
 
 /// The name that is given, or `base`, numbered where it is taken.

@@ -20,8 +20,27 @@ impl Components {
         key: &'static str,
         scope: &Vocabulary,
     ) -> Result<Option<Self>, R::Error> {
+        let given = from.table_in(key, scope)?;
+        given.map(|given| Self::gather(from, key, given)).transpose()
+    }
+
+    /// Reads the table under `inner` in the table under `key`, which has no keys but `known`.
+    pub fn read_inside<R: Reader>(
+        from: &R,
+        (key, inner): (&'static str, &'static str),
+        known: &[&'static str],
+        scope: &Vocabulary,
+    ) -> Result<Option<Self>, R::Error> {
+        let given = from.table_inside(key, inner, known, scope)?;
+        given.map(|given| Self::gather(from, key, given)).transpose()
+    }
+
+    fn gather<R: Reader>(
+        from: &R,
+        key: &'static str,
+        given: Vec<(String, Formula)>,
+    ) -> Result<Self, R::Error> {
         let model = from.model();
-        let Some(given) = from.table_in(key, scope)? else { return Ok(None) };
         let mut variables = vec![None; model.state.len()];
         let mut texts = Vec::new();
         for (name, formula) in given {
@@ -36,7 +55,7 @@ impl Components {
             texts.push(format!("{name} = {}", formula.text().trim()));
             variables[index] = Some(formula);
         }
-        Ok(Some(Self { variables, text: texts.join(", ") }))
+        Ok(Self { variables, text: texts.join(", ") })
     }
 
     /// The formulas that are given.

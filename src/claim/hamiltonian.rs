@@ -27,7 +27,10 @@ pub struct JacobiIdentity;
 pub struct DensityInVariables(Formula);
 
 /// The variables of the case, or the complaint that there are none.
-fn variables<'r, R: Reader>(from: &'r R, key: &'static str) -> Result<&'r Variables, R::Error> {
+pub(super) fn variables<'r, R: Reader>(
+    from: &'r R,
+    key: &'static str,
+) -> Result<&'r Variables, R::Error> {
     from.model().variables.as_deref().ok_or_else(|| {
         let message = format!("`{key}` is a claim about new variables, and the case has none");
         from.complaint(key, message, "add [variables], and [poisson] for a bracket")
@@ -40,7 +43,8 @@ fn scalar_in<R: Reader>(from: &R, key: &'static str) -> Result<Formula, R::Error
     from.formula_in(key, Some(Type::Scalar), names)?.ok_or_else(|| from.missing(key))
 }
 
-fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Error> {
+/// Complains where the case has no bracket.
+pub(super) fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Error> {
     if variables(from, key)?.has_bracket() {
         return Ok(());
     }
@@ -49,7 +53,7 @@ fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Err
 }
 
 /// The variables of a model; claims about them were refused where there are none.
-fn of(model: &Model) -> &Variables {
+pub(super) fn of(model: &Model) -> &Variables {
     match &model.variables {
         Some(variables) => variables,
         None => unreachable!("checked when the claim was read"),
@@ -62,12 +66,15 @@ fn slope<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<T> {
 }
 
 /// P u
-fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
+pub(super) fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
     tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
 }
 
 /// What vanishes where each ∫ in functions of the new variables, and in the bracket, is one.
-fn defects<'f>(jet: &Jet<'_, Expr>, functions: impl Iterator<Item = &'f Formula>) -> Vec<Expr> {
+pub(super) fn defects<'f>(
+    jet: &Jet<'_, Expr>,
+    functions: impl Iterator<Item = &'f Formula>,
+) -> Vec<Expr> {
     let variables = of(jet.phase.model());
     let there = Jet::new(variables.point(&jet.phase));
     let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
@@ -75,7 +82,7 @@ fn defects<'f>(jet: &Jet<'_, Expr>, functions: impl Iterator<Item = &'f Formula>
 }
 
 /// The new variables vary independently: what is said of them is then said of all their values.
-fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condition {
+pub(super) fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condition {
     let images = of(jet.phase.model()).images.iter();
     let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
     let need = Need::Rank { rank: rows.len(), rows };
@@ -83,7 +90,7 @@ fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condit
 }
 
 /// What is told of a bracket that is looked at where the new variables obey a relation.
-const ON_A_PART: &str = "the new variables obey a relation, and what is said of their bracket holds \
+pub(super) const ON_A_PART: &str = "the new variables obey a relation, and what is said of their bracket holds \
                          where they do: give as many as vary independently";
 
 impl Statement for Hamiltonian {

@@ -3,6 +3,8 @@
 //! Each kind of claim is one file that says what its residual is; sampling, the ladder, verdicts and
 //! reports are written once for all of them.
 
+mod bracket;
+mod commutator;
 mod components;
 mod condition;
 mod criterion;
@@ -12,6 +14,7 @@ mod hamiltonian;
 mod identity;
 mod independence;
 mod integral;
+mod lax;
 mod limit;
 pub mod motion;
 mod place;
@@ -27,6 +30,8 @@ use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
+pub use bracket::Bracket;
+pub use commutator::Commutator;
 pub use components::Components;
 pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
@@ -36,6 +41,7 @@ pub use hamiltonian::{Casimir, DensityInVariables, Hamiltonian, JacobiIdentity};
 pub use identity::{Identity, Rate, Relation};
 pub use independence::Independent;
 pub use integral::Integral;
+pub use lax::Lax;
 pub use limit::Limit;
 pub use place::Place;
 
@@ -131,7 +137,9 @@ kinds! {
     Identity,
     Rate,
     Relation,
+    Lax,
     SymmetryField,
+    Commutator,
     Symmetry,
     Reversor,
     Map,
@@ -140,6 +148,7 @@ kinds! {
     Limit,
     Hamiltonian,
     Casimir,
+    Bracket,
     JacobiIdentity,
     DensityInVariables,
 }

@@ -25,8 +25,12 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Formula>, Self::Error>;
 
-    /// The formulas of a list.
-    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, Self::Error>;
+    /// The formulas of a list, in the names of `scope`.
+    fn list_in(
+        &self,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<Formula>>, Self::Error>;
 
     /// The two sides of an equation `A = B`.
     fn equation(&self, key: &'static str) -> Result<(Formula, Formula), Self::Error>;
@@ -35,6 +39,15 @@ pub trait Reader {
     fn table_in(
         &self,
         key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
+
+    /// The same of the table under `inner` in the table under `key`, which has no keys but `known`.
+    fn table_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        known: &[&'static str],
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
@@ -48,6 +61,11 @@ pub trait Reader {
         kind: Option<Type>,
     ) -> Result<Option<Formula>, Self::Error> {
         self.formula_in(key, kind, &self.model().vocabulary)
+    }
+
+    /// The formulas of a list, in the names of the case.
+    fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, Self::Error> {
+        self.list_in(key, &self.model().vocabulary)
     }
 
     /// The formula under a key that must be there.

@@ -1,0 +1,106 @@
+//! Brackets of functions of the new variables: {F,G} = K in the bracket of `[poisson]`.
+
+use super::hamiltonian::{ON_A_PART, bracket_is_given, defects, of, they_vary, turned, variables};
+use super::{Condition, Reader, Statement, difference};
+use crate::formula::{Formula, Type};
+use crate::graph::Expr;
+use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::{Phase, Variables};
+use crate::scalar::Scalar;
+
+/// (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; of vectors every component with every other.
+#[derive(Clone, Debug)]
+pub struct Bracket {
+    first: Formula,
+    second: Formula,
+    /// 0 where none is given.
+    value: Option<Formula>,
+}
+
+/// The kind of {F,G}, if F and G are scalars or vectors.
+fn kind_of_bracket(first: Type, second: Type) -> Option<Type> {
+    match (first, second) {
+        (Type::Scalar, other @ (Type::Scalar | Type::Vector(_)))
+        | (other @ Type::Vector(_), Type::Scalar) => Some(other),
+        (Type::Vector(rows), Type::Vector(columns)) => Some(Type::Matrix(rows, columns)),
+        _ => None,
+    }
+}
+
+/// The gradients of the components of F by the new variables.
+fn slopes<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<Vec<T>> {
+    let columns: Vec<Vec<T>> = (0..there.model().dimension())
+        .map(|i| there.lift_along(i).evaluate(function).components())
+        .map(|moved| moved.into_iter().map(|x| x.eps).collect())
+        .collect();
+    let count = function.value_type().size();
+    (0..count).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
+}
+
+impl Bracket {
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(there);
+        let flows: Vec<Vec<T>> =
+            slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();
+        let found: Vec<T> = slopes(there, &self.first)
+            .iter()
+            .flat_map(|slope| flows.iter().map(|flow| dot(slope, flow)))
+            .collect();
+        let mut residual = match &self.value {
+            Some(value) => difference(found, there.evaluate(value).components()),
+            None => found,
+        };
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
+    }
+}
+
+impl Statement for Bracket {
+    const NAME: &'static str = "bracket";
+    const COMPANIONS: &'static [&'static str] = &["equals"];
+    const AT_IMAGES: bool = true;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        bracket_is_given(from, Self::NAME)?;
+        let names = &variables(from, Self::NAME)?.model.vocabulary;
+        let given = from.list_in(Self::NAME, names)?.ok_or_else(|| from.missing(Self::NAME))?;
+        let [first, second]: [Formula; 2] = given.try_into().map_err(|given: Vec<Formula>| {
+            let message = format!("a bracket is of two functions, and {} are given", given.len());
+            from.complaint(Self::NAME, message, "write bracket = [\"F\", \"G\"]")
+        })?;
+        let kinds = (first.value_type(), second.value_type());
+        let Some(kind) = kind_of_bracket(kinds.0, kinds.1) else {
+            let message = format!("this is the bracket of a {} and a {}", kinds.0, kinds.1);
+            let remedy = "give scalars or vectors, e.g. the components of a matrix";
+            return Err(from.complaint(Self::NAME, message, remedy));
+        };
+        let value = from.formula_in("equals", Some(kind), names)?;
+        Ok(Self { first, second, value })
+    }
+
+    fn text(&self) -> Option<String> {
+        let value = self.value.as_ref().map_or("0", |value| value.text().trim());
+        Some(format!("{{{}, {}}} = {value}", self.first.text().trim(), self.second.text().trim()))
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        self.at(variables, &variables.point(&jet.phase))
+    }
+
+    fn residual_of_values(
+        &self,
+        variables: &Variables,
+        there: &Phase<'_, Expr>,
+    ) -> Option<Vec<Expr>> {
+        Some(self.at(variables, there))
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![they_vary(jet, ON_A_PART, true)]
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, [&self.first, &self.second].into_iter().chain(&self.value))
+    }
+}

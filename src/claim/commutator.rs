@@ -1,0 +1,87 @@
+//! Commutators of vector fields: [u,w] = (u·∇)w − (w·∇)u = z, component by component.
+
+use super::components::Components;
+use super::{Context, Reader, Statement, difference, quadrature_defects};
+use crate::formula::Formula;
+use crate::graph::Expr;
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::{Jet, dot};
+use crate::scalar::Scalar;
+
+/// [u,w] = z
+#[derive(Clone, Debug)]
+pub struct Commutator {
+    of: Components,
+    with: Components,
+    /// 0 where none is given.
+    value: Option<Components>,
+}
+
+/// The keys of u and of w.
+const FIELDS: [&str; 2] = ["of", "with"];
+
+impl Commutator {
+    /// Dw·u and Du·w.
+    fn parts<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vec<T>, Vec<T>) {
+        let rate = |field: &Components, along: &Components| -> Vec<T> {
+            let moved = phase.lift(&along.at(phase));
+            field.at(&moved).into_iter().map(|x| x.eps).collect()
+        };
+        (rate(&self.with, &self.of), rate(&self.of, &self.with))
+    }
+
+    fn claimed<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        self.value.as_ref().map(|value| value.at(phase))
+    }
+}
+
+impl Statement for Commutator {
+    const NAME: &'static str = "commutator";
+    const COMPANIONS: &'static [&'static str] = &["equals"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let names = &from.model().vocabulary;
+        let [of, with] = FIELDS.map(|key| -> Result<Components, R::Error> {
+            Components::read_inside(from, (Self::NAME, key), &FIELDS, names)?.ok_or_else(|| {
+                let message = format!("the commutator has no field `{key}`");
+                let remedy = "write commutator = { of = { x = \"…\" }, with = { x = \"…\" } }";
+                from.complaint(Self::NAME, message, remedy)
+            })
+        });
+        Ok(Self { of: of?, with: with?, value: Components::read(from, "equals", names)? })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        [&self.of, &self.with]
+            .into_iter()
+            .chain(&self.value)
+            .flat_map(Components::formulas)
+            .collect()
+    }
+
+    fn text(&self) -> Option<String> {
+        let value = self.value.as_ref().map_or("0".to_string(), |z| format!("({})", z.text));
+        Some(format!("[({}), ({})] = {value}", self.of.text, self.with.text))
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let (first, second) = self.parts(&jet.phase);
+        let found = difference(first, second);
+        match self.claimed(&jet.phase) {
+            Some(claimed) => difference(found, claimed),
+            None => found,
+        }
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        let (first, second) = self.parts(&jet.phase);
+        let claimed = self.claimed(&jet.phase).unwrap_or_default();
+        let scale = dot(&first, &first) + dot(&second, &second) + dot(&claimed, &claimed);
+        Context { scale: Some(scale), value: claimed, ..Context::default() }
+    }
+
+    /// The fields may leave the level, and each ∫ has to be one beside it too.
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, &[])).collect()
+    }
+}

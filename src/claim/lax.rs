@@ -1,0 +1,97 @@
+//! Lax pairs: L' = [L,A] = LA − AL for square matrices of any size.
+
+use super::{Context, Reader, Statement, difference};
+use crate::formula::{Formula, Type};
+use crate::graph::Expr;
+use crate::mechanics::Phase;
+use crate::mechanics::calculus::{Jet, dot};
+use crate::scalar::Scalar;
+
+/// L_vL = LA − AL
+#[derive(Clone, Debug)]
+pub struct Lax {
+    matrix: Formula,
+    partner: Formula,
+}
+
+/// AB, by rows, for matrices of n rows and columns.
+fn product<T: Scalar>(a: &[T], b: &[T], n: usize) -> Vec<T> {
+    let entry = |i: usize, j: usize| -> T { (0..n).map(|k| a[i * n + k] * b[k * n + j]).sum() };
+    (0..n * n).map(|place| entry(place / n, place % n)).collect()
+}
+
+impl Lax {
+    /// LA and AL.
+    fn products<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vec<T>, Vec<T>) {
+        let Type::Matrix(n, _) = self.matrix.value_type() else {
+            unreachable!("checked when the claim was read")
+        };
+        let [l, a] = [&self.matrix, &self.partner].map(|f| phase.evaluate(f).components());
+        (product(&l, &a, n), product(&a, &l, n))
+    }
+}
+
+impl Statement for Lax {
+    const NAME: &'static str = "lax";
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let remedy = "write lax = { L = \"…\", A = \"…\" } for L' = L*A − A*L";
+        let (mut matrix, mut partner) = (None, None);
+        for (name, formula) in from.table(Self::NAME)? {
+            match name.as_str() {
+                "L" => matrix = Some(formula),
+                "A" => partner = Some(formula),
+                _ => {
+                    let message = format!("a Lax pair is of L and A, and has no `{name}`");
+                    return Err(from.complaint(Self::NAME, message, remedy));
+                }
+            }
+        }
+        let (Some(matrix), Some(partner)) = (matrix, partner) else {
+            let message = "a Lax pair takes both L and A".to_string();
+            return Err(from.complaint(Self::NAME, message, remedy));
+        };
+        match (matrix.value_type(), partner.value_type()) {
+            (Type::Matrix(rows, columns), other)
+                if rows == columns && other == Type::Matrix(rows, columns) =>
+            {
+                Ok(Self { matrix, partner })
+            }
+            (l, a) => {
+                let message = format!("L is a {}, and A a {}", l.in_full(), a.in_full());
+                let remedy = "give square matrices of one size";
+                Err(from.complaint(Self::NAME, message, remedy))
+            }
+        }
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        vec![&self.partner, &self.matrix]
+    }
+
+    fn text(&self) -> Option<String> {
+        let [l, a] = [&self.matrix, &self.partner].map(|formula| formula.text().trim());
+        Some(format!("({l})' = [{l}, {a}]"))
+    }
+
+    fn about(&self, partner: Formula) -> Option<Self> {
+        Some(Self { partner, ..self.clone() })
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let (first, second) = self.products(&jet.phase);
+        difference(jet.rates(&self.matrix), difference(first, second))
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        let steepness: Expr = jet.gradients(&self.matrix).iter().map(|g| dot(g, g)).sum();
+        let field = jet.phase.field();
+        let (first, second) = self.products(&jet.phase);
+        let sides = dot(&first, &first) + dot(&second, &second);
+        Context {
+            scale: Some(steepness * dot(field, field) + sides),
+            value: jet.phase.evaluate(&self.matrix).components(),
+            ..Context::default()
+        }
+    }
+}
