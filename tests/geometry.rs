@@ -29,7 +29,7 @@ fn refused(head: &str, claim: &str, message: &str, help: &str) {
     let told: Vec<(String, String)> = error
         .mistakes()
         .iter()
-        .filter(|mistake| mistake.line.is_some_and(|found| found as u32 >= line))
+        .filter(|mistake| mistake.line.is_some_and(|found| found >= line))
         .map(|mistake| (mistake.message(), mistake.help().unwrap_or_default()))
         .collect();
     assert!(

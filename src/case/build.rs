@@ -18,7 +18,7 @@ use super::{
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
 /// The keys of a case file.
-const KEYS: [&str; 19] = [
+const KEYS: [&str; 20] = [
     "title",
     "source",
     "note",
@@ -30,6 +30,7 @@ const KEYS: [&str; 19] = [
     "body",
     "state",
     "field",
+    "hamiltonian",
     "lagrangian",
     "level",
     "let",
@@ -131,6 +132,13 @@ fn read(
     reading.read_parameters();
     lists.append(&mut reading.lists);
     let (system, mut parts) = reading.read()?;
+    let is_hamiltonian = matches!(parts.model.system, System::Hamiltonian(_));
+    if let (Some(section), true) = (root.table("hamiltonian"), parts.is_whole && !is_hamiltonian) {
+        root.mistakes().add(section.complaint(Problem::Other {
+            message: "[hamiltonian] makes a field of one's own".to_string(),
+            remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
+        }));
+    }
     parameters::unknown_settings(root, settings, &parts.model.parameters);
     let has_variables = variables::read(root, &mut parts.model);
     // what was read so far is judged only if all of it is there
@@ -243,7 +251,8 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
         }
         return;
     };
-    if !is_lagrangian && !matches!(parts.model.system, System::Field(_)) {
+    let is_own = matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_));
+    if !is_lagrangian && !is_own {
         root.mistakes().add(Mistake::at(
             section.span.clone(),
             Problem::Other {

@@ -13,6 +13,7 @@ mod family;
 mod feedback;
 mod field;
 mod formulas;
+mod hamiltonian;
 mod homogeneous;
 mod lagrangian;
 mod lines;

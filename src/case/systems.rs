@@ -11,7 +11,7 @@ use super::order::{Item, Stage};
 use super::parameters::Setting;
 use super::section::{Section, Text};
 use super::state::{self, State, TIME};
-use super::{ball, body, feedback, lagrangian, shadows};
+use super::{ball, body, feedback, hamiltonian, lagrangian, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
@@ -154,7 +154,7 @@ impl<'r, 's> Reading<'r, 's> {
     fn kind(&self) -> Option<Text> {
         match self.root.keep(self.root.text("system"))? {
             Some(text) => Some(text),
-            None if self.root.value("field").is_some() => {
+            None if ["field", "hamiltonian"].iter().any(|key| self.root.has(key)) => {
                 Some(Text::made("field".to_string(), 0..0))
             }
             None if self.root.value("lagrangian").is_some() => {
@@ -260,6 +260,9 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     fn field(&mut self) -> Read {
+        if self.root.value("hamiltonian").is_some() {
+            return hamiltonian::system(self);
+        }
         self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
         let section = self.root.table("field");
         if section.is_none() && self.root.value("field").is_none() {
@@ -275,7 +278,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// The equations of `[level]`; nothing if one is wrong.
-    fn read_level(&self) -> Option<Vec<LevelEquation>> {
+    pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
             Some(section) => field::equations(&section, &self.vocabulary),
             None => Some(Vec::new()),
@@ -283,7 +286,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// The variables of a system that has none of its own.
-    fn own_state(&mut self, reach: Reach, remedy: &str) {
+    pub fn own_state(&mut self, reach: Reach, remedy: &str) {
         match self.root.table("state") {
             Some(ranges) => self.state = state::state(&ranges, &mut self.vocabulary, reach),
             None => {
@@ -338,7 +341,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Names a quantity, unless the file gave the name another meaning.
-    fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Reach) {
+    pub fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Reach) {
         match self.vocabulary.find(name).map(|entry| entry.meaning) {
             None => self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach),
             // x' is the velocity of x where both are declared.

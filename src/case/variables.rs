@@ -19,6 +19,8 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
                 message: "[poisson] is a bracket for new variables".to_string(),
                 remedy: "add [variables], e.g. M = \"Ĩ*ω\", \"γ\" = \"γ\"".to_string(),
             }));
+        } else if root.value("variables").is_none() {
+            model.variables = own_bracket(model).map(Box::new);
         }
         return root.value("variables").is_none() && root.value("poisson").is_none();
     };
@@ -42,12 +44,35 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     }
     let target = target(model, state, &images);
     let blocks = match root.table("poisson") {
-        Some(section) => blocks(&section, &target),
+        Some(section) => {
+            let names =
+                Names { state: &target.state, vocabulary: &target.vocabulary, reach: Reach::Phase };
+            blocks(&section, &names)
+        }
         None => Some(vec![vec![None; target.state.len()]; target.state.len()]),
     };
     let Some(blocks) = blocks else { return false };
     model.variables = Some(Box::new(Variables { model: target, images, blocks }));
     root.value("poisson").is_none_or(|value| value.get_ref().is_table())
+}
+
+/// The state variables as variables of the bracket that `[hamiltonian]` gives.
+fn own_bracket(model: &Model) -> Option<Variables> {
+    let System::Hamiltonian(hamiltonian) = &model.system else { return None };
+    let image = |variable: &Variable| Formula::parse(&variable.name, &model.vocabulary).ok();
+    let images: Vec<Formula> = model.state.iter().map(image).collect::<Option<_>>()?;
+    let target = target(model, model.state.clone(), &images);
+    let again = |formula: &Formula| Formula::parse(formula.text(), &target.vocabulary).ok();
+    let block = |block: &Option<Block>| {
+        Some(match block {
+            Some(Block::Given(formula)) => Some(Block::Given(again(formula)?)),
+            Some(Block::Opposite(formula)) => Some(Block::Opposite(again(formula)?)),
+            other => other.clone(),
+        })
+    };
+    let row = |row: &Vec<Option<Block>>| row.iter().map(block).collect::<Option<Vec<_>>>();
+    let blocks = hamiltonian.blocks.iter().map(row).collect::<Option<Vec<_>>>()?;
+    Some(Variables { model: target, images, blocks })
 }
 
 /// The model in whose names functions of the new variables are written.
@@ -75,10 +100,21 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     model.with_names(names, state)
 }
 
-type Blocks = Vec<Vec<Option<Block>>>;
+/// The blocks of a bracket, by pairs of variables.
+pub type Blocks = Vec<Vec<Option<Block>>>;
+
+/// The names that a bracket is written in.
+pub struct Names<'n> {
+    /// The variables that it is of.
+    pub state: &'n [Variable],
+    /// What formulas may name.
+    pub vocabulary: &'n Vocabulary,
+    /// How far they may reach.
+    pub reach: Reach,
+}
 
 /// The blocks of a Poisson tensor; nothing where there is a mistake.
-fn blocks(section: &Section<'_>, target: &Model) -> Option<Blocks> {
+pub fn blocks(section: &Section<'_>, target: &Names<'_>) -> Option<Blocks> {
     let count = target.state.len();
     let mut blocks: Blocks = vec![vec![None; count]; count];
     let mut whole = section.keep(structure(section, target, &mut blocks)).is_some();
@@ -91,7 +127,11 @@ fn blocks(section: &Section<'_>, target: &Model) -> Option<Blocks> {
 }
 
 /// `structure = "e(3)"`
-fn structure(section: &Section<'_>, target: &Model, blocks: &mut Blocks) -> Result<(), Mistake> {
+fn structure(
+    section: &Section<'_>,
+    target: &Names<'_>,
+    blocks: &mut Blocks,
+) -> Result<(), Mistake> {
     let Some(text) = section.text("structure")? else { return Ok(()) };
     let vectors = target.state.iter().filter(|v| v.kind == Type::VECTOR).count();
     let pairs: &[(usize, usize)] = match (text.value.as_str(), vectors) {
@@ -106,7 +146,7 @@ fn structure(section: &Section<'_>, target: &Model, blocks: &mut Blocks) -> Resu
     };
     for (i, j) in pairs {
         let hat = format!("hat({})", target.state[*j].name);
-        place(blocks, (*i, *j), parse(&hat, &target.vocabulary)?);
+        place(blocks, (*i, *j), parse(&hat, target.vocabulary)?);
     }
     Ok(())
 }
@@ -115,7 +155,7 @@ fn structure(section: &Section<'_>, target: &Model, blocks: &mut Blocks) -> Resu
 fn block(
     key: &Spanned<Cow<'_, str>>,
     text: &Text,
-    target: &Model,
+    target: &Names<'_>,
     blocks: &mut Blocks,
 ) -> Result<(), Mistake> {
     let index = |name: &str| {
@@ -124,7 +164,7 @@ fn block(
     };
     let pair = key.get_ref().split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
     let Some((i, j)) = pair else {
-        let message = format!("`{}` is no pair of new variables", key.get_ref());
+        let message = format!("`{}` is no pair of the bracket's variables", key.get_ref());
         let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
         return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
     };
@@ -145,7 +185,7 @@ fn block(
         return Err(Mistake::at(key.span(), problem));
     }
     let what = format!("the block {}", key.get_ref());
-    let read = formula(text, &target.vocabulary, &what, Some(kind), Reach::Phase)?;
+    let read = formula(text, target.vocabulary, &what, Some(kind), target.reach)?;
     place(blocks, (i, j), read);
     Ok(())
 }

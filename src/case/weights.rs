@@ -101,6 +101,7 @@ fn of_system(system: &System) -> Vec<&Formula> {
             let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
             energies.chain(&lagrangian.constraints).collect()
         }
+        System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
         System::Field(rates) => rates.iter().collect(),
     }
 }

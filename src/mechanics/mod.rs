@@ -8,6 +8,7 @@ mod chart;
 mod configuration;
 mod draws;
 mod flat_base;
+mod hamiltonian;
 mod lagrangian;
 mod linear;
 mod model;
@@ -28,12 +29,15 @@ pub use chart::{Chart, GivenChart};
 pub use configuration::Configuration;
 pub use draws::Draws;
 pub use flat_base::FlatBase;
+pub use hamiltonian::Hamiltonian;
 pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{
     LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
 };
 pub use phase::Phase;
-pub use quantity::{Features, Quantity, of_ball, of_flat_base, of_lagrangian, of_rubber};
+pub use quantity::{
+    Features, Quantity, of_ball, of_flat_base, of_hamiltonian, of_lagrangian, of_rubber,
+};
 pub use recipe::{Draw, Line, Range, Recipe};
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use variables::{Block, Variables};
@@ -64,6 +68,8 @@ pub enum System {
     Ball(Box<BallOnSurface>),
     /// A Lagrangian with constraints that are linear in the velocities.
     Lagrangian(Box<Lagrangian>),
+    /// Hamilton's equations with a bracket that the case gives.
+    Hamiltonian(Box<Hamiltonian>),
     /// The user's own field: the rate of each state variable.
     Field(Vec<Formula>),
 }
@@ -99,6 +105,7 @@ impl System {
                 let forces = lagrangian.forces.iter().map(|(_, force)| force);
                 energies.chain(&lagrangian.constraints).chain(forces).chain(carried).collect()
             }
+            System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
             System::Field(rates) => rates.iter().collect(),
         }
     }
@@ -114,7 +121,10 @@ impl System {
                 let surface = matches!(&ball.surface, Surface::Support(shape) if is_open(shape));
                 surface || is_any(&ball.potential)
             }
-            System::FlatBase(_) | System::Lagrangian(_) | System::Field(_) => false,
+            System::FlatBase(_)
+            | System::Lagrangian(_)
+            | System::Hamiltonian(_)
+            | System::Field(_) => false,
         }
     }
 
@@ -125,19 +135,21 @@ impl System {
             System::FlatBase(body) => body.field(phase),
             System::Ball(ball) => ball.field(phase),
             System::Lagrangian(lagrangian) => lagrangian.field(phase),
+            System::Hamiltonian(hamiltonian) => hamiltonian.field(phase),
             System::Field(rates) => {
                 rates.iter().flat_map(|rate| phase.evaluate(rate).components()).collect()
             }
         }
     }
 
-    /// ½(ω,Ĩω) + U, for the systems that are bodies, or have a Lagrangian.
+    /// ½(ω,Ĩω) + U, for the systems that are bodies, or have a Lagrangian; or H.
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) => Some(body.energy(phase)),
             System::FlatBase(body) => Some(body.energy(phase)),
             System::Ball(ball) => Some(ball.energy(phase)),
             System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
+            System::Hamiltonian(hamiltonian) => Some(hamiltonian.energy(&phase.configuration)),
             System::Field(_) => None,
         }
     }
@@ -177,7 +189,7 @@ impl System {
             }
             System::FlatBase(body) => body.gyrostat.is_some(),
             System::Ball(ball) => ball.potential.is_some() || ball.rotation.is_some(),
-            System::Lagrangian(_) | System::Field(_) => true,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => true,
         }
     }
 
@@ -199,7 +211,7 @@ impl System {
                 }
                 ball.potential = None;
             }
-            System::Lagrangian(_) | System::Field(_) => return None,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => return None,
         }
         Some(free)
     }
@@ -298,6 +310,9 @@ impl System {
                 Quantity::Reaction(index) => lagrangian.reaction(phase, index),
                 _ => lagrangian.energy(&phase.configuration),
             }),
+            System::Hamiltonian(hamiltonian) => {
+                Value::Scalar(hamiltonian.energy(&phase.configuration))
+            }
             System::Field(_) => Value::Scalar(T::zero()),
         }
     }

@@ -191,6 +191,11 @@ pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
     all
 }
 
+/// The quantities of Hamilton's equations.
+pub fn of_hamiltonian() -> Vec<(&'static str, Quantity, Type, Reach)> {
+    vec![("energy", Quantity::Energy, Type::Scalar, Reach::Phase)]
+}
+
 /// The quantities of a Lagrangian system with some constraints.
 pub fn of_lagrangian(constraints: usize) -> Vec<(String, Quantity, Type, Reach)> {
     let mut all = vec![("energy".to_string(), Quantity::Energy, Type::Scalar, Reach::Phase)];

@@ -1,7 +1,7 @@
 //! New variables y = φ(x) with a bracket: what a Hamiltonian form is written in.
 
 use super::calculus::Jet;
-use super::model::Model;
+use super::model::{Model, Variable};
 use super::phase::Phase;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
@@ -24,6 +24,20 @@ pub enum Block {
     Given(Formula),
     /// The negative transpose of what is given for the opposite pair.
     Opposite(Formula),
+    /// The unit matrix: a canonical pair.
+    Unit,
+    /// The negative unit matrix, of the opposite pair.
+    OppositeUnit,
+}
+
+impl Block {
+    /// The formula of a block that is typed.
+    pub(super) fn typed(&self) -> Option<&Formula> {
+        match self {
+            Block::Given(formula) => Some(formula),
+            _ => None,
+        }
+    }
 }
 
 impl Variables {
@@ -34,10 +48,7 @@ impl Variables {
 
     /// The blocks of the bracket that are typed.
     pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
-        self.blocks.iter().flatten().flatten().filter_map(|block| match block {
-            Block::Given(formula) => Some(formula),
-            Block::Opposite(_) => None,
-        })
+        self.blocks.iter().flatten().flatten().filter_map(Block::typed)
     }
 
     /// φ(x), component by component.
@@ -57,40 +68,60 @@ impl Variables {
 
     /// P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the other
     /// blocks are skew as they are made.
-    pub fn symmetric_part<T: Scalar>(&self, tensor: &[Vec<T>]) -> Vec<T> {
-        let mut parts = Vec::new();
-        let mut start = 0;
-        for variable in &self.model.state {
-            let end = start + variable.len();
-            let pairs = (start..end).flat_map(|i| (i..end).map(move |j| (i, j)));
-            parts.extend(pairs.map(|(i, j)| tensor[i][j] + tensor[j][i]));
-            start = end;
-        }
-        parts
+    pub fn symmetric_part<T: Scalar>(&self, matrix: &[Vec<T>]) -> Vec<T> {
+        symmetric_part(&self.model.state, matrix)
     }
 
     /// P at a point of the new variables, by rows.
     pub fn tensor<T: Scalar>(&self, there: &Phase<'_, T>) -> Vec<Vec<T>> {
-        let state = &self.model.state;
-        let mut rows = Vec::new();
-        for (variable, blocks) in state.iter().zip(&self.blocks) {
-            let start = rows.len();
-            rows.resize(start + variable.len(), Vec::new());
-            for (block, across) in blocks.iter().zip(state) {
-                // (i, j) of a block that is given for the opposite pair stands at (j, i).
-                let (values, strides) = match block {
-                    None => (vec![T::zero(); variable.len() * across.len()], (across.len(), 1)),
-                    Some(Block::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),
-                    Some(Block::Opposite(p)) => {
-                        let values = there.evaluate(p).components().into_iter().map(|x| -x);
-                        (values.collect(), (1, variable.len()))
-                    }
-                };
-                for (i, row) in rows[start..].iter_mut().enumerate() {
-                    row.extend((0..across.len()).map(|j| values[i * strides.0 + j * strides.1]));
+        tensor(&self.model.state, &self.blocks, there)
+    }
+}
+
+/// P + Pᵀ within the blocks on the diagonal.
+pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -> Vec<T> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for variable in state {
+        let end = start + variable.len();
+        let pairs = (start..end).flat_map(|i| (i..end).map(move |j| (i, j)));
+        parts.extend(pairs.map(|(i, j)| matrix[i][j] + matrix[j][i]));
+        start = end;
+    }
+    parts
+}
+
+/// The tensor that blocks make at a point whose state they are about, by rows.
+pub(super) fn tensor<T: Scalar>(
+    state: &[Variable],
+    blocks: &[Vec<Option<Block>>],
+    there: &Phase<'_, T>,
+) -> Vec<Vec<T>> {
+    let mut rows = Vec::new();
+    for (variable, blocks) in state.iter().zip(blocks) {
+        let start = rows.len();
+        rows.resize(start + variable.len(), Vec::new());
+        for (block, across) in blocks.iter().zip(state) {
+            let unit = |value: T| -> Vec<T> {
+                let places =
+                    (0..variable.len()).flat_map(|i| (0..across.len()).map(move |j| (i, j)));
+                places.map(|(i, j)| if i == j { value } else { T::zero() }).collect()
+            };
+            // (i, j) of a block that is given for the opposite pair stands at (j, i).
+            let (values, strides) = match block {
+                None => (vec![T::zero(); variable.len() * across.len()], (across.len(), 1)),
+                Some(Block::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),
+                Some(Block::Opposite(p)) => {
+                    let values = there.evaluate(p).components().into_iter().map(|x| -x);
+                    (values.collect(), (1, variable.len()))
                 }
+                Some(Block::Unit) => (unit(T::one()), (across.len(), 1)),
+                Some(Block::OppositeUnit) => (unit(-T::one()), (across.len(), 1)),
+            };
+            for (i, row) in rows[start..].iter_mut().enumerate() {
+                row.extend((0..across.len()).map(|j| values[i * strides.0 + j * strides.1]));
             }
         }
-        rows
     }
+    rows
 }

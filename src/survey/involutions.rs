@@ -99,7 +99,7 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                 Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set }
             })
         }
-        System::Lagrangian(_) | System::Field(_) => sign_changes(case),
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => sign_changes(case),
     }
 }
 

@@ -39,7 +39,10 @@ impl Unknown {
             ..Effort::default()
         };
         // The families have the symmetry fields of bodies.
-        let is_body = !matches!(case.model.system, System::Field(_) | System::Lagrangian(_));
+        let is_body = !matches!(
+            case.model.system,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)
+        );
         let is_new = |one: &Found| !one.trivial && (!is_body || one.kind != "symmetry-field");
         match search(case, &effort, progress) {
             Ok(report) => Self {

@@ -66,6 +66,9 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
             format!("A homogeneous ball rolls, with spin, on {surface}{turns}{with}.")
         }
         System::Lagrangian(_) => format!("A {} system with a Lagrangian.", case.system),
+        System::Hamiltonian(_) => {
+            "Hamilton's equations with a function of the author's own.".to_string()
+        }
         System::Field(_) => "A vector field of the author's own.".to_string(),
     }
 }

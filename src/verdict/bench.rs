@@ -49,15 +49,21 @@ impl Bench<'_> {
                 false => JudgeError::Overflow(found),
             });
         }
-        let outputs =
+        let mut outputs =
             [&common.field[..], &common.level, &common.level_rates, &common.physics].concat();
+        let skew = outputs.len();
+        outputs.extend(&common.symmetric);
         let values = self.run(&outputs).at(&Ball::<LANES>, &states);
         let fields = common.field.len();
         let rates = fields + common.level.len();
         let physics = rates + common.level_rates.len();
-        let physical = values.range(physics..outputs.len());
+        let physical = values.range(physics..skew);
         if physics::is_asymmetric(&physical) {
             return Err(JudgeError::AsymmetricInertia);
+        }
+        let is_off = |index: usize| (0..LANES).any(|k| values.output(index).excludes_zero(k));
+        if (skew..outputs.len()).any(is_off) {
+            return Err(JudgeError::NotSkew);
         }
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);

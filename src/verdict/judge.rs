@@ -94,6 +94,9 @@ pub enum JudgeError {
     /// An inertia tensor that is not symmetric.
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
+    /// A bracket of Hamilton's equations that is not skew.
+    #[error("the bracket of [hamiltonian] is not skew")]
+    NotSkew,
     /// The field is nowhere defined.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
@@ -120,6 +123,9 @@ impl JudgeError {
             JudgeError::Dependent(_) => "remove the equation from [level]",
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
+            }
+            JudgeError::NotSkew => {
+                "a block \"M,M\" has to be a skew matrix, as hat(M) is, and \"x,x\" of a scalar is 0"
             }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {

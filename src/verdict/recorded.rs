@@ -90,6 +90,8 @@ pub struct Common {
     /// Their rates along the motion.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
+    /// P + Pᵀ of the bracket of Hamilton's equations, zero where it is one.
+    pub symmetric: Vec<Expr>,
     /// The formulas with an ∫ among the equations of motion and the new variables, each with what is
     /// zero exactly when its ∫ are functions of their variables.
     pub quadratures: Vec<(String, Vec<Expr>)>,
@@ -102,7 +104,10 @@ impl Common {
     pub fn of(jet: &Jet<'_, Expr>) -> Self {
         let rate = |function| jet.lie_derivative(|at| at.level_function(function));
         let phase = &jet.phase;
-        let own = matches!(phase.model().system, System::Field(_) | System::Lagrangian(_));
+        let own = matches!(
+            phase.model().system,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)
+        );
         let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {
             field: phase.field().to_vec(),
@@ -124,6 +129,10 @@ impl Common {
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
             physics: physics::outputs(phase),
+            symmetric: match &phase.model().system {
+                System::Hamiltonian(hamiltonian) => hamiltonian.symmetric_part(phase),
+                _ => Vec::new(),
+            },
             quadratures: {
                 let model = phase.model();
                 let everywhere = vec![false; model.level.len()];

@@ -49,7 +49,7 @@ impl Variables {
                 });
                 (own.collect(), Ideal::None)
             }
-            (System::Field(_), _) if model.level.is_empty() => {
+            (System::Field(_) | System::Hamiltonian(_), _) if model.level.is_empty() => {
                 (vec![false; model.dimension()], Ideal::None)
             }
             _ => return None,

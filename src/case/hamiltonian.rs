@@ -1,0 +1,129 @@
+//! `[hamiltonian]`: a function, and a bracket by canonical pairs and by blocks.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::error::{Mistake, Problem};
+use super::formulas::formula;
+use super::order::Stage;
+use super::section::Section;
+use super::state::TIME;
+use super::systems::Reading;
+use super::variables::{Blocks, Names, blocks};
+use crate::formula::{Type, canonical_name};
+use crate::mechanics::{Block, Chart, Hamiltonian, Reach, System, Variable, of_hamiltonian};
+
+const PAIRS: &str = "write pairs = [[\"q\",\"p\"]], two state variables of one kind in each";
+
+/// Reads a system that `[hamiltonian]` gives; nothing where there is a mistake.
+pub fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
+    reading.own_state(
+        Reach::Configuration,
+        "add a table [state] with q = \"-2..2\", p = \"-2..2\" for each pair",
+    );
+    if let Some(rates) = reading.root.table("field") {
+        rates.mistakes().add(rates.complaint(Problem::Other {
+            message: "[hamiltonian] and [field] both give the rates".to_string(),
+            remedy: "remove one of them".to_string(),
+        }));
+    }
+    let section = reading.root.table("hamiltonian")?;
+    for (name, quantity, kind, reach) in of_hamiltonian() {
+        reading.name(name, quantity, kind, reach);
+    }
+    reading.settle(Stage::State);
+    let system = read(reading, &section);
+    let level = reading.read_level();
+    reading.level = level?;
+    Some((system?, Chart::Free))
+}
+
+/// Reads the section.
+fn read(reading: &Reading<'_, '_>, section: &Section<'_>) -> Option<System> {
+    let (vocabulary, state) = (&reading.vocabulary, &reading.state.variables);
+    let function =
+        section.required("function", "add function = \"p²/2 + q²/2\"").and_then(|text| {
+            formula(&text, vocabulary, "the Hamiltonian", Some(Type::Scalar), Reach::Configuration)
+        });
+    let function = section.keep(function);
+    let names = Names { state, vocabulary, reach: Reach::Configuration };
+    let bracket = section.keep(section.section("bracket"));
+    let blocks = match bracket.as_ref().map(Option::as_ref) {
+        Some(Some(bracket)) => blocks(bracket, &names),
+        Some(None) => Some(vec![vec![None; state.len()]; state.len()]),
+        None => None,
+    };
+    let blocks = blocks.and_then(|mut blocks| {
+        section.keep(pairs(section, state, &mut blocks))?;
+        section.keep(all_move(section, state, &blocks))?;
+        Some(blocks)
+    });
+    section.finish();
+    let (function, blocks) = (function?, blocks?);
+    let clock = state.iter().enumerate().position(|(index, v)| is_clock(v, index, &blocks));
+    Some(System::Hamiltonian(Box::new(Hamiltonian { function, blocks, clock })))
+}
+
+/// Enters the canonical pairs.
+fn pairs(section: &Section<'_>, state: &[Variable], blocks: &mut Blocks) -> Result<(), Mistake> {
+    let Some(value) = section.value("pairs") else { return Ok(()) };
+    let wrong = |item: &Spanned<DeValue<'_>>, message: String| {
+        Mistake::at(item.span(), Problem::Other { message, remedy: PAIRS.to_string() })
+    };
+    let DeValue::Array(list) = value.get_ref() else {
+        return Err(wrong(value, "`pairs` is a list of pairs".to_string()));
+    };
+    for item in list {
+        let both = match item.get_ref() {
+            DeValue::Array(both) if both.len() == 2 => both,
+            _ => return Err(wrong(item, "this is no pair".to_string())),
+        };
+        let index = |place: usize| {
+            let text = section.as_text("pairs", &both[place])?;
+            let name = canonical_name(&text.value).unwrap_or_default();
+            let found = state.iter().position(|variable| variable.name == name);
+            found.ok_or_else(|| {
+                wrong(&both[place], format!("`{}` is no state variable", text.value))
+            })
+        };
+        let (q, p) = (index(0)?, index(1)?);
+        if q == p {
+            return Err(wrong(item, format!("`{}` is paired with itself", state[q].name)));
+        }
+        if state[q].kind != state[p].kind {
+            let (first, second) = (state[q].kind, state[p].kind);
+            return Err(wrong(item, format!("a {first} is paired with a {second}")));
+        }
+        if blocks[q][p].is_some() {
+            let names = format!("`{}` and `{}`", state[q].name, state[p].name);
+            return Err(wrong(item, format!("the bracket of {names} is given already")));
+        }
+        blocks[q][p] = Some(Block::Unit);
+        blocks[p][q] = Some(Block::OppositeUnit);
+    }
+    Ok(())
+}
+
+/// A variable without any bracket would stand still: it is a parameter, or was forgotten.
+fn all_move(section: &Section<'_>, state: &[Variable], blocks: &Blocks) -> Result<(), Mistake> {
+    let stands = |(index, variable): &(usize, &Variable)| {
+        blocks[*index].iter().all(Option::is_none) && !is_clock(variable, *index, blocks)
+    };
+    match state.iter().enumerate().find(stands) {
+        None => Ok(()),
+        Some((_, variable)) => Err(section.complaint(Problem::Other {
+            message: format!("`{}` has no bracket with any variable", variable.name),
+            remedy: format!(
+                "name it in pairs = [[\"q\",\"p\"]], or give bracket = {{ \"{0},{0}\" = \"…\" }}; what \
+                 never moves is a parameter",
+                variable.name
+            ),
+        })),
+    }
+}
+
+/// Is the variable time, without a bracket? Its rate is 1.
+fn is_clock(variable: &Variable, index: usize, blocks: &Blocks) -> bool {
+    let is_free = blocks[index].iter().all(Option::is_none);
+    variable.name == TIME && variable.kind == Type::Scalar && is_free
+}
