@@ -132,8 +132,7 @@ fn read(
     reading.read_parameters();
     lists.append(&mut reading.lists);
     let (system, mut parts) = reading.read()?;
-    let is_hamiltonian = matches!(parts.model.system, System::Hamiltonian(_));
-    if let (Some(section), true) = (root.table("hamiltonian"), parts.is_whole && !is_hamiltonian) {
+    if let (Some(section), true) = (root.table("hamiltonian"), system != "field") {
         root.mistakes().add(section.complaint(Problem::Other {
             message: "[hamiltonian] makes a field of one's own".to_string(),
             remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
