@@ -383,7 +383,7 @@ pub fn suitable_moduli(
 ) -> [Modulus; LANES] {
     type Known = (Digest, Stream, Wanted, [Modulus; LANES]);
     thread_local! {
-        static LAST: RefCell<Option<Known>> = const { RefCell::new(None) };
+        static LAST: RefCell<[Option<Known>; 2]> = const { RefCell::new([None, None]) };
     }
     let wanted = Wanted {
         odd: algebraic.odd_indices(),
@@ -391,6 +391,8 @@ pub fn suitable_moduli(
         depth: algebraic.depth(),
     };
     LAST.with_borrow_mut(|last| {
+        // Those of tests and those of searches take turns.
+        let last = &mut last[usize::from(stream == Stream::Squares)];
         if let Some((d, s, known, moduli)) = last
             && (*d, *s, &*known) == (digest, stream, &wanted)
         {
