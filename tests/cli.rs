@@ -263,9 +263,15 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("no-map", turning("[[claim]]\nmap = {}\nfield = {}"), "names no new variable", "give one"),
         (
             "no-time",
-            turning("[[claim]]\nsymmetry = { x = '0*x', y = '0*y' }\ntime = '0*x'"),
+            turning("[[claim]]\nsymmetry = { x = '0*x', y = '0*y' }\ntime = '1 − 1'"),
             "`time` is 0",
             "t → λt",
+        ),
+        (
+            "moving-time",
+            turning("[[claim]]\nsymmetry = { x = 'x', y = 'y' }\ntime = '1 + x − x'"),
+            "`time` depends on the state",
+            "write λ by numbers and parameters",
         ),
         (
             "surface",

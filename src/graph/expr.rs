@@ -90,6 +90,14 @@ impl Expr {
         Self::made(|_| super::ONE)
     }
 
+    /// Has this value one for all inputs, as its form tells? To be asked while it is recorded.
+    pub fn is_always_defined(self) -> bool {
+        with_graph(|graph| {
+            let node = self.node_in(graph);
+            graph.domains[node.0 as usize] == super::Defined::Always
+        })
+    }
+
     /// Was this value folded to 0?
     pub(super) fn is_zero_node(self) -> bool {
         with_graph(|graph| self.node_in(graph) == super::ZERO)

@@ -344,7 +344,7 @@ impl Explorer<'_> {
             }
         }
         let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
-        if !cell.is_part() || !findings.iter().all(is_zero) {
+        if cell.is_part() && !findings.iter().all(is_zero) {
             // Whether there is such a cell at all is worth knowing now.
             let classes = Classes::of(algebraic, trial, tower, self.digest);
             let inputs = self.prover.extents;

@@ -13,8 +13,10 @@ use super::squares::{Samples, Square};
 use super::tower::{Standing, Tower};
 use super::trial::{Certificate, Finding, Roots, Trial};
 
-/// Products of a nested radicand with at most this many others are tried.
+/// Others of either kind with which products of a nested radicand are tried.
 const MOST_FACTORS: usize = 4;
+/// Sets of such others.
+const MOST_SETS: usize = 40;
 
 /// What became of the root of a base.
 pub enum Search {
@@ -72,7 +74,7 @@ impl RootFinder<'_> {
 
     fn dependent(&mut self, base: usize, others: Vec<usize>) -> Result<Search, Fault> {
         let is_nested = self.algebraic.mask(self.algebraic.bases[base].radicand) != 0;
-        let groups = if is_nested { self.nested_before(base) } else { vec![others] };
+        let groups = if is_nested { self.before_nested(base) } else { vec![others] };
         for others in groups {
             if let Some(found) = self.product(base, &others)? {
                 return Ok(found);
@@ -81,19 +83,25 @@ impl RootFinder<'_> {
         Ok(Search::Unknown)
     }
 
-    /// Sets of independent roots before a nested one, none first.
-    fn nested_before(&self, base: usize) -> Vec<Vec<usize>> {
-        let is_candidate = |index: &usize| {
-            let other = &self.algebraic.bases[*index];
-            self.tower.standings[*index] == Standing::Independent
-                && self.algebraic.mask(other.radicand) != 0
-        };
-        let candidates: Vec<usize> = (0..base).filter(is_candidate).take(MOST_FACTORS).collect();
+    /// Sets of independent roots before a nested one, small ones first: nested roots, and those
+    /// without roots inside that are nearest, as its own may cancel.
+    fn before_nested(&self, base: usize) -> Vec<Vec<usize>> {
+        let is_nested =
+            |index: &usize| self.algebraic.mask(self.algebraic.bases[*index].radicand) != 0;
+        let independent: Vec<usize> = (0..base)
+            .filter(|index| self.tower.standings[*index] == Standing::Independent)
+            .collect();
+        let nested = independent.iter().copied().filter(is_nested).take(MOST_FACTORS);
+        let others = independent.iter().rev().copied().filter(|index| !is_nested(index));
+        let candidates: Vec<usize> = nested.chain(others.take(MOST_FACTORS)).collect();
+        let mut subsets: Vec<u32> = (0..1 << candidates.len()).collect();
+        subsets.sort_by_key(|subset| subset.count_ones());
+        subsets.truncate(MOST_SETS);
         let chosen = |subset: u32| {
             let members = candidates.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1);
             members.map(|(_, index)| *index).collect()
         };
-        (0u32..1 << candidates.len()).map(chosen).collect()
+        subsets.into_iter().map(chosen).collect()
     }
 
     /// √(A Π A_i), if it is known what that is.

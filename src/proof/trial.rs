@@ -77,7 +77,7 @@ impl Certificate {
         // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
-            points: self.points.min(other.points),
+            points: fewest(self.points, other.points),
             draws: self.draws.max(other.draws),
             degree: self.degree.max(other.degree),
             height: self.height.max(other.height),
@@ -85,6 +85,11 @@ impl Certificate {
             error_log2: self.error_log2.max(other.error_log2) + 1.0,
         }
     }
+}
+
+/// The smaller number of points; none where there were none at all.
+fn fewest(a: usize, b: usize) -> usize {
+    if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }
 
 /// The bound when all certificates there are are needed.
@@ -378,7 +383,7 @@ pub fn suitable_moduli(
 ) -> [Modulus; LANES] {
     type Known = (Digest, Stream, Wanted, [Modulus; LANES]);
     thread_local! {
-        static LAST: RefCell<Option<Known>> = const { RefCell::new(None) };
+        static LAST: RefCell<[Option<Known>; 2]> = const { RefCell::new([None, None]) };
     }
     let wanted = Wanted {
         odd: algebraic.odd_indices(),
@@ -386,6 +391,8 @@ pub fn suitable_moduli(
         depth: algebraic.depth(),
     };
     LAST.with_borrow_mut(|last| {
+        // Those of tests and those of searches take turns.
+        let last = &mut last[usize::from(stream == Stream::Squares)];
         if let Some((d, s, known, moduli)) = last
             && (*d, *s, &*known) == (digest, stream, &wanted)
         {

@@ -26,12 +26,14 @@ pub struct Recorded<'c> {
     pub wider: Vec<Wider>,
 }
 
-/// The components of formulas, with a value exactly where all that is written has one.
+/// The components of formulas, with a value exactly where all that is written has one; those that
+/// have one everywhere are left out.
 fn literal_values<'f>(
     phase: &Phase<'_, Expr>,
     formulas: impl IntoIterator<Item = &'f Formula>,
 ) -> Vec<Expr> {
-    formulas.into_iter().flat_map(|f| phase.evaluate_literally(f).components()).collect()
+    let values = formulas.into_iter().flat_map(|f| phase.evaluate_literally(f).components());
+    values.filter(|value| !value.is_always_defined()).collect()
 }
 
 /// A wider place than the claim's own, with what vanishes if the claim holds there too.
@@ -55,8 +57,9 @@ impl<'c> Recorded<'c> {
             requirement: {
                 let mut values = literal_values(&jet.phase, claim.kind.formulas());
                 // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) has no value.
-                if let (Kind::Density(_), Some(density)) = (&claim.kind, values.first().copied()) {
-                    values.push(literally(|| density.recip()));
+                if let Kind::Density(density) = &claim.kind {
+                    let density = jet.phase.evaluate_literally(&density.0).components();
+                    values.extend(density.iter().map(|value| literally(|| value.recip())));
                 }
                 values
             },

@@ -12,6 +12,7 @@ use super::sampler::{LANES, Maker, Sampler};
 use crate::claim::Kind;
 use crate::graph::{Expr, Fault};
 use crate::number::Enclosing;
+use crate::number::ball::Ball;
 use crate::number::mixed::Mixed;
 use crate::number::twofold::TwofoldBall;
 use crate::proof::{self, Group};
@@ -24,6 +25,14 @@ const EXACT_STATES: usize = 16;
 
 /// The signs seen of a density, negative and positive, by parameter set.
 type Signs = [[bool; 2]; PARAMETER_SETS];
+
+/// What was seen of a density.
+#[derive(Clone, Default)]
+struct Seen {
+    signs: Signs,
+    /// Is there a lane at which no state is known to exist?
+    is_lacking: bool,
+}
 
 impl Bench<'_> {
     /// The signs of the densities among claims that hold, over all states for each of a few
@@ -52,7 +61,7 @@ impl Bench<'_> {
         });
         let required: Vec<[Range<usize>; 2]> = own.collect();
         let run = self.run(&outputs);
-        let mut seen: Vec<Signs> = vec![Signs::default(); required.len()];
+        let mut seen: Vec<Seen> = vec![Seen::default(); required.len()];
         for blocks in waves(0..self.blocks()) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
@@ -60,24 +69,25 @@ impl Bench<'_> {
             for values in run.at_blocks(sampler, blocks, sharing) {
                 observe(&values, &required, &mut seen);
             }
-            let is_known = |(seen, proved): (&Signs, &Option<bool>)| match proved {
-                Some(_) => sign(seen).is_some(),
-                None => sign(seen) == Some(Sign::Changes),
+            let is_known = |(seen, proved): (&Seen, &Option<bool>)| match proved {
+                Some(_) => sign(&seen.signs).is_some(),
+                None => sign(&seen.signs) == Some(Sign::Changes),
             };
             if seen.iter().zip(&proved).all(is_known) {
                 break;
             }
         }
         if !sampler.is_numerical() {
-            let is_open = |(seen, proved): (&Signs, &Option<bool>)| {
-                sign(seen).is_none() || (proved.is_none() && sign(seen) != Some(Sign::Changes))
+            let is_open = |(seen, proved): (&Seen, &Option<bool>)| {
+                let sign = sign(&seen.signs);
+                sign.is_none() || (proved.is_none() && sign != Some(Sign::Changes))
             };
             if seen.iter().zip(&proved).any(is_open) {
                 self.look_closely(&run, &required, sampler, &mut seen);
             }
         }
         for (((_, _, finding), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
-            finding.evidence.sign = sign(seen);
+            finding.evidence.sign = sign(&seen.signs);
             finding.evidence.sign_is_proved =
                 proved.is_some() || finding.evidence.sign == Some(Sign::Changes);
             if finding.evidence.sign.is_none() {
@@ -88,31 +98,37 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Observes signs near the ends of ranges, with twice the digits, and exactly where a root may
-    /// be 0.
+    /// Observes signs near the ends of ranges; with twice the digits where none is known; and exactly
+    /// where f64 knows of no state, as a root may be 0.
     fn look_closely(
         &self,
         run: &Run,
         required: &[[Range<usize>; 2]],
         sampler: &Sampler,
-        seen: &mut [Signs],
+        seen: &mut [Seen],
     ) {
-        let domain = TwofoldBall::<LANES>;
-        let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
-        observe(&run.at(&domain, &states), required, seen);
+        if seen.iter().any(|seen| sign(&seen.signs).is_none()) {
+            let domain = TwofoldBall::<LANES>;
+            let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
+            observe(&run.at(&domain, &states), required, seen);
+        }
+        let domain = Ball::<LANES>;
         for start in (0..EDGES).step_by(LANES) {
             let states = sampler.states_at_edges(&domain, start as u64, PARAMETER_SETS);
             observe(&run.at(&domain, &states), required, seen);
+        }
+        if !seen.iter().any(|seen| seen.is_lacking) {
+            return;
         }
         let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
         for lane in (0..LANES).step_by(LANES / EXACT_STATES) {
             let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
             let values = run.at(&domain, &states);
             for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
-                if !values.existing(required)[0] {
-                    continue;
+                if seen.is_lacking && values.existing(required)[0] {
+                    let set = &mut seen.signs[lane * PARAMETER_SETS / LANES];
+                    note::<Mixed>(values.output(index), 0, set);
                 }
-                note::<Mixed>(values.output(index), 0, &mut seen[lane * PARAMETER_SETS / LANES]);
             }
         }
     }
@@ -144,11 +160,18 @@ impl Bench<'_> {
 }
 
 /// Notes the signs of a block of values where there is a state, by parameter set.
-fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Signs]) {
+fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Seen]) {
     for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
         let existing = values.existing(required);
-        for lane in (0..LANES).filter(|lane| existing[*lane]) {
-            note::<D>(values.output(index), lane, &mut seen[lane * PARAMETER_SETS / LANES]);
+        for (lane, exists) in existing.into_iter().enumerate() {
+            match exists {
+                true => note::<D>(
+                    values.output(index),
+                    lane,
+                    &mut seen.signs[lane * PARAMETER_SETS / LANES],
+                ),
+                false => seen.is_lacking = true,
+            }
         }
     }
 }
