@@ -8,7 +8,7 @@ use crate::mechanics::Phase;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// [u,w] = z
+/// `[u,w] = z`
 #[derive(Clone, Debug)]
 pub struct Commutator {
     of: Components,

@@ -99,8 +99,12 @@ impl<'a> Field<'a> {
         let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];
         for fixed in combinations {
             let (graph, groups) = self.sampler.compose_groups(graph, &groups, &fixed)?;
-            for (all, one) in answers.iter_mut().zip(prover.prove(&graph, &groups)?) {
+            let outcomes = prover.prove(&graph, &groups)?;
+            for ((all, one), group) in answers.iter_mut().zip(outcomes).zip(&groups) {
+                let is_void = group.required.iter().any(|value| graph.is_nowhere_defined(*value));
                 let one = match one {
+                    // For these values of lists there is no state.
+                    _ if is_void => Answer::Void,
                     Outcome::Zero(certificate) => Answer::Zero(certificate),
                     Outcome::NonZero(parts) => {
                         Answer::NonZero(vec![Where { fixed: fixed.clone(), parts }])
