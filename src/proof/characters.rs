@@ -150,29 +150,45 @@ impl Refusals {
         nested: &[usize],
         digest: Digest,
     ) -> Self {
-        let radicands: Vec<Expr> =
-            nested.iter().map(|index| algebraic.bases[*index].radicand).collect();
-        let tape = Tape::new(&algebraic.graph, &radicands);
+        // By base: its radicand, and those of its links whose own roots are links.
+        let chains = nested.iter().map(|index| {
+            let base = &algebraic.bases[*index];
+            let inner = base.links.len().saturating_sub(1);
+            let links = base.links[..inner].iter().map(|(link, _)| *link);
+            [base.radicand].into_iter().chain(links).collect::<Vec<Expr>>()
+        });
+        let chains: Vec<Vec<Expr>> = chains.collect();
+        let tape = Tape::new(&algebraic.graph, &chains.concat());
         let field = Quadratic::new(*trial.moduli());
         let mut evaluator = Evaluator::new(&tape, field.clone());
         let mut chance = Chance::of(digest, Stream::Refusals);
         let mut found =
             Self { refused: vec![[false; PRIMES]; nested.len()], accepted: vec![0; nested.len()] };
-        let most = (4 * ACCEPTED * PRIMES / LANES) << (nested.len() as u32).min(MOST_NESTED);
+        let roots: usize = chains.iter().map(Vec::len).sum();
+        let most = (4 * ACCEPTED * PRIMES / LANES) << (roots as u32).min(MOST_NESTED);
         for _ in 0..most {
             let points = trial.points(&[], &mut chance);
             evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&points));
             for lane in 0..LANES {
-                for index in 0..nested.len() {
-                    match field.is_square(evaluator.output(index), lane) {
+                let mut place = 0;
+                for (index, chain) in chains.iter().enumerate() {
+                    let (own, links) = (place, place + 1..place + chain.len());
+                    place = links.end;
+                    match field.is_square(evaluator.output(own), lane) {
                         Some(true) => found.accepted[index] += 1,
                         // 0 is the square of 0.
-                        Some(false) if evaluator.output(index)[lane] == [0, 0] => break,
+                        Some(false) if evaluator.output(own)[lane] == [0, 0] => break,
                         Some(false) => {
                             found.refused[index][prime_of(lane)] = true;
                             break;
                         }
                         None => break,
+                    }
+                    // All roots before the next have to exist, √√A among them: it is independent
+                    // where √A is, as -1 is a square.
+                    let mut links = links.map(|at| field.is_square(evaluator.output(at), lane));
+                    if links.any(|is_square| is_square != Some(true)) {
+                        break;
                     }
                 }
             }
