@@ -97,6 +97,13 @@ impl Samples {
         let mut outputs: Vec<Expr> =
             places.iter().filter_map(|place| algebraic.values[*place]).collect();
         outputs.extend(algebraic.bases.iter().map(|base| base.radicand));
+        // √√A exists at some of the points only at which √A does.
+        let chained = needed.iter().map(|index| &algebraic.bases[*index]);
+        let chained = chained.filter(|base| base.links.len() > 1);
+        let last = chained.filter_map(|base| base.links.last()).map(|(link, _)| *link);
+        let radicands = places.len()..outputs.len();
+        outputs.extend(last);
+        let last = radicands.end..outputs.len();
         let tape = Tape::new(&algebraic.graph, &outputs);
         // An identity has to be tested modulo primes that had no part in finding it.
         let moduli = suitable_moduli(digest, Stream::Squares, algebraic);
@@ -107,7 +114,9 @@ impl Samples {
         let found = (0..MOST_BLOCKS << MOST_NESTED).any(|_| {
             let block = points(&moduli, &algebraic.sources, &[], &mut chance);
             evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
-            needed.iter().all(|base| is_defined(evaluator.output(places.len() + base)))
+            let mut radicands = needed.iter().map(|base| places.len() + base);
+            radicands.all(|place| is_defined(evaluator.output(place)))
+                && last.clone().all(|place| is_defined(evaluator.output(place)))
         });
         if !found {
             return None;
@@ -135,8 +144,7 @@ impl Samples {
                 known.get_or_insert(index);
             }
         }
-        let radicands =
-            (places.len()..outputs.len()).map(|index| *evaluator.output(index)).collect();
+        let radicands = radicands.map(|index| *evaluator.output(index)).collect();
         Some(Self { field, moduli, entries, with_ratio, radicands })
     }
 
