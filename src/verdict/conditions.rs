@@ -6,10 +6,9 @@ use super::finding::undecide;
 use super::ladder::Open;
 use super::recorded::Recorded;
 use super::sampler::{Sampler, extent};
-use crate::claim::Need;
+use crate::claim::{Condition, Need};
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Phase;
-use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 use crate::proof::{Extent, Group, Outcome, Prover, are_coprime, is_nowhere_zero};
 use crate::scalar::Scalar;
@@ -27,33 +26,39 @@ impl Bench<'_> {
         }
         for (item, finding) in holding.iter_mut() {
             for condition in &item.conditions {
-                let otherwise = condition.otherwise.clone();
-                let failure = match &condition.need {
-                    Need::Rank { rows, rank } => {
-                        let ranks = Field::new(self, sampler).ranks(rows, &[rows.len()])?;
-                        let found = ranks.and_then(|ranks| ranks.first().copied());
-                        let short = found.filter(|found| found < rank);
-                        short.map(|found| {
-                            format!("{otherwise}: {found} of {rank} dimensions are left")
-                        })
-                    }
-                    Need::ValueOnZeros { function, factor, inverse } => {
-                        let is_met =
-                            self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
-                        (!is_met).then_some(otherwise)
-                    }
-                };
-                match (failure, condition.is_essential) {
-                    (None, _) => {}
-                    (Some(failure), false) => finding.evidence.remark = Some(failure),
-                    (Some(failure), true) if !self.holds_of_all_values(item)? => {
-                        undecide(finding, failure);
-                    }
-                    (Some(_), true) => {}
+                let Some(failure) = self.failure(sampler, condition)? else { continue };
+                if !condition.is_essential {
+                    finding.evidence.remark = Some(failure);
+                } else if !self.holds_of_all_values(item)? {
+                    undecide(finding, failure);
                 }
             }
         }
         Ok(())
+    }
+
+    /// What is told of a condition that is not met, or of an essential one that is not known to be.
+    fn failure(&self, sampler: &Sampler, condition: &Condition) -> Result<Option<String>, Fault> {
+        let otherwise = &condition.otherwise;
+        match &condition.need {
+            Need::Rank { rows, rank } => {
+                let ranks = Field::new(self, sampler).ranks(rows, &[rows.len()])?;
+                let found = ranks.and_then(|ranks| ranks.first().copied());
+                Ok(match found {
+                    Some(found) if found >= *rank => None,
+                    Some(found) => {
+                        Some(format!("{otherwise}: {found} of {rank} dimensions are left"))
+                    }
+                    None => condition
+                        .is_essential
+                        .then(|| format!("it is not known whether {otherwise}")),
+                })
+            }
+            Need::ValueOnZeros { function, factor, inverse } => {
+                let is_met = self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
+                Ok((!is_met).then(|| otherwise.clone()))
+            }
+        }
     }
 
     /// Whether a claim about new variables is proved for all values of theirs, related or not.
@@ -61,21 +66,24 @@ impl Bench<'_> {
         let model = &self.case.model;
         let Some(variables) = model.variables.as_deref() else { return Ok(false) };
         let draws = model.parameter_draws();
-        let inputs = draws.len() + variables.model.dimension();
-        let (graph, residual) = record(inputs, |inputs| {
-            let (parameters, values) = model.make_parameters(inputs);
-            let there = Phase::new(&variables.model, &parameters, values);
-            item.claim.kind.residual_of_values(variables, &there)
-        })?;
-        let (Some(residual), Some(combinations)) = (residual, combinations(&draws)) else {
-            return Ok(false);
-        };
+        let Some(combinations) = combinations(&draws) else { return Ok(false) };
         let extents: Vec<Extent> = draws.iter().map(extent).collect();
         let prover = Prover { sources: &[], extents: &extents, seed: self.options.seed };
         for fixed in combinations {
-            let (graph, residual) = with_fixed(&graph, &residual, &fixed)?;
-            let outcomes = prover.prove(&graph, &[Group::of(residual)])?;
-            if !outcomes.iter().all(Outcome::is_zero) {
+            let inputs = draws.len() + variables.model.dimension();
+            let (graph, residual) = record(inputs, |inputs| {
+                let mut inputs = inputs.to_vec();
+                for (input, value) in inputs.iter_mut().zip(&fixed) {
+                    if let Some(value) = value {
+                        *input = Expr::rational(value);
+                    }
+                }
+                let (parameters, values) = model.make_parameters(&inputs);
+                let there = Phase::new(&variables.model, &parameters, values);
+                item.claim.kind.residual_of_values(variables, &there)
+            })?;
+            let Some(residual) = residual else { return Ok(false) };
+            if !prover.prove(&graph, &[Group::of(residual)])?.iter().all(Outcome::is_zero) {
                 return Ok(false);
             }
         }
@@ -119,23 +127,6 @@ impl Bench<'_> {
             || (is_nowhere_zero(graph, extents, &[], &[function, pole])
                 && !is_nowhere_zero(graph, extents, &[], &[function]))
     }
-}
-
-/// The same values of a graph with some of its inputs fixed.
-fn with_fixed(
-    graph: &Graph,
-    values: &[Expr],
-    fixed: &[Option<Rational>],
-) -> Result<(Graph, Vec<Expr>), Fault> {
-    let reached = graph.reached(values.iter().copied());
-    record(graph.inputs(), |inputs| {
-        let number = |(k, input): (usize, &Expr)| {
-            fixed.get(k).and_then(Option::as_ref).map_or(*input, Expr::rational)
-        };
-        let inputs: Vec<Expr> = inputs.iter().enumerate().map(number).collect();
-        let made = graph.replay(&reached, &inputs, |_, _, _| None);
-        values.iter().filter_map(|value| made[graph.place(*value)]).collect()
-    })
 }
 
 /// The values that must not be 0 where another has a value that is bounded nearby.
