@@ -1,4 +1,4 @@
-//! Work compiled for the widest vectors that this processor has, chosen at run time.
+//! Run-time dispatch to the widest vector instructions that the processor has.
 //!
 //! The binary is built for the baseline of its architecture. A loop over lanes vectorises to
 //! whatever the function it is inlined into may use, so the same source is compiled once for each
@@ -9,13 +9,13 @@
 
 #![allow(unsafe_code, reason = "a function with target features is called after asking for them")]
 
-/// A piece of work that is inlined into functions compiled for several instruction sets.
+/// A computation that is inlined into functions compiled for several instruction sets.
 pub(crate) trait Work {
-    /// Does it; to be marked `#[inline(always)]`, like all that it calls.
+    /// Runs the computation. Mark the implementation, and everything it calls, `#[inline(always)]`.
     fn run(self);
 }
 
-/// An instruction set that the work is compiled for.
+/// An instruction set that the computation is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "made on x86-64 only"))]
 pub(crate) enum Vectors {
@@ -23,11 +23,11 @@ pub(crate) enum Vectors {
     Avx512,
     /// 256 bits, with fused multiply-add.
     Avx2,
-    /// What every processor of the architecture has.
+    /// The baseline of the architecture.
     Baseline,
 }
 
-/// The widest there is.
+/// Finds the widest instruction set of this processor.
 pub(crate) fn widest() -> Vectors {
     #[cfg(target_arch = "x86_64")]
     {
@@ -44,7 +44,7 @@ pub(crate) fn widest() -> Vectors {
     Vectors::Baseline
 }
 
-/// The processor's features that tapes are run with, beyond the baseline of its architecture.
+/// Names the processor features that tapes use beyond the baseline of the architecture.
 pub fn vector_features() -> &'static [&'static str] {
     match widest() {
         Vectors::Avx512 => &["avx512f", "avx512dq"],
@@ -53,7 +53,7 @@ pub fn vector_features() -> &'static [&'static str] {
     }
 }
 
-/// Does the work with the widest vectors there are.
+/// Runs the computation with the widest vectors available.
 pub(crate) fn with_widest_vectors(work: impl Work) {
     match widest() {
         // SAFETY: the processor has the features that the function is compiled for.

@@ -1,7 +1,7 @@
 //! num-dual's [`DualNum`] for [`Expr`], so that `Dual<Expr>` and its nestings record derivatives.
 //!
-//! Functions outside the graph's vocabulary are written by it: `sinh x = (eˣ - e⁻ˣ)/2`,
-//! `asin x = atan(x/√(1 - x²))`. What needs a magnitude or an order is refused.
+//! Functions outside the graph's vocabulary are written in terms of it: `sinh x = (eˣ - e⁻ˣ)/2`,
+//! `asin x = atan(x/√(1 - x²))`. Operations that need a magnitude or an order are refused.
 
 use std::cmp::Ordering;
 use std::iter::{Product, Sum};
@@ -254,7 +254,7 @@ mod tests {
     use crate::number::float::Float;
     use num_dual::Dual;
 
-    /// Second derivatives recorded through the graph against num-dual at f64.
+    /// Compares second derivatives recorded through the graph with those of num-dual at f64.
     fn second_derivative_agrees(
         name: &str,
         point: f64,

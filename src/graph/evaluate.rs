@@ -1,17 +1,17 @@
-//! Runs a tape over blocks of states in any number domain.
+//! Evaluation of a tape over blocks of states in any number domain.
 
 use super::dispatch::{Work, with_widest_vectors};
 use super::tape::{Instruction, Tape};
 use crate::number::Domain;
 use crate::number::rational::Rational;
 
-/// A tape with the memory to run it in one domain; built once, run on many blocks.
+/// A tape with its working memory in one domain; built once, run on many blocks.
 pub struct Evaluator<'t, D: Domain> {
     tape: &'t Tape,
     domain: D,
-    /// One block a slot, and one beside them for the next result.
+    /// One block for each slot, and a spare block for the next result.
     blocks: Vec<Aligned<D::Block>>,
-    /// Where each slot's block is.
+    /// Index into `blocks` for each slot.
     places: Vec<usize>,
     spare: usize,
 }
@@ -32,18 +32,18 @@ impl<'t, D: Domain> Evaluator<'t, D> {
         Self { tape, domain, blocks, places: (0..tape.slots).collect(), spare: tape.slots }
     }
 
-    /// Computes the outputs from one block an input; inputs that are left out keep their value.
+    /// Computes the outputs from one block for each input; inputs left out keep their values.
     pub fn run(&mut self, inputs: &[D::Block]) {
         self.load(inputs);
         with_widest_vectors(Execution(self));
     }
 
-    /// The value of output `index` after the last run.
+    /// Returns the value of output `index` after the last run.
     pub fn output(&self, index: usize) -> &D::Block {
         &self.blocks[self.places[self.tape.outputs[index] as usize]].0
     }
 
-    /// All outputs of the last run.
+    /// Returns all outputs of the last run.
     pub fn outputs(&self) -> impl Iterator<Item = &D::Block> {
         (0..self.tape.outputs.len()).map(|index| self.output(index))
     }
@@ -55,7 +55,7 @@ impl<'t, D: Domain> Evaluator<'t, D> {
     }
 }
 
-/// The instructions of a tape, one after the other.
+/// The loop over the instructions of a tape.
 struct Execution<'e, 't, D: Domain>(&'e mut Evaluator<'t, D>);
 
 impl<D: Domain> Work for Execution<'_, '_, D> {
@@ -63,8 +63,8 @@ impl<D: Domain> Work for Execution<'_, '_, D> {
     fn run(self) {
         let Evaluator { tape, domain, blocks, places, spare } = self.0;
         for instruction in &tape.instructions {
-            // The result is made in the spare block, which then changes places with the target's:
-            // a result may replace an argument, and no argument is the spare block.
+            // The result is made in the spare block, which then changes places with the target's: a
+            // result may replace an argument, and no argument is in the spare block.
             let target = match *instruction {
                 Instruction::Unary { function, a, out } => {
                     let (x, result) = beside(blocks, places[a as usize], *spare);
@@ -92,7 +92,7 @@ impl<D: Domain> Work for Execution<'_, '_, D> {
     }
 }
 
-/// An argument, and the block for the result beside it.
+/// Borrows an argument together with the spare block for the result.
 #[inline(always)]
 fn beside<B>(blocks: &mut [Aligned<B>], argument: usize, spare: usize) -> (&B, &mut B) {
     let (low, high) = blocks.split_at_mut(argument.max(spare));
@@ -146,7 +146,7 @@ mod tests {
         let mut plain = Evaluator::new(&tape, Ball::<64>);
         plain.load(&balls);
         Execution(&mut plain).run();
-        // The sign and payload of a NaN mean nothing.
+        // The sign and payload of a NaN are arbitrary.
         let bits = |block: &[f64; 64]| block.map(|x| if x.is_nan() { 0 } else { x.to_bits() });
         for (wide, plain) in wide.outputs().zip(plain.outputs()) {
             assert!(bits(&wide.mid) == bits(&plain.mid), "midpoints");

@@ -22,17 +22,17 @@ pub struct Expr {
 }
 
 impl Expr {
-    /// The node, or `None` for a handle that was never part of a recording.
+    /// Returns the node, or `None` for a handle that was never part of a recording.
     pub(super) fn id(self) -> Option<NodeId> {
         (self.session != 0).then_some(self.node)
     }
 
-    /// The handle of a node.
+    /// Makes the handle of a node.
     pub(super) fn of(session: u32, node: NodeId) -> Self {
         Self { session, node }
     }
 
-    /// A further free input of the recording under way.
+    /// Adds a free input to the recording under way.
     pub fn input() -> Self {
         Self::made(Graph::input)
     }
@@ -45,7 +45,8 @@ impl Expr {
         })
     }
 
-    /// This value's node in `graph`; one of another recording is a fault, and counts as 0.
+    /// Returns the node of this value in `graph`. A value of another recording is a fault and
+    /// counts as 0.
     fn node_in(self, graph: &mut Graph) -> NodeId {
         if self.session == graph.session {
             return self.node;
@@ -90,7 +91,8 @@ impl Expr {
         Self::made(|_| super::ONE)
     }
 
-    /// Has this value one for all inputs, as its form tells? To be asked while it is recorded.
+    /// Whether the recorded form proves that the value is defined for all inputs. Valid only while
+    /// the recording runs.
     pub fn is_always_defined(self) -> bool {
         with_graph(|graph| {
             let node = self.node_in(graph);
@@ -98,12 +100,12 @@ impl Expr {
         })
     }
 
-    /// Was this value folded to 0?
+    /// Whether the value was folded to 0.
     pub(super) fn is_zero_node(self) -> bool {
         with_graph(|graph| self.node_in(graph) == super::ZERO)
     }
 
-    /// Was this value folded to 1?
+    /// Whether the value was folded to 1.
     pub(super) fn is_one_node(self) -> bool {
         with_graph(|graph| self.node_in(graph) == super::ONE)
     }
@@ -147,7 +149,7 @@ impl Scalar for Expr {
 }
 
 impl From<f64> for Expr {
-    /// The dyadic rational that the f64 is; NaN and infinities make the recording fail.
+    /// Records the dyadic rational equal to the f64; NaN and infinities make the recording fail.
     fn from(value: f64) -> Self {
         match Rational::from_f64(value) {
             Some(value) => Self::constant(value),

@@ -1,38 +1,40 @@
-//! Values of nodes at random points of prime fields, by which equal ones are found.
+//! Fingerprints of nodes: their values at random points of prime fields, by which equal nodes are
+//! found.
 //!
-//! Two rational values that differ agree at all 64 points with a probability below (d/2^60)^64, d
-//! their degree. √x is the root that is a square itself: √x √y = √(xy) is seen, and √(x²) = x is not,
-//! since x is no square at half of the points. A point at which some root does not exist is drawn
-//! anew. exp, sin and the like are random functions: equal for equal arguments, and nothing else.
+//! Two different rational values agree at all 64 points with a probability below (d/2^60)^64, where
+//! d is their degree. √x is the root that is itself a square: √x √y = √(xy) is found, and √(x²) = x
+//! is not, since x is not a square at half of the points. A point at which some root does not exist
+//! is drawn again. exp, sin and the like are random functions: equal for equal arguments, and
+//! related in no other way.
 //!
-//! For measuring only. A proof, and whoever bounds rounding, run what was recorded.
+//! For measuring only. Proofs and rounding bounds run the graph as it was recorded.
 
 use super::{Choice, Expr, Fault, Graph, Member, Node, Step};
 use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function, Operation};
 
-/// Points, half of them modulo each of two primes.
+/// Number of points, half of them modulo each of two primes.
 const POINTS: usize = 64;
 const HALF: usize = POINTS / 2;
-/// Blocks of points that are tried: enough for four independent roots.
+/// Number of blocks of points to try: enough for four independent roots.
 const TRIES: u64 = 48;
-/// Numerators and denominators of factors are below: then one prime tells them, and the other agrees
-/// by chance with a probability of 2^-61.
+/// Bound on numerators and denominators of factors. Below it one prime determines them, and the
+/// other agrees by chance with a probability of 2^-61.
 const MOST_IN_FACTOR: i64 = 1 << 29;
 
 type Values = [u64; POINTS];
 
-/// Larger graphs stay as they are: what each class needs is kept as a set.
+/// Size above which a graph stays as it is: the needs of each class are kept as a set.
 const MOST_NODES: usize = 1 << 13;
 
 impl Graph {
-    /// The outputs from fewer operations, in a graph of their own: what is proportional is made once,
-    /// in the cheapest way that is found among what outputs and `shortcuts` need. Exact, up to the
+    /// Rebuilds the outputs with fewer operations, in a new graph: proportional values are computed
+    /// once, in the cheapest way found among what outputs and `shortcuts` need. Exact, up to the
     /// probability above, wherever the outputs have values.
     ///
-    /// An output that is zero without having been folded stays a sum that is computed: none of its
-    /// terms is made from the others.
+    /// An output that is zero without having been folded stays a computed sum: none of its terms is
+    /// made from the others.
     pub fn merged(
         &self,
         outputs: &[Expr],
@@ -60,8 +62,8 @@ impl Graph {
         Ok(rebuilt)
     }
 
-    /// Where a value is zero, makes the terms of its sum incomparable: one of them, by preference a
-    /// short one, is taken out of its class with all that is proportional to it on its way.
+    /// Makes the terms of a sum that is zero incomparable: one of them, preferably a short one, is
+    /// taken out of its class with everything proportional to it on its path.
     fn part(
         &self,
         output: usize,
@@ -92,7 +94,7 @@ impl Graph {
         }
     }
 
-    /// The classes of proportional values; constants are multiples of 1.
+    /// Sorts the nodes into classes of proportional values; constants are multiples of 1.
     fn classes(&self, values: &[Option<Values>], moduli: &[Modulus; POINTS]) -> Vec<Member> {
         let inverse = |x: u64, lane: usize| (x != 0).then(|| moduli[lane].inverse(x));
         let direction = |values: &Values| -> Option<Values> {
@@ -111,8 +113,8 @@ impl Graph {
         self.members(values, direction, factor)
     }
 
-    /// The values of what is reached at points where what is needed has values; `None` if too few
-    /// points were found.
+    /// Evaluates the reached nodes at points where the needed ones have values; `None` if too few
+    /// such points were found.
     fn fingerprints(
         &self,
         moduli: &[Modulus; POINTS],
@@ -146,7 +148,7 @@ impl Graph {
         None
     }
 
-    /// The values of what is reached at one block of points.
+    /// Evaluates the reached nodes at one block of points.
     fn values_at(&self, domain: &Fingerprint, reached: &[bool], round: u64) -> Vec<Values> {
         let constants: Vec<Values> =
             self.constants.iter().map(|value| domain.constant(value)).collect();
@@ -179,7 +181,7 @@ fn vanishes(values: &Values) -> bool {
     values.iter().all(|x| *x == 0)
 }
 
-/// Is xᵢyⱼ = xⱼyᵢ modulo each prime?
+/// Whether xᵢyⱼ = xⱼyᵢ modulo each prime.
 fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool {
     moduli.iter().enumerate().all(|(lane, modulus)| {
         let first = lane / HALF * HALF;
@@ -187,7 +189,7 @@ fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool 
     })
 }
 
-/// Two primes p = 3 mod 4 near 2^61, one for each half of the points.
+/// Returns two primes p = 3 mod 4 near 2^61, one for each half of the points.
 fn moduli() -> [Modulus; POINTS] {
     let mut primes = (0..).map(|k| (1u64 << 61) - 1 - 4 * k).filter(|p| is_prime(*p));
     let mut next = || Modulus::new(primes.next().unwrap_or((1 << 61) - 1));
@@ -195,7 +197,7 @@ fn moduli() -> [Modulus; POINTS] {
     std::array::from_fn(|lane| both[lane / HALF])
 }
 
-/// A well mixed number that depends on both (Steele, Lea, Flood 2014: SplitMix64).
+/// Mixes two numbers into one (Steele, Lea, Flood 2014: SplitMix64).
 fn mixed(a: u64, b: u64) -> u64 {
     let mut z = a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ b;
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -203,7 +205,7 @@ fn mixed(a: u64, b: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// The fraction with small parts that x is the image of, by Euclid's algorithm (Wang 1981).
+/// Recovers the fraction with small parts whose image is x, by Euclid's algorithm (Wang 1981).
 fn fraction(modulus: &Modulus, x: u64) -> Option<Rational> {
     let (mut r, mut s) = ([modulus.prime() as i64, modulus.to_integer(x) as i64], [0i64, 1i64]);
     while r[1] >= MOST_IN_FACTOR {
@@ -216,18 +218,18 @@ fn fraction(modulus: &Modulus, x: u64) -> Option<Rational> {
     (s[1] != 0 && s[1].abs() < MOST_IN_FACTOR).then(|| Rational::new(r[1], s[1]))
 }
 
-/// Prime fields in which a function that they do not have is a random function.
+/// Prime fields with random functions in place of the functions that fields lack.
 struct Fingerprint(Prime<POINTS>);
 
 impl Fingerprint {
-    /// A random element for each lane.
+    /// Draws a random element for each lane.
     fn point(&self, input: u64, round: u64) -> Values {
         let moduli = self.0.moduli();
         let seed = mixed(input, round);
         std::array::from_fn(|lane| moduli[lane].integer(mixed(seed, lane as u64 + 1)))
     }
 
-    /// The value of function number `name` at x and y.
+    /// Evaluates function number `name` at x and y.
     fn random(&self, name: u64, x: &Values, y: &Values, out: &mut Values) {
         for (lane, modulus) in self.0.moduli().iter().enumerate() {
             out[lane] = match x[lane] == UNDEFINED || y[lane] == UNDEFINED {

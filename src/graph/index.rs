@@ -1,15 +1,17 @@
-//! Where a node is, found by its content: open addressing over places, the nodes stay in the graph.
+//! A hash index from the content of a node to its place: open addressing, with the nodes left in
+//! the graph.
 
 use super::{Node, NodeId};
 
-/// Places plus one, 0 where nothing is; a power of two of them, at most half taken.
+/// Places plus one, 0 for an empty slot. The number of slots is a power of two, at most half of
+/// them taken.
 #[derive(Debug)]
 pub(super) struct Index {
     slots: Vec<u32>,
     shift: u32,
 }
 
-/// Log₂ of the slots to begin with.
+/// Initial number of slots, as a power of 2.
 const FIRST: u32 = 9;
 
 impl Index {
@@ -21,7 +23,8 @@ impl Index {
         Self { slots: vec![0; 1 << bits], shift: 64 - bits }
     }
 
-    /// The place of an equal node, or `None` after the place behind the last node was noted for it.
+    /// Finds the place of an equal node. Otherwise notes the place after the last node for this one
+    /// and returns `None`.
     #[inline]
     pub fn find_or_note(&mut self, node: Node, nodes: &[Node]) -> Option<NodeId> {
         if 2 * nodes.len() >= self.slots.len() {
@@ -35,7 +38,7 @@ impl Index {
         None
     }
 
-    /// The slot of an equal node, or an empty one.
+    /// Finds the slot of an equal node, or an empty slot.
     #[inline]
     fn slot(&self, node: Node, nodes: &[Node]) -> usize {
         let mut slot = (mixed(node) >> self.shift) as usize;
@@ -55,7 +58,8 @@ impl Index {
     }
 }
 
-/// A hash whose upper bits count: content times an odd number near 2^64 over the golden ratio.
+/// Multiplicative (Fibonacci) hash, of which the upper bits are used: content times an odd number
+/// near 2^64 over the golden ratio.
 #[inline]
 fn mixed(node: Node) -> u64 {
     let (name, a, b) = match node {

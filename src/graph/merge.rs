@@ -1,8 +1,8 @@
-//! Nodes that are multiples of each other are one node, made in the cheapest way that was recorded.
+//! Merging of proportional nodes into one, computed in the cheapest way that was recorded.
 //!
-//! Interning finds equal nodes that were made in the same way; here nodes of equal value are found,
-//! however they were made. What was recorded beside the outputs takes part: a short formula for a
-//! value that is needed replaces the long one wherever it holds.
+//! Interning finds equal nodes that were made in the same way; merging finds nodes of equal value,
+//! however they were made. Shortcuts recorded next to the outputs take part: a short formula for a
+//! needed value replaces the long one wherever it holds.
 
 use rustc_hash::FxHashMap;
 
@@ -11,45 +11,46 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
-/// Passes in which the costs mostly settle.
+/// Number of passes, after which the costs have mostly settled.
 const PASSES: usize = 16;
-/// What a reciprocal, a root or a function costs beyond an addition.
+/// Cost of a reciprocal, a root or a function beyond that of an addition.
 const SLOW: u32 = 8;
 
 /// A node as a multiple of the first one in its class; all constants are multiples of the node 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
-    /// The place of the first one.
+    /// Place of the first node of the class.
     pub class: usize,
-    /// What that is to be multiplied by.
+    /// Factor by which the first node is multiplied to give this one.
     pub factor: Rational,
 }
 
-/// Which member of a class is computed.
+/// The member of a class to compute.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Choice<'r> {
-    /// The first.
+    /// The first member.
     First,
-    /// The one that takes the fewest operations, made from steps that are reached.
+    /// The member that takes the fewest operations, made from the reached steps.
     Cheapest(&'r [bool]),
 }
 
-/// How a class is made.
+/// A way to compute a class.
 #[derive(Clone)]
 struct Way {
-    /// The member that is computed.
+    /// Place of the member that is computed.
     place: usize,
-    /// Operations, slow ones counted more.
+    /// Number of operations, with slow ones counted more.
     cost: u32,
-    /// The classes that are needed on the way, one bit each.
+    /// The classes needed on the way, one bit each.
     needs: Set,
 }
 
 impl Graph {
-    /// The class of each node from its values, `None` where it has none or is to be left alone.
+    /// Finds the class of each node from its values; `None` where it has none or is to be left
+    /// alone.
     ///
-    /// `direction` is what proportional values have in common, and `factor` tells by how much the
-    /// second is multiplied to give the first, if that is a number of reasonable size.
+    /// `direction` maps proportional values to a common key, and `factor` returns the number by
+    /// which the second is multiplied to give the first, if its size is reasonable.
     pub(crate) fn members<V, D: std::hash::Hash + Eq>(
         &self,
         values: &[Option<V>],
@@ -75,8 +76,8 @@ impl Graph {
         places.map(|place| member(place).unwrap_or_else(|| stranger(place))).collect()
     }
 
-    /// The outputs, each class made once, in a graph of their own; as they are, where a class would
-    /// need itself.
+    /// Rebuilds the outputs in a new graph with each class computed once; copies them unchanged
+    /// where a class would need itself.
     pub(crate) fn rebuilt(
         &self,
         outputs: &[Expr],
@@ -114,7 +115,7 @@ impl Graph {
         }
     }
 
-    /// The outputs as they are, in a graph of their own.
+    /// Copies the outputs unchanged into a new graph.
     pub(super) fn copied(&self, outputs: &[Expr]) -> Result<(Graph, Vec<Expr>), Fault> {
         let reached = self.reached(outputs.iter().copied());
         record(self.inputs(), |inputs| {
@@ -123,9 +124,9 @@ impl Graph {
         })
     }
 
-    /// The cheapest way to make each class from the steps that are reached.
+    /// Finds the cheapest way to compute each class from the reached steps.
     fn ways(&self, members: &[Member], reached: &[bool]) -> Vec<Option<Way>> {
-        // Bits for the classes that take an operation.
+        // One bit for each class that takes an operation.
         let mut bits: Vec<Option<usize>> = vec![None; self.len()];
         let mut count = 0;
         for (place, step) in self.steps().enumerate().filter(|(place, _)| reached[*place]) {
@@ -172,7 +173,7 @@ impl Graph {
         ways
     }
 
-    /// The classes that some places need, arguments first; `None` if one needs itself.
+    /// Lists the classes that some places need, arguments first; `None` if a class needs itself.
     fn order(
         &self,
         places: &[usize],
@@ -180,7 +181,7 @@ impl Graph {
         made_by: &[Option<usize>],
     ) -> Option<Vec<usize>> {
         let mut order = Vec::new();
-        // Not seen, on the way, done.
+        // 0: not visited, 1: on the path, 2: done.
         let mut state = vec![0u8; self.len()];
         let mut open: Vec<usize> = places.iter().map(|place| members[*place].class).collect();
         while let Some(class) = open.last().copied() {

@@ -1,4 +1,4 @@
-//! The expression graph: what a computation *is*, recorded once and run in any number domain.
+//! The expression graph: a computation recorded once and run in any number domain.
 //!
 //! ```text
 //! generic code ─ instantiated at Expr ─▶ Graph ─▶ Tape ─ run over a number domain ─▶ values
@@ -54,7 +54,8 @@ enum Node {
 /// An operation that a recorded value cannot carry out, because it has no magnitude and no order.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Fault {
-    /// abs, signum, comparisons, remainders, atan2, reading off a float.
+    /// An operation such as abs, signum, a comparison, a remainder, atan2, or conversion to a
+    /// float.
     #[error(
         "`{0}` was applied to a recorded value, which has neither magnitude nor order; \
          use operations that hold for every number, and `Scalar::modulus` for |x|"
@@ -65,20 +66,20 @@ pub enum Fault {
     ForeignValue,
 }
 
-/// Where a node has a value, as far as its form tells.
+/// Domain of definition of a node, as far as its form determines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Defined {
-    /// Wherever the inputs have one.
+    /// Defined wherever the inputs are.
     Always,
-    /// Not everywhere, or that is not known.
+    /// Not defined everywhere, or not known to be.
     Partly,
-    /// Nowhere: 1/0 and what follows from it.
+    /// Defined nowhere: 1/0 and everything that contains it.
     Never,
 }
 
 /// The constant 0, the first node of every graph.
 const ZERO: NodeId = NodeId(0);
-/// The constant 1, the second.
+/// The constant 1, the second node of every graph.
 const ONE: NodeId = NodeId(1);
 
 /// A recorded computation.
@@ -86,9 +87,9 @@ const ONE: NodeId = NodeId(1);
 pub struct Graph {
     session: u32,
     nodes: Vec<Node>,
-    /// Where each node has a value.
+    /// Domain of definition of each node.
     domains: Vec<Defined>,
-    /// Whether nothing is folded that would extend the domain of a formula.
+    /// Whether folds that would extend the domain of a formula are left out.
     literal: bool,
     constants: Vec<Rational>,
     index: Index,
@@ -99,7 +100,7 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// An empty graph with its two constants in place.
+    /// Makes an empty graph with its two constants in place.
     fn begin(session: u32) -> Self {
         let mut graph = Self {
             session,
@@ -119,33 +120,33 @@ impl Graph {
         graph
     }
 
-    /// How many nodes were kept.
+    /// Number of nodes kept.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Was nothing recorded?
+    /// Whether nothing was recorded.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// How many inputs there are: those asked for, then one for each antiderivative met.
+    /// Number of inputs: those requested, followed by one for each antiderivative met.
     pub fn inputs(&self) -> usize {
         self.inputs as usize
     }
 
-    /// The exact constant that an expression was folded to, if it was.
+    /// Returns the exact constant that an expression was folded to, if it was.
     pub fn constant_value(&self, expr: Expr) -> Option<&Rational> {
         self.constant_at(expr.id()?)
     }
 
-    /// Whether an expression has a value for no inputs at all, as its form tells: 1/0 and what
-    /// contains it.
+    /// Whether the form of an expression shows that it is defined for no inputs: 1/0 and everything
+    /// that contains it.
     pub fn is_nowhere_defined(&self, expr: Expr) -> bool {
         expr.id().is_some_and(|id| self.is_undefined(id))
     }
 
-    /// Does this expression depend on input `input`? (Linear in the size of the graph.)
+    /// Whether an expression depends on input `input`. Linear in the size of the graph.
     pub fn depends_on(&self, expr: Expr, input: usize) -> bool {
         let Some(root) = expr.id() else { return false };
         let mut reached = vec![false; root.0 as usize + 1];
@@ -160,7 +161,7 @@ impl Graph {
         reached[root.0 as usize]
     }
 
-    /// How many operations these expressions take together.
+    /// Number of operations that these expressions take together.
     pub fn operations(&self, exprs: &[Expr]) -> usize {
         let reached = self.reached(exprs.iter().copied());
         let computed = |(node, reached): &(&Node, bool)| *reached && node.is_computed();
@@ -196,7 +197,7 @@ impl Graph {
         self.domains[id.0 as usize] == Defined::Never
     }
 
-    /// Whether a value may be dropped: it has one everywhere, or domains are not kept.
+    /// Whether a value may be dropped: it is defined everywhere, or domains are not preserved.
     #[inline]
     fn may_drop(&self, id: NodeId) -> bool {
         match self.domains[id.0 as usize] {
@@ -206,8 +207,8 @@ impl Graph {
         }
     }
 
-    /// Where a node has a value, from its arguments and its own operation: 1/0, √-1, ln 0 and 0^-1
-    /// have none.
+    /// Finds the domain of definition of a node from its arguments and its own operation: 1/0, √-1,
+    /// ln 0 and 0^-1 are undefined.
     #[inline]
     fn domain_of(&self, node: Node) -> Defined {
         let of = |id: NodeId| self.domains[id.0 as usize];
@@ -257,15 +258,15 @@ impl Graph {
 }
 
 thread_local! {
-    /// The recording under way on this thread, if any, and the number of the last one begun.
+    /// The recording under way on this thread, if any.
     static RECORDING: RefCell<Graph> = RefCell::new(Graph::begin(0));
     static SESSIONS: RefCell<u32> = const { RefCell::new(0) };
 }
 
-/// Records what `build` computes from `inputs` free inputs; returns the graph and its result.
+/// Records what `build` computes from `inputs` free inputs; returns the graph and the result.
 ///
-/// Recordings may be nested; each has its own graph. Fails when a recorded value was asked for
-/// something it does not have.
+/// Recordings may be nested; each has its own graph. Fails if a recorded value was used in an
+/// operation that needs a magnitude or an order, or in another recording.
 pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Graph, R), Fault> {
     let session = SESSIONS.with_borrow_mut(|last| {
         *last = last.wrapping_add(1).max(1);
@@ -281,10 +282,10 @@ pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Gra
     }
 }
 
-/// Runs `build` so that no operation on recorded values is folded away that may have no value:
-/// what comes out has a value exactly where the formula as it is written has one.
+/// Runs `build` without folding away any operation on recorded values that may be undefined, so
+/// that the result is defined exactly where the formula as written is.
 ///
-/// Elsewhere √x·√x becomes x and 0·√x becomes 0, which have a value for x < 0 too.
+/// Otherwise √x·√x becomes x and 0·√x becomes 0, which are defined for x < 0 too.
 pub fn literally<R>(build: impl FnOnce() -> R) -> R {
     struct Restore(bool);
     impl Drop for Restore {
@@ -296,7 +297,7 @@ pub fn literally<R>(build: impl FnOnce() -> R) -> R {
     build()
 }
 
-/// Puts the outer recording back, also when the closure unwinds.
+/// A guard that puts the outer recording back, also when the closure unwinds.
 struct Restore(Option<Graph>);
 
 impl Restore {

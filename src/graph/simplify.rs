@@ -1,19 +1,20 @@
-//! How nodes are made: equal ones once, and with simplifications that change no value.
+//! Construction of nodes: equal nodes are shared, and simplifications change no value.
 //!
-//! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` are one node),
+//! Folded: constants, 0 and 1, signs (pulled outwards, so that `a - b` and `b - a` share a node),
 //! `x - x`, `x · 1/x`, `√x · √x`, `exp(ln x)`. Where both sides have a value it is the same; the
 //! simpler side may have one at more points (`x · 1/x` at 0), unless it is recorded
-//! [`literally`](super::literally). What has a value nowhere (1/0) keeps none: nothing is folded
-//! that contains it. Not rewritten, because it would change the real meaning: `√(x²)`, `(xᵃ)ᵇ`.
+//! [`literally`](super::literally). A value that is defined nowhere (1/0) stays so: nothing that
+//! contains it is folded. Not rewritten, because that would change the real meaning: `√(x²)`,
+//! `(xᵃ)ᵇ`.
 
 use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
-/// Constants are folded exactly as long as they stay below this size.
+/// Size in bits up to which constants are folded exactly.
 const MAX_CONSTANT_BITS: u64 = 1 << 12;
-/// Integer powers up to this exponent are multiplied out, by squaring.
+/// Largest exponent of an integer power that is multiplied out, by squaring.
 const MAX_UNROLLED: u32 = 1 << 20;
 
 impl Graph {
@@ -28,7 +29,7 @@ impl Graph {
         self.intern(Node::Input(index))
     }
 
-    /// A free symbol standing for an antiderivative; the same one for the same arguments.
+    /// Returns the free symbol for an antiderivative, the same one for the same arguments.
     pub(super) fn antiderivative(&mut self, integrand: NodeId, variable: NodeId) -> NodeId {
         if let Some(index) = self.antiderivatives.get(&(integrand, variable)) {
             let node = Node::Input(*index);
@@ -38,12 +39,12 @@ impl Graph {
         self.input()
     }
 
-    /// The argument of a negation.
+    /// Returns the argument of a negation.
     fn negated(&self, id: NodeId) -> Option<NodeId> {
         self.argument(Function::Neg, id)
     }
 
-    /// The argument of `function`, if that is what this node is.
+    /// Returns the argument of the node if it is an application of `function`.
     fn argument(&self, function: Function, id: NodeId) -> Option<NodeId> {
         match self.node(id) {
             Node::Unary(f, a) if f == function => Some(a),
@@ -75,7 +76,7 @@ impl Graph {
     }
 
     pub(super) fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        // Derivatives are mostly zeros: they are recognised by their place.
+        // Most entries of derivatives are zero: compare places rather than look at the node.
         if a == ZERO {
             return b;
         }
@@ -169,7 +170,8 @@ impl Graph {
         self.unary(Function::Neg, product)
     }
 
-    /// value · other; a negative constant gives its sign away, two constants merge.
+    /// Multiplies by a constant: the sign of a negative constant moves outwards, and two constants
+    /// merge.
     fn scaled(&mut self, value: &Rational, constant: NodeId, other: NodeId) -> NodeId {
         if value.is_negative() {
             let positive = self.constant(-value);
@@ -225,7 +227,8 @@ impl Graph {
         }
     }
 
-    /// x^q: small integers are multiplied out, half-integers use one root, the rest is a node.
+    /// Raises to a power x^q: small integers are multiplied out, half-integers use one root, and
+    /// any other exponent makes a power node.
     pub(super) fn power(&mut self, base: NodeId, exponent: &Rational) -> NodeId {
         if exponent.is_negative() {
             let positive = self.power(base, &-exponent);

@@ -1,16 +1,16 @@
-//! A graph read from outside: its operations in order, and their repetition in another recording.
+//! Access to the operations of a graph in order, and their replay in another recording.
 
 use super::{Expr, Graph, Node};
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
-/// One operation; arguments are given by the places of earlier steps.
+/// One operation; arguments are places of earlier steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step<'g> {
     /// An exact constant.
     Constant(&'g Rational),
-    /// A free input, by number.
+    /// A free input, by index.
     Input(usize),
     /// f(x)
     Unary(Function, usize),
@@ -21,7 +21,7 @@ pub enum Step<'g> {
 }
 
 impl Step<'_> {
-    /// The places of the arguments.
+    /// Returns the places of the arguments.
     #[inline]
     pub fn arguments(&self) -> impl Iterator<Item = usize> {
         let [first, second] = match *self {
@@ -32,7 +32,8 @@ impl Step<'_> {
         first.into_iter().chain(second)
     }
 
-    /// The same step in the recording under way, from other inputs and the values of its arguments.
+    /// Repeats the step in the recording under way, from other inputs and the values of its
+    /// arguments.
     pub(super) fn repeat(
         &self,
         inputs: &[Expr],
@@ -49,13 +50,13 @@ impl Step<'_> {
 }
 
 impl Graph {
-    /// All steps; the place of a step is its number.
+    /// Iterates over all steps; the place of a step is its index.
     #[inline]
     pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
         (0..self.nodes.len()).map(|place| self.step(place))
     }
 
-    /// The step at a place.
+    /// Returns the step at a place.
     #[inline]
     pub fn step(&self, place: usize) -> Step<'_> {
         match self.nodes[place] {
@@ -69,24 +70,25 @@ impl Graph {
         }
     }
 
-    /// The place of the step that makes `expr`; 0, a constant, for a handle of no recording.
+    /// Returns the place of the step that makes `expr`; 0, a constant, for a handle that belongs to
+    /// no recording.
     #[inline]
     pub fn place(&self, expr: Expr) -> usize {
         expr.id().map_or(0, |id| id.0 as usize)
     }
 
-    /// The value that the step at a place makes.
+    /// Returns the value made by the step at a place.
     pub fn at(&self, place: usize) -> Expr {
         Expr::of(self.session, super::NodeId(place as u32))
     }
 
-    /// Which steps the outputs need.
+    /// Marks the steps that the outputs need.
     pub fn reached(&self, outputs: impl IntoIterator<Item = Expr>) -> Vec<bool> {
         let places: Vec<usize> = outputs.into_iter().map(|output| self.place(output)).collect();
         self.reached_from(&places)
     }
 
-    /// Which steps those at these places need.
+    /// Marks the steps that those at these places need.
     pub fn reached_from(&self, places: &[usize]) -> Vec<bool> {
         let mut reached = vec![false; self.nodes.len()];
         places.iter().for_each(|place| reached[*place] = true);
@@ -98,11 +100,11 @@ impl Graph {
         reached
     }
 
-    /// Repeats what the reached steps compute, from other inputs, in the recording under way; gives
-    /// the new value of each place.
+    /// Replays the reached steps with other inputs in the recording under way; returns the new
+    /// value of each place.
     ///
-    /// `replace` may give a step another value; it is asked with the step and the new values of the
-    /// places before it.
+    /// `replace` may give a step another value; it is called with the step and the new values of
+    /// the places before it.
     pub fn replay(
         &self,
         reached: &[bool],

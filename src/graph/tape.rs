@@ -4,10 +4,10 @@ use super::{Expr, Graph, Node};
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 
-/// A place for one block of values.
+/// Index of the memory for one block of values.
 pub(crate) type Slot = u32;
 
-/// One step; the result slot may be one of the argument slots.
+/// One instruction; the result slot may be one of the argument slots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Instruction {
     Unary {
@@ -29,10 +29,11 @@ pub(crate) enum Instruction {
     },
 }
 
-/// Instructions that compute some expressions of a graph from its inputs, and nothing else.
+/// Straight-line code that computes the given expressions of a graph from its inputs, and nothing
+/// else.
 ///
-/// Slots `0..inputs` hold the inputs, then come the constants, then the intermediate results, whose
-/// slots are reused as soon as a value has been read for the last time.
+/// Slots `0..inputs` hold the inputs; then come the constants, and then the intermediate results,
+/// whose slots are reused as soon as a value has been read for the last time.
 #[derive(Clone, Debug)]
 pub struct Tape {
     pub(super) inputs: usize,
@@ -44,7 +45,7 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// Lays out what `outputs` need; everything else in the graph is left out.
+    /// Lays out the nodes that `outputs` need; all other nodes of the graph are left out.
     pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
         let roots: Vec<usize> =
             outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
@@ -109,37 +110,37 @@ impl Tape {
         tape
     }
 
-    /// How many operations one run costs a state.
+    /// Number of operations that one run takes for each state.
     pub fn operations(&self) -> usize {
         self.instructions.len()
     }
 
-    /// The steps in order, over slots.
+    /// Returns the instructions in order, over slots.
     pub(crate) fn instructions(&self) -> &[Instruction] {
         &self.instructions
     }
 
-    /// The constants, whose slots follow those of the inputs.
+    /// Returns the constants, whose slots follow those of the inputs.
     pub(crate) fn constants(&self) -> &[Rational] {
         &self.constants
     }
 
-    /// The exponents that powers refer to.
+    /// Returns the exponents that powers refer to.
     pub(crate) fn exponents(&self) -> &[Rational] {
         &self.exponents
     }
 
-    /// The slot of each output after the last step.
+    /// Returns the slot of each output after the last instruction.
     pub(crate) fn output_slots(&self) -> &[Slot] {
         &self.outputs
     }
 
-    /// How many inputs a run needs.
+    /// Number of inputs.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// How many outputs a run gives.
+    /// Number of outputs.
     pub fn outputs(&self) -> usize {
         self.outputs.len()
     }
@@ -163,7 +164,8 @@ impl Node {
 
 const UNUSED: usize = usize::MAX;
 
-/// The index of each node's last user, past the end for an output, `UNUSED` where nobody asks.
+/// Finds the index of each node's last user: past the end for an output, `UNUSED` for a node
+/// without users.
 fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
     let end = graph.nodes.len();
     let mut last = vec![UNUSED; end];
