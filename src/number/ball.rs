@@ -46,7 +46,7 @@ impl<const N: usize> Balls<N> {
         Self { mid, rad }
     }
 
-    /// Enclosures of numbers by the nearest f64, each with the word whether it is that number.
+    /// Encloses numbers by their nearest f64; the flag tells whether the f64 is exact.
     pub fn about(nearest: impl Fn(usize) -> (f64, bool)) -> Self {
         let mut balls = Self { mid: [0.0; N], rad: [0.0; N] };
         for lane in 0..N {
@@ -55,12 +55,12 @@ impl<const N: usize> Balls<N> {
         balls
     }
 
-    /// Is there a finite enclosure in this lane?
+    /// Whether the lane has a finite enclosure.
     pub fn is_defined(&self, lane: usize) -> bool {
         self.mid[lane].is_finite() && self.rad[lane].is_finite()
     }
 
-    /// Is 0 outside the ball? A proof that the enclosed number is not 0.
+    /// Whether 0 is outside the ball: a proof that the enclosed number is not 0.
     pub fn excludes_zero(&self, lane: usize) -> bool {
         self.is_defined(lane) && self.mid[lane].abs() > self.rad[lane]
     }
@@ -71,24 +71,25 @@ impl<const N: usize> Balls<N> {
     }
 }
 
-/// Puts back what computing a bound in f64 may have lost.
+/// Restores what computing a bound in f64 may have lost.
 #[inline(always)]
 fn widen(radius: f64) -> f64 {
     radius * (1.0 + 32.0 * UNIT) + TINY
 }
 
-/// e^x - 1 from above, for x ≥ 0; unbounded past 1, where no enclosure is of use any more.
+/// Bounds e^x - 1 from above for x ≥ 0; unbounded from 1 on, where an enclosure is no longer
+/// useful.
 #[inline(always)]
 fn growth(x: f64) -> f64 {
     if x < 1.0 { x + x * x } else { f64::INFINITY }
 }
 
-/// An enclosure of an exact number.
+/// Encloses an exact number.
 fn enclose(value: &Rational) -> (f64, f64) {
     about(value.to_f64())
 }
 
-/// An enclosure of a number by the nearest f64, which is that number or is not.
+/// Encloses a number by its nearest f64, given whether that is exact.
 fn about((mid, exact): (f64, bool)) -> (f64, f64) {
     (mid, if exact { 0.0 } else { mid.abs() * f64::EPSILON + TINY })
 }
@@ -191,7 +192,7 @@ fn logarithm(a: f64, ra: f64) -> (f64, f64) {
     (z, if a > ra { widen(ra / (a - ra) + ELEMENTARY * z.abs()) } else { f64::NAN })
 }
 
-/// A function whose slope and whose value are at most 2: sin, cos, atan.
+/// A function with slope and value at most 2: sin, cos, atan.
 fn bounded(z: f64, ra: f64) -> (f64, f64) {
     (z, widen(ra + 2.0 * ELEMENTARY))
 }

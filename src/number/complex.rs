@@ -1,8 +1,8 @@
 //! Complex numbers over f64, for derivatives by a complex step: f'(x)·d = Im f(x + i h d)/h + O(h²).
 //!
-//! Nothing is subtracted, so h may be so small that h² is below every rounding error. Each function
-//! is continued from the real axis to the half-plane beside it, and has no value where the real one
-//! has none: √ and ln are undefined for Re z < 0, and |z| = z sign(Re z).
+//! Nothing is subtracted, so h may be small enough for h² to lie below every rounding error. Each
+//! function is continued from the real axis to the half-plane next to it, and is undefined where
+//! the real one is: √ and ln for Re z < 0, and |z| = z sign(Re z).
 //!
 //! ```text
 //! √z = s + i b/(2s),  s = √((|z| + a)/2)          ln z = ln|z| + i arg z
@@ -123,14 +123,14 @@ fn arctangent((a, b): Pair) -> Pair {
     (real, 0.25 * libm::log1p(4.0 * b / (a * a + (1.0 - b) * (1.0 - b))))
 }
 
-/// z^p = |z|^p e^(i p arg z) for Re z > 0.
+/// Computes z^p = |z|^p e^(i p arg z) for Re z > 0.
 fn polar_power((a, b): Pair, exponent: f64) -> Pair {
     let size = libm::pow(libm::hypot(a, b), exponent);
     let angle = exponent * libm::atan2(b, a);
     if a > 0.0 { (size * libm::cos(angle), size * libm::sin(angle)) } else { UNDEFINED }
 }
 
-/// z^n by squaring, which holds on both sides of 0.
+/// Computes z^n by squaring, on both sides of 0.
 fn integer_power(z: Pair, exponent: i64) -> Pair {
     let mut square = if exponent < 0 { reciprocal(z) } else { z };
     let mut rest = exponent.unsigned_abs();

@@ -1,5 +1,5 @@
-//! Exact rational arithmetic, one lane: the reference for every other domain, and the way a
-//! sampled state is printed so that it can be typed in again.
+//! Exact rational arithmetic, one lane: the reference for every other domain, and the form in which
+//! sampled states are printed so that they can be typed in again.
 
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -7,7 +7,7 @@ use num_traits::Signed;
 use super::rational::Rational;
 use super::{Domain, Function, Operation};
 
-/// Past this size a number is given up: it would be of no use to a reader, and slow.
+/// Size in bits beyond which a number is given up: too long to read, and slow.
 const MAX_BITS: u64 = 1 << 16;
 
 /// The domain of exact rationals. A lane is `None` where the result is not rational, or too long.
@@ -63,7 +63,7 @@ impl Domain for Exact {
     }
 }
 
-/// The root of a square of a rational, `None` for anything else.
+/// Returns the root of the square of a rational, `None` for anything else.
 pub fn square_root(x: &Rational) -> Option<Rational> {
     let (numerator, denominator) = x.parts();
     let root = |n: &BigInt| {

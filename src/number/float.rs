@@ -1,4 +1,4 @@
-//! Plain f64 in blocks of `N` lanes: the fastest domain, with no word about its own error.
+//! Plain f64 in blocks of `N` lanes: the fastest domain. It carries no error bound.
 
 use super::rational::Rational;
 use super::{Domain, Function, Operation};

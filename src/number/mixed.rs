@@ -1,38 +1,38 @@
-//! Exact rationals as long as numbers stay rational and short, balls of many bits beyond: the domain
-//! that knows of √0 that it exists.
+//! Exact rationals while numbers stay rational and short, arbitrary-precision balls beyond: the
+//! domain that knows √0 to exist.
 //!
-//! A value is exact, enclosed, known not to exist (√-1), or in doubt (the root of a ball that holds 0
-//! and negative numbers).
+//! A value is exact, enclosed, known not to exist (√-1), or in doubt (the root of a ball that
+//! contains 0 and negative numbers).
 
 use super::exact::square_root;
 use super::precise::{Approximation, Precise};
 use super::rational::Rational;
 use super::{Domain, Enclosing, Function, Operation};
 
-/// Past this size a number is enclosed: exact arithmetic on longer ones takes too long.
+/// Size in bits beyond which a number is enclosed: exact arithmetic on longer ones takes too long.
 const MAX_BITS: u64 = 1 << 14;
 
-/// The domain, with balls of a given precision; one lane.
+/// The mixed domain, with balls of a given precision; one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed {
     balls: Precise,
 }
 
-/// A number, or why there is none.
+/// A number, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Number {
-    /// Known exactly.
+    /// An exact number.
     Exact(Rational),
-    /// Enclosed.
+    /// An enclosed number.
     Ball(Approximation),
-    /// There is none: 1/0, √-1, ln 0.
+    /// No value: 1/0, √-1, ln 0.
     Nothing,
-    /// Whether there is one is not known.
+    /// A value that may not exist.
     Doubtful,
 }
 
 impl Mixed {
-    /// Balls with midpoints of `bits` bits.
+    /// Makes a domain of balls with midpoints of `bits` bits.
     pub fn new(bits: u32) -> Self {
         Self { balls: Precise::new(bits) }
     }
@@ -45,8 +45,8 @@ impl Mixed {
         }
     }
 
-    /// A function of a ball; where it has no enclosure, the sign of the argument decides whether
-    /// there is a value.
+    /// Applies a function to a ball. Without an enclosure, the sign of the argument decides whether
+    /// a value exists.
     fn of_ball(&self, function: Function, x: &Number) -> Number {
         let Some(ball) = self.ball(x) else { return x.clone() };
         match self.balls.function(function, &ball) {
@@ -76,7 +76,7 @@ impl Mixed {
         value.map(Number::Exact)
     }
 
-    /// x^y for x > 0, and integer powers.
+    /// Computes x^y for x > 0, and integer powers.
     fn raised(&self, x: &Number, exponent: &Number) -> Number {
         match (x, exponent) {
             (Number::Nothing, _) | (_, Number::Nothing) => return Number::Nothing,
@@ -129,7 +129,7 @@ impl Domain for Mixed {
                     Operation::Mul | Operation::Pow => a * b,
                 })
             }
-            // A product with 0 is 0, however large the other factor may be.
+            // A product with 0 is 0, however large the other factor.
             (Number::Exact(zero), Number::Ball(_)) | (Number::Ball(_), Number::Exact(zero))
                 if operation == Operation::Mul && zero.is_zero() =>
             {

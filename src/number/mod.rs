@@ -1,8 +1,9 @@
-//! Number domains: the arithmetics in which one and the same tape is run.
+//! Number domains: the arithmetics in which a tape is run.
 //!
-//! A domain works on *blocks*, one value a lane, so that a domain may vectorise, or share work
-//! between lanes (one inversion for a whole block, say). A further domain is one more
-//! implementation of [`Domain`]; neither the tape nor the evaluator knows which one it runs in.
+//! A domain works on *blocks*, one value for each lane, so that it may vectorise, or share work
+//! between lanes (such as one inversion for a whole block). A further domain is one more
+//! implementation of [`Domain`]; the tape and the evaluator do not depend on the domain they run
+//! in.
 
 pub mod ball;
 pub mod complex;
@@ -31,7 +32,7 @@ pub enum Function {
     Abs,
     /// `e^x`
     Exp,
-    /// natural logarithm, undefined at and below 0
+    /// natural logarithm, undefined for x ≤ 0
     Ln,
     /// sine
     Sin,
@@ -56,42 +57,42 @@ pub enum Operation {
 
 /// An arithmetic over blocks of values.
 ///
-/// An operation that has no result at some lane (a root of a negative number, 1/0) marks that lane
-/// as undefined in the way of its domain; the mark then spreads through every later operation.
+/// An operation that has no result in some lane (a root of a negative number, 1/0) marks that lane
+/// as undefined in the form of its domain; the mark then spreads through every later operation.
 pub trait Domain {
-    /// One value a lane.
+    /// One value for each lane.
     type Block: Clone;
 
-    /// The image of an exact constant, in every lane.
+    /// Returns the image of an exact constant, in every lane.
     fn constant(&self, value: &Rational) -> Self::Block;
 
-    /// The image of one exact value a lane; there are at most as many values as lanes, and the
-    /// lanes that are left repeat the last one.
+    /// Returns the image of one exact value for each lane. There are at most as many values as
+    /// lanes; the remaining lanes repeat the last value.
     fn values(&self, values: &[Rational]) -> Self::Block;
 
-    /// `out = f(x)`
+    /// Computes `out = f(x)`.
     fn unary(&self, function: Function, x: &Self::Block, out: &mut Self::Block);
 
-    /// `out = x op y`
+    /// Computes `out = x op y`.
     fn binary(&self, operation: Operation, x: &Self::Block, y: &Self::Block, out: &mut Self::Block);
 
-    /// `out = x^exponent`; x > 0 unless the exponent is an integer.
+    /// Computes `out = x^exponent`; x > 0 unless the exponent is an integer.
     fn power(&self, x: &Self::Block, exponent: &Rational, out: &mut Self::Block);
 }
 
-/// A domain whose values enclose the true ones, so that a value away from 0 refutes.
+/// A domain whose values enclose the true ones, so that a value away from 0 is a refutation.
 pub trait Enclosing: Domain {
-    /// How many lanes a block has.
+    /// Number of lanes in a block.
     const LANES: usize;
 
-    /// Midpoint and radius of a lane in f64, the radius wide enough for both roundings; `None`
+    /// Returns midpoint and radius of a lane in f64, the radius covering both roundings; `None`
     /// where the lane is undefined or unbounded.
     fn enclosure(block: &Self::Block, lane: usize) -> Option<(f64, f64)>;
 
-    /// Is 0 outside the enclosure? Never where the lane is undefined.
+    /// Whether 0 is outside the enclosure; never where the lane is undefined.
     fn excludes_zero(block: &Self::Block, lane: usize) -> bool;
 
-    /// A number away from 0 in a few digits, where the enclosure in f64 does not tell it from 0.
+    /// Prints a few digits of a nonzero number that the f64 enclosure cannot separate from 0.
     fn beyond_f64(_: &Self::Block, _: usize) -> Option<String> {
         None
     }

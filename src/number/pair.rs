@@ -9,7 +9,8 @@
 //! √x      8u²          s + r/2s, s = fl(√hi),  r = x - s²
 //! ```
 //!
-//! as long as no product underflows. [`twofold`](super::twofold) adds radii that hold these errors.
+//! as long as no product underflows. [`twofold`](super::twofold) adds radii that cover these
+//! errors.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -17,7 +18,7 @@ use super::precise::{Approximation, Precise};
 use super::rational::Rational;
 use super::{Domain, Function, Operation};
 
-/// Bits in which elementary functions are computed.
+/// Precision in bits of elementary functions.
 const ELEMENTARY_BITS: u32 = 140;
 
 /// hi + lo, |lo| at most half a unit in the last place of hi; NaN where undefined.
@@ -25,11 +26,11 @@ const ELEMENTARY_BITS: u32 = 140;
 pub struct Pair {
     /// The nearest f64.
     pub hi: f64,
-    /// What is left.
+    /// The remainder.
     pub lo: f64,
 }
 
-/// a + b = s + e exactly.
+/// Splits a + b = s + e exactly.
 #[inline(always)]
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
@@ -37,14 +38,14 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - (s - c)) + (b - c))
 }
 
-/// The same for |a| ≥ |b|, or a = 0.
+/// Splits a + b = s + e exactly, for |a| ≥ |b| or a = 0.
 #[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// a b = p + e exactly, where e does not underflow.
+/// Splits a b = p + e exactly, where e does not underflow.
 #[inline(always)]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
@@ -52,16 +53,16 @@ pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl Pair {
-    /// Undefined.
+    /// The undefined value.
     pub const NAN: Self = Self { hi: f64::NAN, lo: f64::NAN };
 
-    /// The f64 itself.
+    /// Converts an f64 exactly.
     #[inline(always)]
     pub fn from_f64(value: f64) -> Self {
         Self { hi: value, lo: 0.0 }
     }
 
-    /// The nearest pair to an exact number.
+    /// Returns the nearest pair to an exact number.
     pub fn from_rational(value: &Rational) -> Self {
         let (hi, exact) = value.to_f64();
         let lo = match Rational::from_f64(hi) {
@@ -71,18 +72,18 @@ impl Pair {
         Self { hi, lo }
     }
 
-    /// The exact value; `None` if it is not finite.
+    /// Returns the exact value; `None` if it is not finite.
     pub fn to_rational(self) -> Option<Rational> {
         Some(&Rational::from_f64(self.hi)? + &Rational::from_f64(self.lo)?)
     }
 
-    /// Are both parts finite?
+    /// Whether both parts are finite.
     #[inline(always)]
     pub fn is_finite(self) -> bool {
         self.hi.is_finite() && self.lo.is_finite()
     }
 
-    /// 1/x
+    /// Computes 1/x.
     #[inline(always)]
     pub fn recip(self) -> Self {
         let q = 1.0 / self.hi;
@@ -92,7 +93,7 @@ impl Pair {
         Self { hi, lo }
     }
 
-    /// √x; √0 = 0
+    /// Computes √x; √0 = 0.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         let s = self.hi.sqrt();
@@ -102,19 +103,19 @@ impl Pair {
         if self.hi == 0.0 { Self::default() } else { Self { hi, lo } }
     }
 
-    /// An elementary function, by way of more digits.
+    /// Computes an elementary function by way of higher precision.
     pub fn apply(self, function: Function) -> Self {
         let domain = Precise::new(ELEMENTARY_BITS);
         self.elementary(|x| domain.function(function, x))
     }
 
-    /// x^q
+    /// Computes x^q.
     pub fn power(self, exponent: &Rational) -> Self {
         let domain = Precise::new(ELEMENTARY_BITS);
         self.elementary(|x| domain.rational_power(x, exponent))
     }
 
-    /// x^y for x > 0
+    /// Computes x^y for x > 0.
     pub fn power_of(self, exponent: Self) -> Self {
         let domain = Precise::new(ELEMENTARY_BITS);
         let exponent = Approximation::from_twofold(exponent.hi, exponent.lo, 0.0);
@@ -170,7 +171,7 @@ impl Mul for Pair {
     }
 }
 
-/// The values of a tape in double-double, one lane, with no word about the error.
+/// The double-double domain, one lane, without error bounds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pairs;
 
@@ -218,7 +219,7 @@ impl Domain for Pairs {
 mod tests {
     use super::*;
 
-    /// x ∘ y against exact arithmetic, in units of u² relative.
+    /// Returns the error of x ∘ y against exact arithmetic, relative and in units of u².
     fn error(found: Pair, exact: &Rational) -> f64 {
         let found = found.to_rational().expect("finite");
         let difference = (&found - exact).abs().to_f64().0;

@@ -1,13 +1,14 @@
-//! Prime fields: exact arithmetic modulo random primes of 61 bits, in which an algebraic identity is
-//! tested rather than approximated.
+//! Prime fields: exact arithmetic modulo random primes of 61 bits, in which algebraic identities
+//! are tested instead of approximated.
 //!
-//! Each lane has a prime of its own choice, p = 3 mod 4. Then -1 is no square, exactly one of ±x is
-//! (for x ≠ 0), and the root of a square that is itself a square, √x = x^((p+1)/4), behaves like
-//! the positive root under products: √x √y = √(xy). Under sums it does not; what may be concluded
-//! from values in these fields is written down in docs/soundness.md.
+//! Each lane has its own prime p = 3 mod 4. Then -1 is not a square, exactly one of ±x is (for x ≠
+//! 0), and the root of a square that is itself a square, √x = x^((p+1)/4), behaves like the
+//! positive root under products: √x √y = √(xy). Under sums it does not; docs/soundness.md states
+//! what may be concluded from values in these fields.
 //!
-//! A lane is undefined after 1/0 and after a root of 0 or of a non-square; what has no value in a
-//! field (exp, ln, sin, cos, atan, x^y) is always undefined and must have been replaced before.
+//! A lane is undefined after 1/0 and after a root of 0 or of a non-square. Functions without a
+//! value in a field (exp, ln, sin, cos, atan, x^y) are always undefined and must have been replaced
+//! before.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -16,10 +17,10 @@ use num_traits::ToPrimitive;
 use super::rational::Rational;
 use super::{Domain, Function, Operation};
 
-/// Marks a lane without value; no residue is as large.
+/// Marks a lane without a value; every residue is smaller.
 pub const UNDEFINED: u64 = u64::MAX;
 
-/// Arithmetic modulo one odd prime below 2^62, on residues in Montgomery form: x stands for x·2^64.
+/// Arithmetic modulo an odd prime below 2^62, on residues in Montgomery form: x stands for x·2^64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Modulus {
     prime: u64,
@@ -32,7 +33,7 @@ pub struct Modulus {
 }
 
 impl Modulus {
-    /// The field of `prime` elements; odd and below 2^62.
+    /// Makes the field of `prime` elements; `prime` must be odd and below 2^62.
     pub fn new(prime: u64) -> Self {
         // Newton's iteration doubles the number of correct low bits; p is its own inverse mod 8.
         let mut inverse = prime;
@@ -45,27 +46,27 @@ impl Modulus {
         Self { prime, negative_inverse: inverse.wrapping_neg(), one, square }
     }
 
-    /// The prime itself.
+    /// Returns the prime.
     pub fn prime(&self) -> u64 {
         self.prime
     }
 
-    /// The image of 1.
+    /// Returns the image of 1.
     pub fn one(&self) -> u64 {
         self.one
     }
 
-    /// The image of an integer below 2^64.
+    /// Returns the image of an integer below 2^64.
     pub fn integer(&self, value: u64) -> u64 {
         self.mul(value % self.prime, self.square)
     }
 
-    /// The least non-negative integer with this image.
+    /// Returns the least non-negative integer with this image.
     pub fn to_integer(&self, x: u64) -> u64 {
         self.mul(x, 1)
     }
 
-    /// The image of a rational number, `None` where p divides its denominator.
+    /// Returns the image of a rational number, `None` where p divides its denominator.
     pub fn rational(&self, value: &Rational) -> Option<u64> {
         let (numerator, denominator) = value.small_parts().map_or_else(
             || {
@@ -87,21 +88,21 @@ impl Modulus {
         }
     }
 
-    /// x + y
+    /// Computes x + y.
     #[inline(always)]
     pub fn add(&self, x: u64, y: u64) -> u64 {
         let sum = x + y;
         sum.min(sum.wrapping_sub(self.prime))
     }
 
-    /// x - y
+    /// Computes x - y.
     #[inline(always)]
     pub fn sub(&self, x: u64, y: u64) -> u64 {
         let difference = x.wrapping_sub(y);
         difference.min(difference.wrapping_add(self.prime))
     }
 
-    /// x y
+    /// Computes x y.
     #[inline(always)]
     pub fn mul(&self, x: u64, y: u64) -> u64 {
         let product = u128::from(x) * u128::from(y);
@@ -111,7 +112,7 @@ impl Modulus {
         sum.min(sum.wrapping_sub(self.prime))
     }
 
-    /// x^n
+    /// Computes x^n.
     pub fn power(&self, x: u64, n: u64) -> u64 {
         let mut result = self.one;
         for bit in (0..64 - n.leading_zeros()).rev() {
@@ -123,12 +124,13 @@ impl Modulus {
         result
     }
 
-    /// 1/x for x ≠ 0
+    /// Computes 1/x for x ≠ 0.
     pub fn inverse(&self, x: u64) -> u64 {
         self.power(x, self.prime - 2)
     }
 
-    /// All 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for what is undefined.
+    /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined
+    /// values.
     pub fn inverses(&self, x: &[u64], out: &mut [u64]) {
         let is_unit = |x: u64| x != 0 && x != UNDEFINED;
         let mut product = self.one;
@@ -149,7 +151,7 @@ impl Modulus {
         }
     }
 
-    /// The root of x that is itself a square, if x is a square and not 0 (for p = 3 mod 4).
+    /// Returns the root of x that is itself a square, if x is a nonzero square (for p = 3 mod 4).
     pub fn root(&self, x: u64) -> Option<u64> {
         // x^((p-3)/4): times x it is the root, and times the root it is χ(x).
         let power = self.power(x, (self.prime - 3) / 4);
@@ -157,12 +159,12 @@ impl Modulus {
         (self.mul(power, root) == self.one).then_some(root)
     }
 
-    /// Is x a square other than 0?
+    /// Whether x is a nonzero square.
     pub fn is_square(&self, x: u64) -> bool {
         self.power(x, (self.prime - 1) / 2) == self.one
     }
 
-    /// x^(a/b) for x ≠ 0 and b prime to p - 1, so odd: the root is unique.
+    /// Computes x^(a/b) for x ≠ 0 and b prime to p - 1, hence odd: the root is unique.
     pub fn odd_power(&self, x: u64, exponent: &Rational) -> Option<u64> {
         let (above, below) = exponent.parts();
         let order = BigInt::from(self.prime - 1);
@@ -181,24 +183,24 @@ impl Modulus {
     }
 }
 
-/// `N` lanes, each in a prime field of its own.
+/// The domain of prime fields with `N` lanes, one field for each lane.
 #[derive(Clone, Debug)]
 pub struct Prime<const N: usize> {
     moduli: [Modulus; N],
 }
 
 impl<const N: usize> Prime<N> {
-    /// The domain whose lanes compute modulo these primes.
+    /// Makes the domain whose lanes compute modulo these primes.
     pub fn new(moduli: [Modulus; N]) -> Self {
         Self { moduli }
     }
 
-    /// The moduli of the lanes.
+    /// Returns the moduli of the lanes.
     pub fn moduli(&self) -> &[Modulus; N] {
         &self.moduli
     }
 
-    /// Lanes of the same prime that are neighbours share an inversion.
+    /// Inverts all lanes; neighbours with the same prime share one inversion.
     fn reciprocals(&self, x: &[u64; N], out: &mut [u64; N]) {
         let mut begin = 0;
         for own in self.moduli.chunk_by(|a, b| a.prime == b.prime) {
@@ -228,7 +230,7 @@ impl<const N: usize> Prime<N> {
     ) {
         for lane in 0..N {
             let defined = x[lane] != UNDEFINED && y[lane] != UNDEFINED;
-            // The operation on the mark is harmless, and goes without a branch.
+            // Operating on the mark is harmless and avoids a branch.
             let (a, b) = if defined { (x[lane], y[lane]) } else { (0, 0) };
             let value = f(&self.moduli[lane], a, b);
             out[lane] = if defined { value } else { UNDEFINED };
@@ -292,7 +294,7 @@ impl<const N: usize> Domain for Prime<N> {
     }
 }
 
-/// Is this a prime? By Miller's test with the bases that decide every number below 2^64.
+/// Whether a number is prime, by Miller's test with the bases that decide every number below 2^64.
 pub fn is_prime(candidate: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if let Some(divisor) = BASES.iter().find(|base| candidate.is_multiple_of(**base)) {

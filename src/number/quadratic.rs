@@ -6,8 +6,9 @@
 //! 2^s dividing p + 1 elements of F_p have 2^s-th roots too. Roots of odd index are taken of
 //! elements of F_p alone, where they are unique if the index is prime to p - 1.
 //!
-//! A lane is undefined after 1/0, after √0 (a root without sign), and after the root of what has
-//! none; what has no value in a field (exp, ln, |x|, …) must have been replaced before.
+//! A lane is undefined after 1/0, after √0 (a root without sign), and after the root of an element
+//! without one. Functions without a value in a field (exp, ln, |x|, …) must have been replaced
+//! before.
 
 use super::prime::{Modulus, UNDEFINED};
 use super::rational::Rational;
@@ -16,22 +17,22 @@ use super::{Domain, Function, Operation};
 /// a + bi in Montgomery form; undefined where the first part is [`UNDEFINED`].
 pub type Element = [u64; 2];
 
-/// The mark of a lane without value.
+/// Marks a lane without a value.
 const NONE: Element = [UNDEFINED, UNDEFINED];
 
-/// `N` lanes, each in the quadratic extension of a prime field of its own.
+/// The domain of quadratic extensions with `N` lanes, one prime field for each lane.
 #[derive(Clone, Debug)]
 pub struct Quadratic<const N: usize> {
     moduli: [Modulus; N],
 }
 
 impl<const N: usize> Quadratic<N> {
-    /// The domain whose lanes compute modulo these primes, each 3 mod 4.
+    /// Makes the domain whose lanes compute modulo these primes, each 3 mod 4.
     pub fn new(moduli: [Modulus; N]) -> Self {
         Self { moduli }
     }
 
-    /// Whether the value in a lane has a square root and is not 0; `None` where there is no value.
+    /// Whether the value in a lane is a nonzero square; `None` where there is no value.
     pub fn is_square(&self, block: &[Element; N], lane: usize) -> Option<bool> {
         let (m, value) = (&self.moduli[lane], block[lane]);
         match value {
@@ -42,22 +43,22 @@ impl<const N: usize> Quadratic<N> {
         }
     }
 
-    /// x y in a lane, where both have a value.
+    /// Computes x y in a lane where both have a value.
     pub fn product(&self, lane: usize, x: Element, y: Element) -> Element {
         product(&self.moduli[lane], x, y)
     }
 
-    /// -x in a lane, where it has a value.
+    /// Computes -x in a lane where it has a value.
     pub fn negative(&self, lane: usize, [a, b]: Element) -> Element {
         [self.moduli[lane].sub(0, a), self.moduli[lane].sub(0, b)]
     }
 
-    /// 1/x in a lane, for x ≠ 0.
+    /// Computes 1/x in a lane, for x ≠ 0.
     pub fn inverse(&self, lane: usize, x: Element) -> Option<Element> {
         integer_power(&self.moduli[lane], x, -1)
     }
 
-    /// All 1/x in a lane by one inversion, for x ≠ 0.
+    /// Computes all 1/x in a lane by one inversion, for x ≠ 0.
     pub fn inverses(&self, lane: usize, x: &[Element]) -> Vec<Element> {
         let m = &self.moduli[lane];
         let norms: Vec<u64> = x.iter().map(|x| norm(m, *x)).collect();
@@ -95,14 +96,14 @@ impl<const N: usize> Quadratic<N> {
     ) {
         for lane in 0..N {
             let defined = x[lane][0] != UNDEFINED && y[lane][0] != UNDEFINED;
-            // The operation on the mark is harmless, and goes without a branch.
+            // Operating on the mark is harmless and avoids a branch.
             let (a, b) = if defined { (x[lane], y[lane]) } else { ([0; 2], [0; 2]) };
             let value = f(&self.moduli[lane], a, b);
             out[lane] = if defined { value } else { NONE };
         }
     }
 
-    /// All 1/x by one inversion for each prime: those of neighbours with the same are shared.
+    /// Computes all 1/x; neighbouring lanes with the same prime share one inversion.
     fn reciprocals(&self, x: &[Element; N], out: &mut [Element; N]) {
         let mut norms = [UNDEFINED; N];
         for lane in 0..N {
@@ -127,7 +128,7 @@ impl<const N: usize> Quadratic<N> {
     }
 }
 
-/// a² + b², 0 for 0 alone.
+/// Norm a² + b², which is 0 for 0 alone.
 #[inline(always)]
 fn norm(m: &Modulus, [a, b]: Element) -> u64 {
     m.add(m.mul(a, a), m.mul(b, b))
@@ -141,13 +142,13 @@ fn product(m: &Modulus, [a, b]: Element, [c, d]: Element) -> Element {
     [m.sub(real, imaginary), m.sub(m.sub(mixed, real), imaginary)]
 }
 
-/// A square root of an element that has one and is not 0; its sign means nothing.
+/// Returns a square root of a nonzero element that has one; its sign is arbitrary.
 fn root(m: &Modulus, [a, b]: Element) -> Option<Element> {
     if b == 0 {
         return match (a, m.root(a)) {
             (0, _) => None,
             (_, Some(root)) => Some([root, 0]),
-            // -1 is no square, so one of ±a is.
+            // -1 is not a square, so one of ±a is.
             (_, None) => m.root(m.sub(0, a)).map(|root| [0, root]),
         };
     }

@@ -1,4 +1,4 @@
-//! Exact rational numbers: what a decimal or a fraction in a case file means.
+//! Exact rational numbers: the values of decimals and fractions in a case file.
 //!
 //! `0.1` is 1/10 and stays so until a number domain asks for its own image of it.
 
@@ -11,15 +11,16 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, Signed, ToPrimitive};
 
-/// Largest power of ten a literal may carry; beyond it no f64 could hold the value.
+/// Largest power of ten in a literal; beyond it no f64 could hold the value.
 const MAX_EXPONENT: i64 = 1000;
-/// Longest literal that is read; exact arithmetic on longer ones costs more than any case needs.
+/// Length of the longest literal that is read; exact arithmetic on longer ones costs more than any
+/// case needs.
 const MAX_DIGITS: usize = 4000;
 
 /// An exact rational number of any size.
 ///
-/// Numbers of the size people type are kept in machine words: they are drawn, folded and enclosed
-/// by the thousand before the first state is reached.
+/// Numbers of the size people type are kept in machine words: thousands of them are drawn, folded
+/// and enclosed before the first state is reached.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Rational(Form);
 
@@ -30,7 +31,7 @@ enum Form {
     Big(Box<BigRational>),
 }
 
-/// Why a text is not a number.
+/// The reason why a text is not a number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RationalError {
     /// Not of the form `12`, `-0.5`, `1e-3` or `3/7`.
@@ -47,13 +48,13 @@ pub enum RationalError {
 }
 
 impl Rational {
-    /// The fraction `numerator / denominator`; the denominator must not be zero.
+    /// Makes the fraction `numerator / denominator`; the denominator must not be zero.
     pub fn new(numerator: i64, denominator: i64) -> Self {
         assert!(denominator != 0, "a fraction needs a non-zero denominator");
         Self::reduced(i128::from(numerator), i128::from(denominator))
     }
 
-    /// `n/d` in lowest terms, d ≠ 0.
+    /// Reduces `n/d` to lowest terms, d ≠ 0.
     fn reduced(n: i128, d: i128) -> Self {
         // 128-bit division is a function call; most numbers do not need it.
         if let (Ok(n), Ok(d)) = (i64::try_from(n), i64::try_from(d))
@@ -70,7 +71,7 @@ impl Rational {
         }
     }
 
-    /// The fraction of two integers of any size; the denominator must not be zero.
+    /// Makes the fraction of two integers of any size; the denominator must not be zero.
     pub fn from_parts(numerator: BigInt, denominator: BigInt) -> Self {
         assert!(denominator.sign() != Sign::NoSign, "a fraction needs a non-zero denominator");
         Self::from_big(BigRational::new(numerator, denominator))
@@ -90,12 +91,12 @@ impl Rational {
         }
     }
 
-    /// The exact value of a finite f64 (a dyadic rational); `None` for NaN and infinities.
+    /// Returns the exact value of a finite f64 (a dyadic rational); `None` for NaN and infinities.
     pub fn from_f64(value: f64) -> Option<Self> {
         BigRational::from_float(value).map(Self::from_big)
     }
 
-    /// The nearest f64, and whether it is exactly this number.
+    /// Returns the nearest f64, and whether it is exact.
     pub fn to_f64(&self) -> (f64, bool) {
         const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
         match &self.0 {
@@ -112,7 +113,7 @@ impl Rational {
         }
     }
 
-    /// This number as a machine integer, if it is one.
+    /// Returns the number as a machine integer, if it is one.
     pub fn to_integer(&self) -> Option<i64> {
         match self.0 {
             Form::Small(n, 1) => Some(n),
@@ -120,7 +121,7 @@ impl Rational {
         }
     }
 
-    /// Numerator and denominator where both fit a machine word.
+    /// Returns numerator and denominator where both fit a machine word.
     pub fn small_parts(&self) -> Option<(i64, i64)> {
         match self.0 {
             Form::Small(n, d) => Some((n, d)),
@@ -128,12 +129,12 @@ impl Rational {
         }
     }
 
-    /// Numerator and denominator in lowest terms, the denominator positive.
+    /// Returns numerator and denominator in lowest terms, the denominator positive.
     pub fn parts(&self) -> (BigInt, BigInt) {
         self.to_big().into()
     }
 
-    /// Bits needed to write numerator and denominator.
+    /// Number of bits needed to write numerator and denominator.
     pub fn bits(&self) -> u64 {
         let bits = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
         match &self.0 {
@@ -142,17 +143,17 @@ impl Rational {
         }
     }
 
-    /// Is this 0?
+    /// Whether the number is 0.
     pub fn is_zero(&self) -> bool {
         matches!(self.0, Form::Small(0, _))
     }
 
-    /// Is this 1?
+    /// Whether the number is 1.
     pub fn is_one(&self) -> bool {
         matches!(self.0, Form::Small(1, 1))
     }
 
-    /// Is this below 0?
+    /// Whether the number is below 0.
     pub fn is_negative(&self) -> bool {
         match &self.0 {
             Form::Small(n, _) => *n < 0,
@@ -160,12 +161,12 @@ impl Rational {
         }
     }
 
-    /// The absolute value.
+    /// Returns the absolute value.
     pub fn abs(&self) -> Self {
         if self.is_negative() { -self } else { self.clone() }
     }
 
-    /// `1/x`, or `None` for 0.
+    /// Computes `1/x`, or `None` for 0.
     pub fn recip(&self) -> Option<Self> {
         match &self.0 {
             Form::Small(0, _) => None,
@@ -174,7 +175,7 @@ impl Rational {
         }
     }
 
-    /// `x^n`, or `None` for 0 to a negative power.
+    /// Computes `x^n`, or `None` for 0 to a negative power.
     pub fn powi(&self, exponent: i32) -> Option<Self> {
         (exponent >= 0 || !self.is_zero())
             .then(|| Self::from_big(Pow::pow(&self.to_big(), exponent)))
@@ -293,11 +294,11 @@ fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
     Ok(Rational::from_big(BigRational::from_integer(integer * sign) * scale))
 }
 
-/// The most decimal places a terminating decimal is written with.
+/// Largest number of decimal places in a printed terminating decimal.
 const MAX_PLACES: u32 = 6;
 
 impl fmt::Display for Rational {
-    /// A terminating decimal of up to six places is written as one, anything else as a fraction.
+    /// Prints a terminating decimal of up to six places as a decimal, anything else as a fraction.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (n, d) = match &self.0 {
             Form::Small(n, d) => (i128::from(*n), *d),

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! and the radii are those of [`ball`](super::ball), in f64. The error of a product is exact by a
-//! fused multiply-add as long as it does not underflow; `TINY` puts back what is lost then, divided
+//! fused multiply-add as long as it does not underflow; `TINY` restores what is lost then, divided
 //! by s for a root. Elementary functions are computed in [`precise`](super::precise) arithmetic.
 
 use super::pair::Pair;
@@ -20,9 +20,9 @@ use super::{Domain, Enclosing, Function, Operation};
 
 /// u², the unit of the error bounds.
 const UNIT: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
-/// More than what underflow takes from any operation.
+/// More than underflow takes from any operation.
 const TINY: f64 = f64::MIN_POSITIVE;
-/// Bits in which elementary functions are computed.
+/// Precision in bits of elementary functions.
 const ELEMENTARY_BITS: u32 = 140;
 
 /// The domain of double-double balls with `N` lanes.
@@ -34,7 +34,7 @@ pub struct TwofoldBall<const N: usize>;
 pub struct Twofolds<const N: usize> {
     /// The nearest f64 of each midpoint.
     pub hi: [f64; N],
-    /// What is left of it, at most half a unit in the last place of `hi`.
+    /// The remainder of each midpoint, at most half a unit in the last place of `hi`.
     pub lo: [f64; N],
     /// Radii; NaN or infinite where the lane is undefined or unbounded.
     pub rad: [f64; N],
@@ -46,7 +46,7 @@ type Lane = (f64, f64, f64);
 const UNDEFINED: Lane = (f64::NAN, f64::NAN, f64::NAN);
 
 impl<const N: usize> Twofolds<N> {
-    /// Is there a finite enclosure in this lane?
+    /// Whether the lane has a finite enclosure.
     pub fn is_defined(&self, lane: usize) -> bool {
         self.hi[lane].is_finite() && self.rad[lane].is_finite()
     }
@@ -61,7 +61,7 @@ fn pair(hi: f64, lo: f64) -> Pair {
     Pair { hi, lo }
 }
 
-/// Puts back what computing a bound in f64 may have lost.
+/// Restores what computing a bound in f64 may have lost.
 #[inline(always)]
 fn widen(radius: f64) -> f64 {
     radius * (1.0 + 16.0 * f64::EPSILON) + TINY
@@ -100,7 +100,7 @@ fn square_root((a, al, ra): Lane) -> Lane {
     (z.hi, z.lo, if lowest >= ra || is_zero { rad } else { f64::NAN })
 }
 
-/// An elementary function by way of more digits.
+/// Computes an elementary function by way of higher precision.
 fn elementary(lane: Lane, f: impl Fn(&Precise, &Approximation) -> Option<Approximation>) -> Lane {
     let domain = Precise::new(ELEMENTARY_BITS);
     Approximation::from_twofold(lane.0, lane.1, lane.2)
@@ -170,7 +170,7 @@ impl<const N: usize> Enclosing for TwofoldBall<N> {
 
     fn enclosure(block: &Twofolds<N>, lane: usize) -> Option<(f64, f64)> {
         let (hi, lo, rad) = block.lane(lane);
-        // The radius must cover what is left out of the midpoint.
+        // The radius must cover the part of the midpoint that is left out.
         block.is_defined(lane).then(|| (hi, if lo == 0.0 { rad } else { widen(rad + lo.abs()) }))
     }
 
@@ -180,7 +180,7 @@ impl<const N: usize> Enclosing for TwofoldBall<N> {
     }
 }
 
-/// hi, lo and radius of an exact number.
+/// Returns hi, lo and radius of an exact number.
 fn enclose(value: &Rational) -> Lane {
     let (hi, exact) = value.to_f64();
     let rest = match Rational::from_f64(hi) {

@@ -1,16 +1,16 @@
-//! (m ± r)·2^e, and the operations that are exact but for their rounding.
+//! Arithmetic of balls (m ± r)·2^e, exact up to rounding.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::super::rational::Rational;
 
-/// Radii are kept below this many bits: the digits beneath them mean nothing.
+/// Largest size of a radius in bits: the digits of the midpoint beneath it carry no information.
 const RADIUS_BITS: u64 = 32;
-/// Exponents beyond ± this are given up by [`Approximation::in_range`]; a few thousand products of
-/// numbers within it do not overflow.
+/// Bound on exponents, beyond which [`Approximation::in_range`] gives up. A few thousand products
+/// of numbers within it do not overflow.
 const LARGEST_EXPONENT: u64 = 1 << 45;
-/// Bits to which sums that are asked for in full are aligned at most.
+/// Largest number of bits to which sums in full precision are aligned.
 const MOST_ALIGNED: u64 = 1 << 17;
 
 /// The interval of all reals within r·2^e of m·2^e.
@@ -23,12 +23,12 @@ pub struct Approximation {
 }
 
 impl Approximation {
-    /// m·2^e exactly.
+    /// Makes m·2^e exactly.
     pub fn exact(mantissa: BigInt, exponent: i64) -> Self {
         Self { mantissa, exponent, radius: 0 }
     }
 
-    /// (m ± r)·2^e, cut to what its radius and `bits` make worth keeping.
+    /// Makes (m ± r)·2^e, cut to `bits` and to the digits that the radius leaves significant.
     pub(super) fn new(mantissa: BigInt, radius: BigUint, exponent: i64, bits: u32) -> Self {
         let long = mantissa.bits().saturating_sub(u64::from(bits));
         let wide = radius.bits().saturating_sub(RADIUS_BITS);
@@ -51,21 +51,21 @@ impl Approximation {
         }
     }
 
-    /// The number, unless it is too large or too small for its exponent to be relied on.
+    /// Returns the number unless its exponent is too large or too small to be reliable.
     pub fn in_range(self) -> Option<Self> {
         let fits = self.mantissa.is_zero() && self.radius == 0
             || self.exponent.unsigned_abs() <= LARGEST_EXPONENT;
         fits.then_some(self)
     }
 
-    /// An exact f64; `None` for NaN and infinities.
+    /// Converts an f64 exactly; `None` for NaN and infinities.
     pub fn from_f64(value: f64) -> Option<Self> {
         let (above, below) = Rational::from_f64(value)?.parts();
         // The denominator of an f64 is a power of two.
         Some(Self::exact(above, 1 - below.bits() as i64))
     }
 
-    /// The ball of radius `rad` around hi + lo.
+    /// Makes the ball of radius `rad` around hi + lo.
     pub fn from_twofold(hi: f64, lo: f64, rad: f64) -> Option<Self> {
         let mid = Self::from_f64(hi)?.add(&Self::from_f64(lo)?, u32::MAX);
         let rad = Self::from_f64(rad)?;
@@ -76,37 +76,37 @@ impl Approximation {
         Some(Self::new(mantissa, radius, unit, u32::MAX))
     }
 
-    /// The midpoint as m·2^e, and the radius in units of 2^e.
+    /// Returns the midpoint as m·2^e, and the radius in units of 2^e.
     pub fn parts(&self) -> (&BigInt, i64, u64) {
         (&self.mantissa, self.exponent, self.radius)
     }
 
-    /// The midpoint alone.
+    /// Returns the midpoint as an exact number.
     pub fn midpoint(&self) -> Self {
         Self { radius: 0, ..self.clone() }
     }
 
-    /// Is this 0 exactly?
+    /// Whether the number is exactly 0.
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero() && self.radius == 0
     }
 
-    /// Is 0 outside the interval?
+    /// Whether 0 is outside the interval.
     pub fn excludes_zero(&self) -> bool {
         self.mantissa.magnitude() > &BigUint::from(self.radius)
     }
 
-    /// Is every number of the interval positive?
+    /// Whether every number of the interval is positive.
     pub fn is_positive(&self) -> bool {
         self.mantissa.is_positive() && self.excludes_zero()
     }
 
-    /// Bits of the midpoint before the binary point; negative for small numbers.
+    /// Number of bits of the midpoint before the binary point; negative for small numbers.
     pub(super) fn magnitude(&self) -> i64 {
         (self.mantissa.bits() as i64).saturating_add(self.exponent)
     }
 
-    /// Midpoint and radius in f64, the radius covering both roundings.
+    /// Returns midpoint and radius in f64, the radius covering both roundings.
     pub fn enclosure(&self) -> (f64, f64) {
         let mid = to_f64(&self.mantissa, self.exponent);
         let radius = to_f64(&BigInt::from(self.radius), self.exponent);
@@ -119,7 +119,7 @@ impl Approximation {
         (mid, radius * (1.0 + 4.0 * f64::EPSILON) + rounding)
     }
 
-    /// hi, lo and radius.
+    /// Returns hi, lo and radius.
     pub fn to_twofold(&self) -> (f64, f64, f64) {
         let hi = to_f64(&self.mantissa, self.exponent);
         let Some(nearest) = Self::from_f64(hi) else { return (hi, 0.0, f64::INFINITY) };
@@ -128,7 +128,7 @@ impl Approximation {
         (hi, lo, rad)
     }
 
-    /// |approximate - this|, rounded to f64; infinite for what is not finite.
+    /// Returns |approximate - x|, rounded to f64; infinite for arguments that are not finite.
     pub fn distance(&self, approximate: f64) -> f64 {
         Self::from_f64(approximate).map_or(f64::INFINITY, |other| {
             let rest = self.add(&other.neg(), u32::MAX);
@@ -136,22 +136,22 @@ impl Approximation {
         })
     }
 
-    /// -x
+    /// Computes -x.
     pub fn neg(&self) -> Self {
         Self { mantissa: -&self.mantissa, ..self.clone() }
     }
 
-    /// |x|, as the ball around the absolute value of the midpoint.
+    /// Returns |x| as the ball around the absolute value of the midpoint.
     pub fn abs(&self) -> Self {
         Self { mantissa: self.mantissa.abs(), ..self.clone() }
     }
 
-    /// The same with at most `bits` bits.
+    /// Rounds to at most `bits` bits.
     pub fn rounded(self, bits: u32) -> Self {
         Self::new(self.mantissa, self.radius.into(), self.exponent, bits)
     }
 
-    /// x + y
+    /// Computes x + y.
     pub fn add(&self, other: &Self, bits: u32) -> Self {
         let (coarse, fine) = match self.exponent >= other.exponent {
             true => (self, other),
@@ -166,8 +166,8 @@ impl Approximation {
         let apart = coarse.exponent.abs_diff(fine.exponent);
         let room = u64::from(bits).min(MOST_ALIGNED).saturating_mul(2).saturating_add(128);
         if coarse.radius > 0 || apart > room.saturating_add(fine.mantissa.bits()) {
-            // Nothing finer than the coarse radius is worth keeping; without one, an exact coarse
-            // number is first refined as far as the result can be.
+            // Digits finer than the coarse radius carry no information; an exact coarse number is
+            // first refined as far as the result can be.
             let refine = if coarse.radius > 0 { 0 } else { room };
             let coarse_mantissa = &coarse.mantissa << refine;
             let drop = apart.saturating_sub(refine);
@@ -181,10 +181,10 @@ impl Approximation {
         Self::new(mantissa, fine.radius.into(), fine.exponent, bits)
     }
 
-    /// x y
+    /// Computes x y.
     pub fn mul(&self, other: &Self, bits: u32) -> Self {
         let mantissa = &self.mantissa * &other.mantissa;
-        // Out of range where it saturates.
+        // Out of range if it saturates.
         let exponent = self.exponent.saturating_add(other.exponent);
         // |m| s + |n| r + r s
         let mut radius = BigUint::zero();
@@ -198,7 +198,7 @@ impl Approximation {
         Self::new(mantissa, radius, exponent, bits)
     }
 
-    /// 1/x, unless 0 is in the interval.
+    /// Computes 1/x, unless 0 is in the interval.
     pub fn recip(&self, bits: u32) -> Option<Self> {
         let size = self.mantissa.magnitude();
         if !self.excludes_zero() {
@@ -220,7 +220,7 @@ impl Approximation {
         Some(Self::new(quotient, radius, exponent, bits))
     }
 
-    /// √x, unless a negative number is in the interval.
+    /// Computes √x, unless a negative number is in the interval.
     pub fn sqrt(&self, bits: u32) -> Option<Self> {
         if self.is_zero() {
             return Some(self.clone());
@@ -248,13 +248,13 @@ impl Approximation {
     }
 }
 
-/// The f64 nearest to m·2^e; one of the nearest two where it is subnormal.
+/// Returns the f64 nearest to m·2^e, or one of the nearest two where it is subnormal.
 fn to_f64(mantissa: &BigInt, exponent: i64) -> f64 {
     let size = mantissa.magnitude();
     let shift = size.bits().saturating_sub(64);
     let mut head = (size >> shift).to_u64().unwrap_or(0);
     if size.trailing_zeros().is_some_and(|zeros| zeros < shift) {
-        // Something was cut off: no tie any more.
+        // A bit was cut off: no longer a tie.
         head |= 1;
     }
     let exponent = exponent.saturating_add(shift as i64).clamp(-4000, 4000) as i32;

@@ -1,15 +1,15 @@
-//! Decimal digits that the ball proves.
+//! Decimal digits proved by a ball.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive};
 
 use super::Approximation;
 
-/// Numbers from 10^-5 on are written without an exponent.
+/// Smallest decimal exponent of a number written without one.
 const SMALLEST_PLAIN: i64 = -5;
 
 impl Approximation {
-    /// The number rounded to `digits` significant digits, provided that all numbers of the interval
+    /// Rounds the number to `digits` significant digits, provided that all numbers of the interval
     /// round to the same ones.
     pub fn decimal(&self, digits: usize) -> Option<String> {
         let (mantissa, exponent, radius) = self.parts();
@@ -41,7 +41,7 @@ impl Approximation {
 }
 
 impl Approximation {
-    /// The midpoint to three digits or so, however large or small, for people to read.
+    /// Prints the midpoint to about three digits, however large or small.
     pub fn rough(&self) -> String {
         let middle = self.midpoint();
         if let Some(digits) = middle.decimal(3) {
@@ -52,7 +52,7 @@ impl Approximation {
         let head = (mantissa.abs() >> cut).to_f64().unwrap_or(f64::MAX);
         let leading = (exponent + cut as i64) as f64 * std::f64::consts::LOG10_2 + head.log10();
         let sign = if mantissa.is_negative() { "-" } else { "" };
-        // What rounding leaves of the fraction is worth no digit any more.
+        // Rounding leaves no significant digit of the fraction.
         if leading.abs() * f64::EPSILON * 1000.0 > 1.0 {
             return format!("{sign}10^{leading:.0}");
         }
@@ -61,7 +61,7 @@ impl Approximation {
     }
 }
 
-/// m·2^e·10^places rounded to the nearest integer.
+/// Rounds m·2^e·10^places to the nearest integer.
 fn rounded(mantissa: &BigInt, exponent: i64, places: i64) -> BigInt {
     let ten = |power: i64| BigInt::from(10).pow(power.max(0) as u32);
     let two = |power: i64| BigInt::from(1) << power.max(0) as u64;
@@ -71,7 +71,7 @@ fn rounded(mantissa: &BigInt, exponent: i64, places: i64) -> BigInt {
     if above.is_negative() { -doubled } else { doubled }
 }
 
-/// Digits d₁d₂d₃… as d₁.d₂d₃…·10^leading.
+/// Writes digits d₁d₂d₃… as d₁.d₂d₃…·10^leading.
 fn placed(digits: &str, leading: i64) -> String {
     let count = digits.len() as i64;
     if leading >= count || leading < SMALLEST_PLAIN {

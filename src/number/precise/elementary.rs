@@ -1,10 +1,10 @@
-//! exp, ln, sin, cos and atan of balls, by series in fixed-point integers.
+//! Functions exp, ln, sin, cos and atan of balls, by series in fixed-point integers.
 //!
-//! Each is computed at the midpoint with w bits after the point, where one unit is 2^-w. A step of a
-//! series (a product cut off, a quotient cut off) is off by at most 2 units, its terms only
-//! shrink, and the rest that is left out is below one unit; so K terms are within 4K + 4 units. What the
-//! reduction of the argument does to that is said at each function. The radius of the argument
-//! comes on top, times a bound on the derivative.
+//! Each is computed at the midpoint with w bits after the point, where one unit is 2^-w. A step of
+//! a series (a truncated product or quotient) is off by at most 2 units, its terms only shrink, and
+//! the truncated rest is below one unit; so K terms are within 4K + 4 units. The effect of the
+//! argument reduction is stated at each function. The radius of the argument is added, times a
+//! bound on the derivative.
 
 use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex};
@@ -15,21 +15,21 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::Approximation;
 
-/// Arguments of exp, sin and cos are refused beyond 2^this.
+/// Log₂ of the largest argument of exp, sin and cos.
 const LARGEST: i64 = 52;
-/// Guard bits for multiples of ln 2 and π/2 as large as that.
+/// Number of guard bits for the multiples of ln 2 and π/2 in the argument reduction.
 const GUARD: u32 = 72;
-/// Arguments of exp are halved this often before the series, and the result squared as often.
+/// Number of halvings of the argument of exp before the series, and of squarings after it.
 const HALVINGS: u32 = 12;
 
-/// m·2^-w as an integer m, cut off: off by less than one unit.
+/// Truncates the midpoint m·2^e to an integer number of units 2^-w: off by less than one unit.
 fn fixed(x: &Approximation, w: u32) -> BigInt {
     let (mantissa, exponent, _) = x.parts();
     let shift = exponent + i64::from(w);
     if shift >= 0 { mantissa << shift as u64 } else { mantissa >> (-shift) as u64 }
 }
 
-/// An upper bound on the radius in units of 2^-w.
+/// Bounds the radius from above in units of 2^-w.
 fn spread(x: &Approximation, w: u32) -> BigUint {
     let (_, exponent, radius) = x.parts();
     let (radius, shift) = (BigUint::from(radius), exponent + i64::from(w));
@@ -44,7 +44,7 @@ fn made(value: BigInt, error: BigUint, w: u32, bits: u32) -> Approximation {
     Approximation::new(value, error, -i64::from(w), bits)
 }
 
-/// The constants ln 2 and π with w bits after the point, each within 8w + 64 units.
+/// Computes ln 2 and π with w bits after the point, each within 8w + 64 units.
 fn constants(w: u32) -> (BigInt, BigInt) {
     static KNOWN: LazyLock<Mutex<HashMap<u32, (BigInt, BigInt)>>> = LazyLock::new(Mutex::default);
     if let Ok(known) = KNOWN.lock()
@@ -78,7 +78,7 @@ fn constants(w: u32) -> (BigInt, BigInt) {
     found
 }
 
-/// e^x; `None` beyond 2^52 or where the radius exceeds 1/2.
+/// Computes e^x; `None` beyond 2^52 or where the radius exceeds 1/2.
 pub fn exp(x: &Approximation, bits: u32) -> Option<Approximation> {
     if x.magnitude() > LARGEST {
         return None;
@@ -113,7 +113,7 @@ pub fn exp(x: &Approximation, bits: u32) -> Option<Approximation> {
     Some(Approximation::new(sum, error, turns - i64::from(w), bits))
 }
 
-/// ln x, for x > 0.
+/// Computes ln x, for x > 0.
 pub fn ln(x: &Approximation, bits: u32) -> Option<Approximation> {
     if !x.is_positive() {
         return None;
@@ -149,7 +149,7 @@ pub fn ln(x: &Approximation, bits: u32) -> Option<Approximation> {
     Some(made(value, error, w, bits))
 }
 
-/// sin x and cos x; `None` beyond 2^52.
+/// Computes sin x and cos x; `None` beyond 2^52.
 pub fn sin_cos(x: &Approximation, bits: u32) -> Option<(Approximation, Approximation)> {
     if x.magnitude() > LARGEST {
         return None;
@@ -184,7 +184,7 @@ pub fn sin_cos(x: &Approximation, bits: u32) -> Option<(Approximation, Approxima
     Some((made(pair.0, error.clone(), w, bits), made(pair.1, error, w, bits)))
 }
 
-/// arctan x.
+/// Computes arctan x.
 pub fn atan(x: &Approximation, bits: u32) -> Option<Approximation> {
     let w = bits + 48;
     // |x| > 1: arctan x = ±π/2 - arctan(1/x).
@@ -199,7 +199,7 @@ pub fn atan(x: &Approximation, bits: u32) -> Option<Approximation> {
     let is_negative = argument.parts().0.is_negative();
     let mut t = fixed(&argument, w);
     let one = BigInt::one() << w;
-    // arctan t = 2 arctan(t/(1 + √(1 + t²))): the argument halves, errors do not grow.
+    // arctan t = 2 arctan(t/(1 + √(1 + t²))) halves the argument, and errors do not grow.
     const HALVED: u32 = 4;
     for _ in 0..HALVED {
         let square: BigInt = &t * &t + (&one << w);

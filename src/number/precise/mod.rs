@@ -1,8 +1,8 @@
-//! Balls with as many bits as are asked for, over big integers.
+//! Arbitrary-precision ball arithmetic on big integers.
 //!
 //! An [`Approximation`] (m ± r)·2^e stands for every real in that interval; the radius counts units
-//! of the last place, so that nothing is ever rounded the wrong way. Results are cut to the
-//! working precision, and to what their radius makes worth keeping.
+//! of the last place and is never rounded down. Results are cut to the working precision, and to
+//! the digits that their radius leaves significant.
 
 mod approximation;
 mod decimal;
@@ -15,27 +15,27 @@ use num_bigint::BigInt;
 use super::rational::Rational;
 use super::{Domain, Enclosing, Function, Operation};
 
-/// Integer powers up to this exponent are multiplied out.
+/// Largest exponent of an integer power that is multiplied out.
 const LARGEST_POWER: i64 = 1 << 12;
 
-/// The domain with balls of a given precision, one lane.
+/// The domain of balls with a given precision, one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Precise {
     bits: u32,
 }
 
 impl Precise {
-    /// Balls with midpoints of `bits` bits, at least 16.
+    /// Makes a domain of balls with midpoints of `bits` bits, at least 16.
     pub fn new(bits: u32) -> Self {
         Self { bits: bits.max(16) }
     }
 
-    /// The working precision.
+    /// Returns the working precision in bits.
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// An enclosure of an exact number.
+    /// Encloses an exact number.
     pub fn rational(&self, value: &Rational) -> Approximation {
         let (above, below) = value.parts();
         let above = Approximation::exact(above, 0);
@@ -43,11 +43,11 @@ impl Precise {
             return above.rounded(self.bits);
         }
         let below = Approximation::exact(below, 0);
-        // A denominator is not 0.
+        // The denominator is not 0.
         below.recip(self.bits + 2).map_or(above.clone(), |inverse| above.mul(&inverse, self.bits))
     }
 
-    /// f(x), `None` where it is undefined or too large to be of use.
+    /// Computes f(x); `None` where it is undefined or too large to be useful.
     pub fn function(&self, function: Function, x: &Approximation) -> Option<Approximation> {
         let value = match function {
             Function::Neg => Some(x.neg()),
@@ -63,15 +63,15 @@ impl Precise {
         value?.in_range()
     }
 
-    /// x^y = exp(y ln x) for x > 0.
+    /// Computes x^y = exp(y ln x) for x > 0.
     pub fn power_of(&self, x: &Approximation, y: &Approximation) -> Option<Approximation> {
-        // exp turns absolute into relative errors: the exponent needs as many bits more as it has
-        // before the point, of which there are few.
+        // exp turns absolute errors into relative ones: the exponent needs as many more bits as it
+        // has before the point, and these are few.
         let more = self.bits + 48;
         elementary::exp(&elementary::ln(x, more)?.mul(y, more).in_range()?, self.bits)
     }
 
-    /// x^q, for x > 0 unless q is an integer.
+    /// Computes x^q, for x > 0 unless q is an integer.
     pub fn rational_power(&self, x: &Approximation, exponent: &Rational) -> Option<Approximation> {
         match exponent.to_integer().filter(|n| n.abs() <= LARGEST_POWER) {
             Some(n) => {
