@@ -1,10 +1,10 @@
-//! How large the numerator of a value can be: its degree and the bits of its coefficients.
+//! Bounds on the numerator of a value: its degree and the size of its coefficients in bits.
 //!
-//! A value is Num · Π q_f^e_f: a polynomial in the inputs times powers of factors. 1/X makes the
-//! numerator of X one factor more, named after the step X, to the power -1; √X one to the power 1/2.
-//! A product adds exponents; a sum takes the smallest exponent of each factor and moves the rest
-//! into the numerators. With denominators multiplied out at every sum the bound for L_vF₂ of a ball
-//! would be 2^19; kept in factors it is 66.
+//! A value is Num · Π q_f^e_f: a polynomial in the inputs times powers of factors. 1/X turns the
+//! numerator of X into a further factor, named after the step X, with exponent -1; √X into one with
+//! exponent 1/2. A product adds exponents; a sum takes the smallest exponent of each factor and
+//! moves the rest into the numerators. With denominators multiplied out at every sum the bound for
+//! L_vF₂ of a ball would be 2^19; with factors it is 66.
 //!
 //! docs/soundness.md, "Degrees".
 
@@ -13,7 +13,7 @@ use std::rc::Rc;
 use crate::graph::{Graph, Step};
 use crate::number::{Function, Operation};
 
-/// What an input may be, for the bounds of the values that contain it.
+/// Distribution of an input, from which the values that contain it are bounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// Any element of the prime field, with equal probability: degree 1.
@@ -22,14 +22,14 @@ pub enum Source {
     Sign,
 }
 
-/// Bounds on the numerator of a value, beside its factors.
+/// Bounds on the numerator of a value, together with its factors.
 #[derive(Clone, Debug)]
 pub struct Bound {
-    /// The degree; half-integers where roots are involved.
+    /// Bound on the degree; half-integers where roots are involved.
     pub degree: f64,
-    /// Log₂ of the sum of the absolute coefficients.
+    /// Log₂ of a bound on the sum of the absolute coefficients.
     pub height: f64,
-    /// Factor and exponent, by increasing factor.
+    /// Pairs of factor and exponent, by increasing factor.
     factors: Rc<[(u32, f64)]>,
 }
 
@@ -40,16 +40,16 @@ struct Factor {
     height: f64,
 }
 
-/// Bounds of all steps of a graph.
+/// Bounds for all steps of a graph.
 pub struct Bounds {
     bounds: Vec<Option<Bound>>,
     factors: Vec<Factor>,
-    /// The factor that is the numerator of a step.
+    /// Factor that is the numerator of a step, by place.
     numerator_of: rustc_hash::FxHashMap<usize, u32>,
 }
 
 impl Bounds {
-    /// Bounds of the steps that are reached; none where a function has no bound.
+    /// Bounds the reached steps; `None` for a step with a function that has no bound.
     pub fn of(graph: &Graph, reached: &[bool], sources: &[Source]) -> Self {
         let mut all = Self {
             bounds: Vec::with_capacity(reached.len()),
@@ -63,12 +63,12 @@ impl Bounds {
         all
     }
 
-    /// The bound of the step at a place.
+    /// Returns the bound of the step at a place.
     pub fn at(&self, place: usize) -> Option<&Bound> {
         self.bounds[place].as_ref()
     }
 
-    /// A bound on the degrees of the numerator and of the denominator of the value at a place, all
+    /// Bounds the degrees of the numerator and of the denominator of the value at a place, with all
     /// factors multiplied out.
     pub fn expanded_degree(&self, place: usize) -> Option<f64> {
         let bound = self.at(place)?;
@@ -77,7 +77,7 @@ impl Bounds {
         Some(bound.degree + degrees.sum::<f64>())
     }
 
-    /// Bounds on degree and height of the numerator of the difference of any two values.
+    /// Bounds degree and height of the numerator of the difference of any two values.
     pub fn of_differences(&self) -> (f64, f64) {
         let expanded = |bound: &Bound| {
             bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
@@ -134,7 +134,8 @@ impl Bounds {
             return Bound { degree: x.degree.max(y.degree), height, factors };
         }
         let factors = merged(&x.factors, &y.factors, f64::min);
-        // What a term has more of a factor than the sum keeps goes into its numerator.
+        // The excess of a factor in a term over its exponent in the sum goes into the term's
+        // numerator.
         let weight = |factors: &[(u32, f64)]| {
             factors.iter().fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
                 let Factor { degree: d, height: h } = self.factors[*factor as usize];
@@ -150,7 +151,7 @@ impl Bounds {
         Bound { degree: d.max(e), height: added(h, i), factors }
     }
 
-    /// The value of the step at `place` to a power that may be negative or a fraction.
+    /// Bounds the value of the step at `place` to a power, which may be negative or fractional.
     fn power(&mut self, place: usize, exponent: f64) -> Option<Bound> {
         let base = self.at(place)?.clone();
         let next = self.factors.len() as u32;
@@ -171,12 +172,12 @@ impl Bounds {
     }
 }
 
-/// log₂(2^a + 2^b), rounded up.
+/// Computes log₂(2^a + 2^b), rounded up.
 fn added(a: f64, b: f64) -> f64 {
     a.max(b) + 1.0
 }
 
-/// Exponents combined factor by factor; a factor that is absent has exponent 0.
+/// Combines exponents factor by factor; an absent factor has exponent 0.
 fn merged(
     x: &Rc<[(u32, f64)]>,
     y: &Rc<[(u32, f64)]>,

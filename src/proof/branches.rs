@@ -1,8 +1,8 @@
-//! Whether the roots and moduli that prime fields take are those of real numbers.
+//! Agreement of the branches of roots and moduli in prime fields with those of real numbers.
 //!
-//! Modulo p = 3 mod 4 the root of x is the one that is a square itself, and |x| is x or -x for the
-//! same reason. Of independent roots either sign is as good as the other; but √(x²) is x for half of
-//! all x modulo p, and for all real x > 0.
+//! Modulo p = 3 mod 4 the root of x is the one that is itself a square, and for the same reason |x|
+//! is x or -x. For independent roots both signs are equivalent; but √(x²) is x for half of all x
+//! modulo p, and for all real x > 0.
 
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
@@ -13,12 +13,12 @@ use super::digest::Digest;
 use super::trial::{Finding, LANES, points};
 use super::{Asked, Group, Prover, buckets};
 
-/// Blocks of points at which values are compared.
+/// Number of blocks of points at which values are compared.
 const BLOCKS: usize = 16;
 
 impl Prover<'_> {
-    /// Whether values modulo primes are, at random points, those that some choice of the signs of
-    /// independent roots gives at all real inputs of the extents.
+    /// Whether the values modulo primes agree, at random points, with those that some choice of
+    /// signs of independent roots gives at all real inputs of the extents.
     pub fn is_true_to_branches(&self, graph: &Graph, outputs: &[Expr]) -> Result<bool, Fault> {
         let digest = Digest::of(self.seed, graph, &[outputs.to_vec()]);
         let asked = Asked { graph, sources: self.sources_of(graph), digest };

@@ -1,10 +1,11 @@
-//! Proofs cell by cell: on each, all moduli, dependent roots and chosen signs are what they are.
+//! Cells: parts of the real inputs on which the signs of moduli, dependent roots and sign inputs
+//! are fixed.
 //!
-//! A cell is a choice of signs of the X of all |X|, those among them that come from roots, √(b²) =
-//! |b|. On a cell the computation is rewritten: |X| becomes X, -X or, where X vanishes identically, 0;
-//! a root whose radicand is a square up to others becomes √c |b|/Π√A_i; and so on, until only roots
-//! are left that are independent. A cell is left out where it is known that no real inputs of the
-//! given extents lie in it and have all values.
+//! A cell is a choice of signs of the arguments X of all |X|, including those that come from roots,
+//! √(b²) = |b|. On a cell the computation is rewritten: |X| becomes X, -X or, where X vanishes
+//! identically, 0; a root whose radicand is a square up to others becomes √c |b|/Π√A_i; and so on,
+//! until only independent roots are left. A cell is omitted if it is known to contain no real
+//! inputs of the given extents at which all values exist.
 //!
 //! docs/soundness.md, "Cells".
 
@@ -16,46 +17,46 @@ use super::domain::Fact;
 use super::rewrite::{Rewrite, conditions};
 use super::trial::{Certificate, Finding, both};
 
-/// A part of the real inputs on which signs are chosen.
+/// A part of the real inputs on which some signs are fixed.
 pub struct Cell {
-    /// The computation of the values, with what the signs decide put in.
+    /// Computation of the values, with the consequences of the signs substituted.
     pub graph: Graph,
-    /// The values that no field computes as they stand: roots, moduli, signs, functions.
+    /// Values that cannot be computed in a field as they stand: roots, moduli, signs, functions.
     pub values: Vec<Expr>,
-    /// What is known of values, by place, wherever there is anything to prove.
+    /// Signs of values, by place, that hold wherever the claim is to be proved.
     pub facts: Vec<(usize, Fact)>,
-    /// Which of the facts were chosen: positive here, and not on other cells.
+    /// Indices of the facts that were chosen: positive on this cell, and not on others.
     chosen: Vec<usize>,
-    /// Inputs that are signs, as they were chosen.
+    /// Sign inputs with their chosen values.
     pub fixed: Vec<(usize, bool)>,
-    /// A bound on the probability that what was put in is wrong.
+    /// Bound on the probability that a rewriting is wrong.
     pub certificate: Option<Certificate>,
 }
 
-/// What was found on a cell.
+/// A cell with the findings on it.
 pub struct Leaf {
     /// The cell.
     pub cell: Cell,
-    /// The findings, by group; `None` for one that has no value here.
+    /// Findings by group; `None` for a group that has no value on the cell.
     pub findings: Vec<Option<Finding>>,
 }
 
 /// A change of a cell.
 #[derive(Default)]
 pub struct Change<'c> {
-    /// What takes the place of steps.
+    /// Replacements of steps.
     pub rewrites: &'c [Rewrite],
-    /// An input that is a sign, and which.
+    /// A sign input, and whether it is 1.
     pub fixed: Option<(usize, bool)>,
-    /// The place of a value, and whether it is positive, or negative.
+    /// Place of a value, and whether it is positive (otherwise negative).
     pub chosen: Option<(usize, bool)>,
-    /// A bound on the probability that the rewritings are wrong.
+    /// Bound on the probability that the rewritings are wrong.
     pub certificate: Option<Certificate>,
 }
 
 impl Cell {
-    /// All real inputs at which the values at some places of a graph exist, facts being known of some
-    /// of its values.
+    /// Makes the cell of all real inputs at which the values at some places of a graph exist, given
+    /// facts about some of its values.
     pub fn whole(graph: &Graph, places: &[usize], facts: &[(Expr, Fact)]) -> Result<Self, Fault> {
         let facts: Vec<(usize, Fact)> =
             facts.iter().map(|(value, fact)| (graph.place(*value), *fact)).collect();
@@ -71,17 +72,17 @@ impl Cell {
         Ok(Self { graph: own, values, facts, chosen, fixed, certificate })
     }
 
-    /// Whether it is a part of the inputs only.
+    /// Whether the cell is a proper part of the inputs.
     pub fn is_part(&self) -> bool {
         !self.chosen.is_empty() || !self.fixed.is_empty()
     }
 
-    /// The places of the values that are positive here, and not on other cells.
+    /// Returns the places of the values that are positive on this cell and not on others.
     pub fn signs(&self) -> impl Iterator<Item = usize> {
         self.chosen.iter().map(|index| self.facts[*index].0)
     }
 
-    /// The facts, with those of the radicands of all roots in the values.
+    /// Returns the facts, together with those about the radicands of all roots in the values.
     pub fn known(&self) -> Vec<(usize, Fact)> {
         let mut known = self.facts.clone();
         let reached = self.graph.reached(self.values.iter().copied());
@@ -93,8 +94,8 @@ impl Cell {
         known
     }
 
-    /// The cell, or a part of it, after some rewriting; what is known of the radicands of its roots
-    /// stays known when they are gone.
+    /// Makes the cell, or a part of it, after a change; facts about the radicands of its roots are
+    /// kept when the roots are gone.
     pub fn changed(&self, change: &Change<'_>) -> Result<Self, Fault> {
         let facts = self.known();
         let places: Vec<usize> = self.values.iter().map(|value| self.graph.place(*value)).collect();
@@ -126,7 +127,7 @@ impl Cell {
     }
 }
 
-/// Inputs, those that are signs having been chosen.
+/// Replaces sign inputs by their chosen values.
 pub fn with_signs(inputs: &[Expr], signs: impl IntoIterator<Item = (usize, bool)>) -> Vec<Expr> {
     let mut inputs = inputs.to_vec();
     for (input, positive) in signs {
@@ -136,7 +137,7 @@ pub fn with_signs(inputs: &[Expr], signs: impl IntoIterator<Item = (usize, bool)
     inputs
 }
 
-/// Values and facts in the recording under way.
+/// Replayed values and facts in the recording under way.
 type Replayed = (Vec<Expr>, Vec<(Expr, Fact)>);
 
 fn replayed(

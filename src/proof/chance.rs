@@ -1,4 +1,4 @@
-//! Random primes and random elements, the same for the same seed.
+//! Random primes and random elements, reproducible from a seed.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -10,42 +10,43 @@ use super::digest::Digest;
 use crate::number::prime::{Modulus, is_prime};
 use crate::number::rational::Rational;
 
-/// What random numbers of a proof are drawn for; each purpose has a stream of its own.
+/// Purpose of the random numbers of a proof; each purpose has a separate stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
-    /// Primes of tests.
+    /// Primes for tests.
     Primes = 0,
-    /// Points of tests.
+    /// Points for tests.
     Points = 1,
-    /// Linear relations that are looked for.
+    /// Points for the search for linear relations.
     Relations = 2,
     /// Characters of radicands.
     Characters = 3,
-    /// Nested roots that are refused.
+    /// Points for refusals of nested roots.
     Refusals = 4,
     /// Ranks.
     Ranks = 5,
-    /// Squares that are looked for.
+    /// Points for the search for squares.
     Squares = 7,
-    /// Values that are equal all over the graph.
+    /// Points for the classes of equal values in a graph.
     Classes = 8,
 }
 
-/// Random numbers for field tests; no stream of states has these numbers.
+/// Random numbers for tests in fields, disjoint from all streams of states.
 pub struct Chance(ChaCha8Rng);
 
-/// Roots that a prime field has to have.
+/// Roots that a prime field must contain.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
-    /// Odd primes, of whose powers the indices of unique roots are made: p ≠ 1 modulo each.
+    /// Odd prime factors of the indices of unique roots: p ≠ 1 modulo each.
     pub odd: Vec<u64>,
-    /// Integers that are squares modulo p.
+    /// Integers that must be squares modulo p.
     pub squares: Vec<Rational>,
-    /// 2^depth, at least 4, divides p + 1: then 2^depth-th roots exist in the quadratic extension.
+    /// Exponent with 2^depth, at least 4, dividing p + 1: then 2^depth-th roots exist in the
+    /// quadratic extension.
     pub depth: u32,
 }
 
-/// Jacobi's symbol of an integer over an odd number.
+/// Computes Jacobi's symbol of an integer over an odd number.
 fn jacobi(integer: &Rational, odd: u64) -> i32 {
     let remainder = integer.parts().0.mod_floor(&BigInt::from(odd));
     let (mut a, mut n) = (remainder.to_u64().unwrap_or(0), odd);
@@ -64,16 +65,17 @@ fn jacobi(integer: &Rational, odd: u64) -> i32 {
     if n == 1 { symbol } else { 0 }
 }
 
-/// The smallest prime that is drawn.
+/// Lower bound of the random primes.
 const LEAST: u64 = 1 << 60;
 
 impl Chance {
-    /// The random numbers of a seed; `purpose` keeps apart what should not share them.
+    /// Makes the random numbers of a seed; different values of `purpose` give independent streams.
     pub fn new(seed: u64, purpose: u64) -> Self {
         Self::in_stream(ChaCha8Rng::seed_from_u64(seed), purpose)
     }
 
-    /// The same for what is to be proved: nobody can choose it with regard to these numbers.
+    /// Makes the random numbers for a statement to be proved, so that nobody can choose the
+    /// statement with regard to them.
     pub fn of(digest: Digest, stream: Stream) -> Self {
         Self::in_stream(ChaCha8Rng::from_seed(digest.0), stream as u64)
     }
@@ -83,8 +85,8 @@ impl Chance {
         Self(stream)
     }
 
-    /// A random prime p = 3 mod 4 between 2^60 and 2^61, p ≠ 1 modulo each of `odd`, and with all of
-    /// `squares` squares modulo p.
+    /// Draws a random prime p = 3 mod 4 between 2^60 and 2^61 with p ≠ 1 modulo each of `odd` and
+    /// all of `squares` squares modulo p.
     pub fn prime(&mut self, odd: &[u64], squares: &[u64]) -> Modulus {
         loop {
             let wanted = Wanted { odd: odd.to_vec(), ..Wanted::default() };
@@ -95,7 +97,7 @@ impl Chance {
         }
     }
 
-    /// A random prime between 2^60 and 2^61 with some roots.
+    /// Draws a random prime between 2^60 and 2^61 whose field contains the wanted roots.
     pub fn prime_with_roots(&mut self, wanted: &Wanted) -> Modulus {
         let low = (1u64 << wanted.depth.max(2)) - 1;
         loop {
@@ -103,7 +105,7 @@ impl Chance {
             if wanted.odd.iter().any(|index| candidate % index == 1) {
                 continue;
             }
-            // Symbols are quicker than tests for primes.
+            // Jacobi symbols are faster than primality tests.
             let has_root = |n: &Rational| jacobi(n, candidate) == 1;
             if wanted.squares.iter().all(has_root) && is_prime(candidate) {
                 return Modulus::new(candidate);
@@ -111,7 +113,7 @@ impl Chance {
         }
     }
 
-    /// A uniform element, in Montgomery form (which is a permutation of the elements).
+    /// Draws a uniform element, in Montgomery form (which is a permutation of the elements).
     pub fn element(&mut self, modulus: &Modulus) -> u64 {
         loop {
             let value = self.0.next_u64() >> 3;
@@ -121,7 +123,7 @@ impl Chance {
         }
     }
 
-    /// Heads or tails.
+    /// Draws a fair coin.
     pub fn coin(&mut self) -> bool {
         self.0.next_u64() >> 63 == 1
     }

@@ -1,5 +1,5 @@
-//! Which radicands are squares at random points: characters of those without roots, refusals of
-//! those with roots.
+//! Quadratic residues among radicands at random points: characters of radicands without roots,
+//! refusals of nested ones.
 
 use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
@@ -11,37 +11,38 @@ use super::lower::Algebraic;
 use super::tower::Standing;
 use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, Trial, prime_of};
 
-/// Points beyond the number of radicands at which characters are taken.
+/// Number of points beyond the number of radicands at which characters are taken.
 const SPARE: usize = 20;
-/// More radicands without roots than this are not told apart.
+/// Largest number of radicands without roots that can be distinguished.
 pub const MOST_FIRST: usize = u128::BITS as usize - SPARE;
-/// Blocks of points that are tried for characters, for each that is needed.
+/// Number of blocks of points to try for characters, for each block needed.
 const PATIENCE: usize = 8;
-/// Points for each prime without a refusal after which a nested root is taken to be dependent.
+/// Number of points for each prime without a refusal after which a nested root is taken to be
+/// dependent.
 const ACCEPTED: usize = 32;
 
-/// The squares among the values of one radicand.
+/// Quadratic character of the values of one radicand.
 pub enum Character<'c> {
-    /// For each prime, a bit a point: whether the value is no square.
+    /// For each prime, one bit for each point: set if the value is not a square.
     Residues(&'c [u128; PRIMES]),
-    /// The value is 0 at all points.
+    /// Zero at all points.
     Zero,
-    /// It hardly ever has a value.
+    /// Without a value at almost all points.
     Unreached,
 }
 
-/// The characters of some radicands without roots at common points.
+/// Quadratic characters of radicands without roots at common points.
 pub struct Characters {
-    /// For each prime, the number of points.
+    /// Number of points for each prime.
     pub counts: [u32; PRIMES],
-    /// By radicand; `None` where it was left out.
+    /// Residues by radicand; `None` for one left out.
     residues: Vec<Option<[u128; PRIMES]>>,
-    /// Whether it is 0 at all points, by radicand.
+    /// Whether the radicand is 0 at all points, by radicand.
     zero: Vec<bool>,
 }
 
 impl Characters {
-    /// Takes the characters of `radicands`.
+    /// Computes the characters of `radicands`.
     pub fn of(
         algebraic: &Algebraic<'_>,
         trial: &Trial<'_>,
@@ -55,7 +56,7 @@ impl Characters {
             evaluator.run(&trial.points(&[], &mut chance));
             evaluator.outputs().copied().collect::<Vec<[u64; LANES]>>()
         };
-        // What is 0, or has no value, at all points of two blocks is left out.
+        // Radicands that are 0, or undefined, at all points of two blocks are left out.
         let first = [next(), next()];
         let all = |index: usize, of: u64| first.iter().all(|block| block[index] == [of; LANES]);
         let zero: Vec<bool> = (0..radicands.len()).map(|index| all(index, 0)).collect();
@@ -92,7 +93,7 @@ impl Characters {
         Self { counts, residues, zero }
     }
 
-    /// The character of a radicand, by number.
+    /// Returns the character of a radicand, by index.
     pub fn of_radicand(&self, index: usize) -> Character<'_> {
         match &self.residues[index] {
             Some(residues) => Character::Residues(residues),
@@ -102,21 +103,22 @@ impl Characters {
     }
 }
 
-/// A space of vectors over the field of two elements, each with the radicands it is a product of.
+/// A vector space over the field of two elements; each vector carries the radicands whose product
+/// it is.
 #[derive(Clone)]
 pub struct Space {
-    /// Vectors with a leading bit of their own, and the members they are sums of.
+    /// Vectors in echelon form, with the members they are sums of.
     rows: Vec<(u128, u128)>,
 }
 
 impl Space {
-    /// The space of the character of -1, which is no square at any of `count` points.
+    /// Makes the space spanned by the character of -1, which is a non-square at all `count` points.
     pub fn of_minus_one(count: u32) -> Self {
         let all = u128::MAX.checked_shr(u128::BITS - count).unwrap_or(0);
         Self { rows: vec![(all, 0)] }
     }
 
-    /// Adds a vector; where it is a sum of others, the members of that sum in place of it.
+    /// Adds a vector. If it is a sum of others, returns the members of that sum instead.
     pub fn insert(&mut self, mut vector: u128, member: usize) -> Option<u128> {
         let mut members = 0;
         for (row, others) in &self.rows {
@@ -134,23 +136,23 @@ impl Space {
     }
 }
 
-/// Where nested radicands are no squares, at points at which those before them are.
+/// Non-squares among nested radicands, at points where the radicands before them are squares.
 pub struct Refusals {
-    /// By radicand and prime: whether it was refused.
+    /// Whether the radicand was refused, by radicand and prime.
     refused: Vec<[bool; PRIMES]>,
-    /// By radicand: how often it was accepted.
+    /// Number of points that accepted the radicand, by radicand.
     accepted: Vec<usize>,
 }
 
 impl Refusals {
-    /// Tries the radicands of the bases `nested` in their order.
+    /// Tests the radicands of the bases `nested` in order.
     pub fn of(
         algebraic: &Algebraic<'_>,
         trial: &Trial<'_>,
         nested: &[usize],
         digest: Digest,
     ) -> Self {
-        // By base: its radicand, and those of its links whose own roots are links.
+        // By base: its radicand, and the radicands of those of its links whose roots are links too.
         let chains = nested.iter().map(|index| {
             let base = &algebraic.bases[*index];
             let inner = base.links.len().saturating_sub(1);
@@ -184,8 +186,8 @@ impl Refusals {
                         }
                         None => break,
                     }
-                    // All roots before the next have to exist, √√A among them: it is independent
-                    // where √A is, as -1 is a square.
+                    // All roots before the next must exist, √√A among them: it is independent where
+                    // √A is, as -1 is a square.
                     let mut links = links.map(|at| field.is_square(evaluator.output(at), lane));
                     if links.any(|is_square| is_square != Some(true)) {
                         break;
@@ -199,7 +201,7 @@ impl Refusals {
         found
     }
 
-    /// The standing of a radicand, by its number among those that were tried.
+    /// Returns the standing of a radicand, by its index among those tested.
     pub fn standing(&self, index: usize) -> Standing {
         let refused = &self.refused[index];
         if refused.iter().all(|refused| *refused) {

@@ -1,4 +1,4 @@
-//! Values of a graph that are equal or opposite, found at random points of prime fields.
+//! Equal and opposite values of a graph, found at random points of prime fields.
 
 use rustc_hash::FxHashMap;
 
@@ -12,17 +12,19 @@ use super::lower::Algebraic;
 use super::tower::Tower;
 use super::trial::{Certificate, LANES, Residues, Trial};
 
-/// Points are drawn this often until most values exist.
+/// Largest number of blocks of points drawn until most values exist.
 const MOST_BLOCKS: usize = 16;
 
-/// Values of a graph that are equal, opposite or zero wherever they exist.
+/// Partition of the values of a graph into classes that are equal, opposite or zero wherever they
+/// exist.
 #[derive(Clone, Debug, Default)]
 pub struct Classes {
-    /// By place: a number that equal and opposite values share, and whether this is the opposite.
+    /// Class by place, shared by equal and opposite values, and whether the value is the opposite
+    /// of the class.
     pub of: Vec<Option<(u32, bool)>>,
-    /// By place: whether the value is known to be 0, or known not to be 0 identically.
+    /// Whether the value is known to be 0, or known not to vanish identically, by place.
     zero: Vec<Option<bool>>,
-    /// A bound on the probability that some values are not what they are said to be.
+    /// Bound on the probability that some value is classified wrongly.
     pub certificate: Option<Certificate>,
 }
 
@@ -32,13 +34,13 @@ impl Classes {
         self.zero.get(place) == Some(&Some(true))
     }
 
-    /// Whether the value at a place is known not to be 0 identically.
+    /// Whether the value at a place is known not to vanish identically.
     pub fn is_nonzero(&self, place: usize) -> bool {
         self.zero.get(place) == Some(&Some(false))
     }
 
-    /// The classes of those values of the graph that `algebraic` was made from that contain no root
-    /// but independent ones: a random sign of another root would make equal what is not.
+    /// Classifies those values of the original graph of `algebraic` that contain only independent
+    /// roots: a random sign of another root would make unequal values equal.
     pub fn of(algebraic: &Algebraic<'_>, trial: &Trial<'_>, tower: &Tower, digest: Digest) -> Self {
         let count = algebraic.values.len();
         let mut found = Self { of: vec![None; count], zero: vec![None; count], certificate: None };

@@ -1,9 +1,9 @@
-//! Whether polynomials have a common factor, seen on a random line.
+//! Common factors of polynomials, tested on a random line.
 //!
-//! A common factor h of positive degree becomes a common factor of their restrictions to a line z₀ +
-//! t u, of positive degree unless the leading form of h vanishes at u. Restrictions without a common
-//! factor prove that there is none. Quotients are brought over one denominator first: its factors
-//! vanish nowhere where the quotients have values.
+//! A common factor h of positive degree restricts to a common factor on a line z₀ + t u, of
+//! positive degree unless the leading form of h vanishes at u. Restrictions without a common factor
+//! therefore prove that there is none. Quotients are first brought over one denominator: its
+//! factors vanish nowhere where the quotients have values.
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
@@ -12,14 +12,14 @@ use crate::number::{Function, Operation};
 use super::bounds::{Bounds, Source};
 use super::chance::Chance;
 
-/// Larger degrees are given up.
+/// Largest degree that is tried.
 const LARGEST_DEGREE: f64 = 400.0;
-/// A stream for lines, apart from those of proofs.
+/// Random stream for lines, separate from those of proofs.
 const LINES: u64 = 30;
-/// Points of the line on which a quotient found from others is checked.
+/// Number of points of the line at which an interpolated quotient is checked.
 const CHECKS: usize = 4;
 
-/// Whether some values are polynomials in the inputs as they stand.
+/// Whether the values are polynomials in the inputs as they stand.
 pub fn are_polynomials(graph: &Graph, values: &[Expr]) -> bool {
     consist_of(graph, values, |step| match step {
         Step::Unary(function, _) => function == Function::Neg,
@@ -34,8 +34,8 @@ fn consist_of(graph: &Graph, values: &[Expr], of: impl Fn(Step<'_>) -> bool) -> 
     steps.all(|(step, _)| !matches!(step, Step::Binary(Operation::Pow, ..)) && of(step))
 }
 
-/// Whether it is known that some values, quotients of polynomials in the inputs, have no common
-/// factor but factors of their denominators.
+/// Whether some values, quotients of polynomials in the inputs, are known to have no common factor
+/// other than factors of their denominators.
 pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     let is_rational = consist_of(graph, values, |step| match step {
         Step::Unary(function, _) => matches!(function, Function::Neg | Function::Recip),
@@ -82,7 +82,7 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     let Some(quotients) = columns.iter().map(quotient).collect::<Option<Vec<_>>>() else {
         return false;
     };
-    // Over the product of all denominators.
+    // Use the product of all denominators.
     let product = |a: &[u64], b: &[u64]| multiplied(m, a, b);
     let below = quotients.iter().fold(vec![m.one()], |all, (_, below)| product(&all, below));
     let above = quotients.iter().enumerate().map(|(own, (above, _))| {
@@ -99,7 +99,7 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     }
 }
 
-/// The quotient of polynomials up to a degree that has these values, if there is one.
+/// Finds the quotient of polynomials of bounded degree with these values, if there is one.
 fn quotient(
     m: &Modulus,
     points: &[u64],
@@ -108,7 +108,7 @@ fn quotient(
 ) -> Option<(Vec<u64>, Vec<u64>)> {
     let used = 2 * degree + 2;
     let interpolant = interpolated(m, &points[..used], &values[..used]);
-    // Remainders of Π(t − tᵢ) by the interpolant, with their multipliers of the latter.
+    // Remainders of Π(t − tᵢ) by the interpolant, with the multipliers of the interpolant.
     let vanishing = points[..used]
         .iter()
         .fold(vec![m.one()], |all, t| multiplied(m, &all, &[m.sub(0, *t), m.one()]));
@@ -147,7 +147,7 @@ fn subtracted(m: &Modulus, a: &[u64], b: &[u64]) -> Vec<u64> {
     trimmed((0..a.len().max(b.len())).map(|k| m.sub(at(a, k), at(b, k))).collect())
 }
 
-/// Quotient and remainder by what is not the zero polynomial.
+/// Divides with remainder by a nonzero polynomial.
 fn divided(m: &Modulus, mut a: Vec<u64>, b: &[u64]) -> (Vec<u64>, Vec<u64>) {
     let inverse = b.last().map_or(0, |leading| m.inverse(*leading));
     let mut quotient = vec![0; (a.len() + 1).saturating_sub(b.len())];
@@ -163,7 +163,7 @@ fn divided(m: &Modulus, mut a: Vec<u64>, b: &[u64]) -> (Vec<u64>, Vec<u64>) {
     (trimmed(quotient), a)
 }
 
-/// The coefficients of the polynomial with these values, the constant one first.
+/// Returns the coefficients of the polynomial with these values, constant term first.
 fn interpolated(m: &Modulus, points: &[u64], values: &[u64]) -> Vec<u64> {
     // Newton's divided differences, multiplied out from the last one.
     let mut differences = values.to_vec();
@@ -195,7 +195,8 @@ fn trimmed(mut polynomial: Vec<u64>) -> Vec<u64> {
     polynomial
 }
 
-/// Euclid's algorithm; the zero polynomial has no coefficients.
+/// Computes a greatest common divisor by Euclid's algorithm; the zero polynomial has no
+/// coefficients.
 fn common_divisor(m: &Modulus, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
     while !b.is_empty() {
         let (_, rest) = divided(m, a, &b);

@@ -1,8 +1,8 @@
-//! A digest of what is to be proved, from which primes and points are drawn.
+//! Digest of a statement to be proved, from which primes and points are drawn.
 //!
-//! Theorem 1 needs primes that do not depend on the residual. Primes of a published seed would not
-//! do: whoever writes a constant could make it a multiple of all of them. So they are drawn from the
-//! seed *and* every step of the graph, and a constant that is changed changes them.
+//! Theorem 1 needs primes that do not depend on the residual. Primes from a published seed are not
+//! enough: a constant could be chosen as a multiple of all of them. Primes are therefore drawn from
+//! the seed *and* every step of the graph, so that a change of a constant changes them.
 //!
 //! The steps are absorbed word by word in the rounds of SipHash (Aumasson and Bernstein, INDOCRYPT
 //! 2012, LNCS 7668, 489–508), with the whole state of 256 bits as the result.
@@ -10,16 +10,17 @@
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
 
-/// What random numbers are drawn from.
+/// Seed material of the random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digest(pub [u8; 32]);
 
-/// The constants with which SipHash begins.
+/// Initial state of SipHash.
 const BEGINNING: [u64; 4] =
     [0x736f_6d65_7073_6575, 0x646f_7261_6e64_6f6d, 0x6c79_6765_6e65_7261, 0x7465_6462_7974_6573];
 
 impl Digest {
-    /// The digest of a seed, of the steps that `groups` of outputs need, and of these outputs.
+    /// Computes the digest of a seed, of the steps that `groups` of outputs need, and of these
+    /// outputs.
     pub fn of(seed: u64, graph: &Graph, groups: &[Vec<Expr>]) -> Self {
         let mut sponge = Sponge(BEGINNING);
         sponge.absorb(seed);
@@ -35,7 +36,7 @@ impl Digest {
     }
 }
 
-/// SipHash's state.
+/// Internal state of SipHash.
 struct Sponge([u64; 4]);
 
 impl Sponge {
@@ -60,7 +61,7 @@ impl Sponge {
         self.0[0] ^= word;
     }
 
-    /// A step with its place: a word that says what it is, and what it is made from.
+    /// Absorbs a step with its place: a word for the operation, then its arguments.
     fn step(&mut self, place: usize, step: Step<'_>) {
         let mut head =
             |kind: u64, which: u64| self.absorb((kind << 56) | (which << 48) | place as u64);

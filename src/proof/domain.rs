@@ -1,17 +1,17 @@
-//! The real inputs at which some values exist and have given signs: bounds on values there, and
-//! whether there are any.
+//! Signs and bounds of values over the real inputs at which given values exist and have given
+//! signs, and emptiness of such sets of inputs.
 //!
-//! What is known is handed from step to step of a graph, forwards from the inputs and backwards from
-//! the facts, in intervals. Two rules go beyond the arithmetic of intervals:
+//! Bounds are propagated from step to step of a graph in intervals, forwards from the inputs and
+//! backwards from the facts. Two rules go beyond interval arithmetic:
 //!
 //! - values that are equal, or opposite, at random points of prime fields (see [`Classes`]) share
-//!   what is known of either;
-//! - from the sign of xy and that of y follows that of x, where y is not 0 at one of these points: it
-//!   is then 0 on a set without interior at most, and x has this sign everywhere else, thus
-//!   everywhere in the closure.
+//!   their bounds;
+//! - the signs of xy and y determine the sign of x, where y is not 0 at one of these points: its
+//!   zeros then have no interior, and x has this sign everywhere else, thus everywhere in the
+//!   closure.
 //!
-//! Without the proviso the second rule is wrong: y + |y| is 0 for all y < 0, and x (y + |y|) ≥ 0 says
-//! nothing of x there.
+//! Without the proviso the second rule is wrong: y + |y| is 0 for all y < 0, and x (y + |y|) ≥ 0
+//! says nothing about x there.
 
 use std::collections::VecDeque;
 
@@ -22,14 +22,14 @@ use super::classes::Classes;
 use super::extent::Extent;
 use super::rewrite::conditions;
 
-/// Parts of the box on which one value is looked at.
+/// Largest number of parts of the box on which one value is bounded.
 const MOST_PARTS: usize = 64;
-/// Parts of the box on which a value is shown not to vanish.
+/// Largest number of parts of the box used to show that a value does not vanish.
 const MOST_PIECES: usize = 1 << 12;
-/// Passes over the steps, forwards and backwards.
+/// Number of passes over the steps, forwards and backwards.
 const PASSES: usize = 3;
 
-/// A sign that a value has wherever it matters.
+/// A sign that a value has wherever the claim is to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fact {
     /// x > 0
@@ -38,23 +38,23 @@ pub enum Fact {
     NotNegative,
 }
 
-/// Real inputs of some extents at which facts hold.
+/// The real inputs within some extents at which facts hold.
 pub struct Region<'r> {
-    /// The computation.
+    /// Graph of the computation.
     pub graph: &'r Graph,
-    /// The extents of the inputs in order; those beyond are any numbers.
+    /// Extents of the inputs in order; further inputs are unbounded.
     pub inputs: &'r [Extent],
-    /// Places, and the signs that their values have.
+    /// Places, and the signs of their values.
     pub facts: &'r [(usize, Fact)],
-    /// Relations between values.
+    /// Equal and opposite values.
     pub classes: &'r Classes,
 }
 
-/// Parts of a box that are looked at for a point.
+/// Largest number of parts of a box that are searched for a point.
 const MOST_BOXES: usize = 1 << 12;
 
-/// A point inside the extents of some inputs at which some values are positive, whatever the others
-/// do; `None` where none is found.
+/// Searches for a point inside the extents of some inputs at which some values are positive,
+/// whatever the others do; `None` if none is found.
 pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
     let facts: Vec<(usize, Fact)> = positive.iter().map(|place| (*place, Fact::Positive)).collect();
     let classes = Classes::default();
@@ -77,7 +77,7 @@ pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec
     None
 }
 
-/// Whether it is known that some values have no common zero inside the extents of the inputs where
+/// Whether some values are known to have no common zero inside the extents of the inputs where
 /// others are not negative.
 pub fn is_nowhere_zero(
     graph: &Graph,
@@ -101,7 +101,7 @@ pub fn is_nowhere_zero(
         if !places.iter().all(vanishes) {
             continue;
         }
-        // What the facts leave of the inputs, and the most of it first.
+        // Start from the part of the inputs that the facts allow, the largest piece first.
         for at in &reached {
             if let Step::Input(input) = graph.step(*at) {
                 part[input] = part[input].common(bounds[*at]);
@@ -121,8 +121,8 @@ pub fn is_nowhere_zero(
     open.is_empty()
 }
 
-/// The sign of a value at all inputs inside their extents at which some values exist, 0 going with
-/// either; `None` where it is not known.
+/// Finds the sign of a value at all inputs inside their extents at which some values exist, where 0
+/// counts as either sign; `None` if unknown.
 pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) -> Option<bool> {
     let facts = conditions(graph, &graph.reached(required.iter().copied()));
     let classes = Classes::default();
@@ -130,13 +130,13 @@ pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) ->
 }
 
 impl Region<'_> {
-    /// Whether it is known that there are no such inputs.
+    /// Whether the region is known to be empty.
     pub fn is_empty(&self) -> bool {
         let reached = self.reached(&[]);
         self.is_empty_on(&reached)
     }
 
-    /// The same, by bounds on all of them together.
+    /// Whether the region is shown to be empty by bounds on the whole of it.
     pub fn is_empty_at_sight(&self) -> bool {
         self.bounds(&self.reached(&[]), &self.whole()).is_none()
     }
@@ -158,8 +158,8 @@ impl Region<'_> {
         true
     }
 
-    /// The sign that the value at a place has at all these inputs where it has a value, 0 going with
-    /// either; `None` where that is not known.
+    /// Finds the sign of the value at a place over the region, wherever it exists, where 0 counts
+    /// as either sign; `None` if unknown.
     pub fn sign(&self, place: usize) -> Option<bool> {
         let reached = self.reached(&[place]);
         let used = self.inputs_of(&reached);
@@ -183,7 +183,7 @@ impl Region<'_> {
         known
     }
 
-    /// At which places the sign is known at first sight.
+    /// Marks the places whose sign follows from bounds on the whole region.
     pub fn at_sight(&self, outputs: &[usize]) -> Vec<bool> {
         let reached = self.reached(outputs);
         let mut known = vec![false; self.graph.len()];
@@ -193,7 +193,7 @@ impl Region<'_> {
         known
     }
 
-    /// The places that the facts and some others need, in order.
+    /// Lists the places that the facts and some others need, in order.
     fn reached(&self, others: &[usize]) -> Vec<usize> {
         let facts = self.facts.iter().map(|(place, _)| *place);
         let places: Vec<usize> = facts.chain(others.iter().copied()).collect();
@@ -215,7 +215,7 @@ impl Region<'_> {
         whole
     }
 
-    /// Both halves of a part, along one input after the other.
+    /// Halves a part along one input after the other.
     fn cut(
         &self,
         used: &[usize],
@@ -229,7 +229,7 @@ impl Region<'_> {
         Some([(upper, depth + 1), (lower, depth + 1)])
     }
 
-    /// Bounds of the reached values, by place; `None` where a fact cannot hold.
+    /// Bounds the reached values, by place; `None` where a fact cannot hold.
     fn bounds(&self, reached: &[usize], part: &[Extent]) -> Option<Vec<Extent>> {
         let mut bounds = vec![Extent::ALL; self.graph.len()];
         for pass in 0..PASSES {
@@ -259,7 +259,7 @@ impl Region<'_> {
         (!self.facts.iter().any(is_contradicted)).then_some(bounds)
     }
 
-    /// Values from those of their arguments.
+    /// Bounds values from their arguments.
     fn forward(&self, reached: &[usize], part: &[Extent], bounds: &mut [Extent]) {
         for place in reached {
             let step = self.graph.step(*place);
@@ -287,7 +287,8 @@ impl Region<'_> {
         }
     }
 
-    /// Equal and opposite values share their bounds; `false` where none is left of one that exists.
+    /// Intersects the bounds of equal and opposite values; `false` if nothing is left for a value
+    /// that exists.
     fn share(&self, reached: &[usize], bounds: &mut [Extent]) -> bool {
         if self.classes.of.is_empty() {
             return true;
@@ -301,7 +302,7 @@ impl Region<'_> {
         for place in reached {
             let Some((name, opposite)) = class(*place) else { continue };
             let own = turned(bounds[*place], opposite);
-            // What has no value anywhere tells nothing of what equals it elsewhere.
+            // A value that exists nowhere says nothing about values equal to it elsewhere.
             if own.is_empty() {
                 continue;
             }
@@ -320,7 +321,7 @@ impl Region<'_> {
         true
     }
 
-    /// Arguments from values.
+    /// Bounds arguments from values.
     fn backward(&self, reached: &[usize], bounds: &mut [Extent]) {
         for place in reached.iter().rev() {
             let value = bounds[*place];
@@ -361,7 +362,7 @@ impl Region<'_> {
         }
     }
 
-    /// Bounds of one factor of a product from those of the product and the other factor.
+    /// Bounds one factor of a product from the product and the other factor.
     fn factor(
         &self,
         product: Extent,
@@ -389,7 +390,7 @@ mod tests {
     use crate::number::rational::Rational;
     use crate::scalar::Scalar;
 
-    /// The sign over all inputs between these ends, where some values are not negative.
+    /// Finds the sign over all inputs between these ends, where some values are not negative.
     fn sign_where(
         ends: &[(i64, i64)],
         build: impl FnOnce(&[Expr]) -> (Expr, Vec<Expr>),

@@ -2,7 +2,7 @@
 
 use crate::number::prime::Modulus;
 
-/// Reduced row echelon form modulo p: the pivot columns, and the rows that have them.
+/// Reduces a matrix to reduced row echelon form modulo p; returns the pivot columns and their rows.
 pub fn reduce(mut rows: Vec<Vec<u64>>, columns: usize, m: &Modulus) -> (Vec<usize>, Vec<Vec<u64>>) {
     let mut pivots = Vec::new();
     for column in 0..columns {

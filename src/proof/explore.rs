@@ -1,4 +1,4 @@
-//! The search of all cells: what a cell is rewritten to, how it is divided, and when it is tested.
+//! The search through all cells: rewriting, division and testing.
 
 use rustc_hash::FxHashMap;
 
@@ -17,65 +17,65 @@ use super::roots::{RootFinder, Search};
 use super::tower::{Standing, Tower};
 use super::trial::{Certificate, Finding, Roots, Trial, both};
 
-/// More cells than this are not looked at.
+/// Largest number of cells.
 const MOST_CELLS: usize = 64;
-/// Rewritings of one cell, one after the other.
+/// Largest number of successive rewritings of one cell.
 const MOST_ROUNDS: usize = 48;
-/// Signs of dependent roots and moduli that are tried in all combinations.
+/// Largest number of dependent roots and moduli whose signs are tried in all combinations.
 const MOST_CHOICES: usize = 4;
 
-/// The next thing to do with a cell.
+/// The next action on a cell.
 enum Next {
-    /// It is rewritten, at the price of a certificate.
+    /// Rewrite the cell, at the cost of a certificate.
     Rewrite(Vec<Rewrite>, Option<Certificate>),
-    /// It is divided by the sign of X, the argument of the modulus at a place.
+    /// Divide the cell by the sign of X, the argument of the modulus at a place.
     Divide {
-        /// The place of |X|.
+        /// Place of |X|.
         modulus: usize,
-        /// The place of X.
+        /// Place of X.
         argument: usize,
     },
-    /// It is divided by the sign that an input is.
+    /// Divide the cell by the value of a sign input.
     DivideInput(usize),
-    /// No real inputs lie in it, up to the probability that is bounded.
+    /// Drop the cell: no real inputs lie in it, up to the bounded probability.
     Empty(Option<Certificate>),
-    /// It was tested.
+    /// Keep the findings of the test.
     Tested(Vec<Option<Finding>>),
 }
 
-/// The cells that some groups are proved on.
+/// The cells on which some groups are tested.
 #[derive(Default)]
 pub struct Explored {
-    /// Those that may hold real inputs, with what was found on each.
+    /// Cells that may contain real inputs, with the findings on each.
     pub leaves: Vec<Leaf>,
-    /// A bound on the probability that one was left out that holds some.
+    /// Bound on the probability that a non-empty cell was dropped.
     pub certificate: Option<Certificate>,
 }
 
-/// Groups of values of a graph, with the places of what no field computes in them.
+/// Groups of values of a graph, with the places of their non-rational steps.
 pub struct Question<'q> {
-    /// The computation.
+    /// Graph of the computation.
     pub graph: &'q Graph,
-    /// Values that are asked about together.
+    /// Values that are tested together.
     pub groups: Vec<&'q [Expr]>,
-    /// The places of roots, moduli, signs and functions that the groups need.
+    /// Places of roots, moduli, signs and functions that the groups need.
     pub special: &'q [usize],
 }
 
-/// A search of all cells.
+/// A search through all cells.
 pub struct Explorer<'p> {
-    /// What is asked.
+    /// Values to be tested.
     pub question: &'p Question<'p>,
-    /// The extents of the inputs, and the seed.
+    /// Extents of the inputs, and the seed.
     pub prover: &'p Prover<'p>,
-    /// What the inputs are.
+    /// Distributions of the inputs.
     pub sources: &'p [Source],
-    /// Of what is to be proved.
+    /// Digest of the statement to be proved.
     pub digest: Digest,
 }
 
 impl Explorer<'_> {
-    /// The findings on all cells that `cell` is divided into.
+    /// Finds the outcome on all cells into which `cell` is divided.
     pub fn explore(&self, cell: Cell) -> Result<Explored, Fault> {
         let count = self.question.groups.len();
         let mut explored = Explored::default();
@@ -189,7 +189,8 @@ impl Explorer<'_> {
             .map_or_else(|| self.test(cell, &algebraic, &trial, &tower, &loose, &known), Ok)
     }
 
-    /// Whether a clean value is 0 identically, and how surely.
+    /// Tests whether a value with independent roots alone vanishes identically; returns the
+    /// certificate if so.
     fn vanishes(&self, trial: &Trial<'_>, tower: &Tower, value: Expr) -> Option<Certificate> {
         let roots = Roots { nested: tower.nested, fixed: &[] };
         match trial.test(&[&[value]], roots).pop() {
@@ -198,7 +199,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// The signs of moduli that are still open, or the division by one of them or by an input.
+    /// Finds the signs of moduli that are still open, or divides by one of them or by an input.
     fn divide(
         &self,
         cell: &Cell,
@@ -238,7 +239,7 @@ impl Explorer<'_> {
             own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
                 .is_some_and(|value| tower.is_independent_root(algebraic, value))
         };
-        // The sign of an independent root is random anyhow.
+        // The sign of an independent root is random already.
         let is_absorbed = |sign: usize| {
             let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
             let mut users =
@@ -251,7 +252,7 @@ impl Explorer<'_> {
         signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
     }
 
-    /// The test of all groups, with all choices of signs that are not known.
+    /// Tests all groups, with all choices of unknown signs.
     fn test(
         &self,
         cell: &Cell,
@@ -277,7 +278,7 @@ impl Explorer<'_> {
         if cell.values.iter().any(is_lost) {
             return all_silent("a function has no value in a prime field");
         }
-        // The outputs themselves, made from what their roots and functions are here.
+        // The outputs themselves, built from their roots and functions as they are on this cell.
         let outputs = groups.concat();
         let reached = graph.reached(outputs.iter().copied());
         let replayed = |inputs: &[Expr], at: &dyn Fn(Expr) -> Option<Expr>| {
@@ -324,7 +325,7 @@ impl Explorer<'_> {
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
         let is_open = |finding: &Finding| matches!(finding, Finding::NonZero | Finding::Silent(_));
         if findings.iter().flatten().any(is_open) {
-            // x/x is recorded as 1, and has no value on a cell where x is 0.
+            // x/x is recorded as 1, and is undefined on a cell where x is 0.
             let Some((literal, made)) = algebraic.with(|inputs, at| {
                 let special =
                     cell.values.iter().map(|value| at(algebraic.values[cell.graph.place(*value)]?));
@@ -345,7 +346,7 @@ impl Explorer<'_> {
         }
         let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
         if cell.is_part() && !findings.iter().all(is_zero) {
-            // Whether there is such a cell at all is worth knowing now.
+            // Find out first whether the cell is empty.
             let classes = Classes::of(algebraic, trial, tower, self.digest);
             let inputs = self.prover.extents;
             let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
@@ -358,7 +359,7 @@ impl Explorer<'_> {
 }
 
 impl Explorer<'_> {
-    /// The outputs of all groups, one after the other, by group.
+    /// Splits the outputs of all groups, listed one after the other, by group.
     fn by_group<'o>(&self, outputs: &'o [Expr]) -> Vec<&'o [Expr]> {
         let mut rest = outputs;
         let own = |group: &&[Expr]| {
@@ -370,12 +371,12 @@ impl Explorer<'_> {
     }
 }
 
-/// The same finding for all groups.
+/// Makes a silent finding for all groups.
 fn silent(count: usize, reason: &str) -> Vec<Option<Finding>> {
     vec![Some(Finding::Silent(reason.to_string())); count]
 }
 
-/// The finding for two choices of signs.
+/// Combines the findings for two choices of signs.
 fn for_both(a: Finding, b: Finding) -> Finding {
     match (a, b) {
         (Finding::Zero(a), Finding::Zero(b)) => Finding::Zero(a.and(b)),

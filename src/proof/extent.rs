@@ -1,7 +1,7 @@
-//! Intervals that hold all values of a quantity over some real inputs.
+//! Intervals that contain all values of a quantity over some real inputs.
 //!
-//! An [`Extent`] is a closed interval with f64 ends, or infinite ones. Every operation returns one
-//! that contains all results: ends are computed in f64 and moved outwards by one step (elementary
+//! An [`Extent`] is a closed interval with f64 or infinite ends. Every operation returns one that
+//! contains all results: ends are computed in f64 and moved outwards by one step (for elementary
 //! functions of `libm`, whose error is below one unit in the last place, by two). A product of a
 //! value with itself is a square. Where no input gives a result the extent is *empty*.
 
@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::number::Function;
 use crate::number::rational::Rational;
 
-/// All numbers between two ends.
+/// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     low: f64,
@@ -20,21 +20,21 @@ pub struct Extent {
 impl Extent {
     /// All real numbers.
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    /// All numbers that are not negative.
+    /// All non-negative numbers.
     pub const POSITIVE: Self = Self { low: 0.0, high: f64::INFINITY };
-    /// 0 alone.
+    /// The number 0.
     pub const ZERO: Self = Self { low: 0.0, high: 0.0 };
-    /// 1 and -1, and what lies between.
+    /// The interval from -1 to 1.
     pub const SIGN: Self = Self { low: -1.0, high: 1.0 };
-    /// No number.
+    /// The empty interval.
     pub const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 
-    /// The numbers from `low` to `high`.
+    /// Makes the interval from `low` to `high`.
     pub fn between(low: &Rational, high: &Rational) -> Self {
         Self { low: Self::at(low).low, high: Self::at(high).high }
     }
 
-    /// One number.
+    /// Makes the interval of one number.
     pub fn at(value: &Rational) -> Self {
         match value.to_f64() {
             (nearest, true) => Self { low: nearest, high: nearest },
@@ -42,7 +42,7 @@ impl Extent {
         }
     }
 
-    /// One step beyond two computed ends; no knowledge where one of them is no number.
+    /// Moves two computed ends outwards by one step; all numbers if one end is NaN.
     fn outward(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::ALL;
@@ -50,34 +50,34 @@ impl Extent {
         Self { low: low.next_down(), high: high.next_up() }
     }
 
-    /// Whether no number is in it.
+    /// Whether the interval is empty.
     pub fn is_empty(self) -> bool {
         self.low > self.high
     }
 
-    /// The numbers of both.
+    /// Returns the intersection of two intervals.
     pub fn common(self, other: Self) -> Self {
         let both = Self { low: self.low.max(other.low), high: self.high.min(other.high) };
         if both.is_empty() { Self::EMPTY } else { both }
     }
 
-    /// Whether 0 is none of its numbers.
+    /// Whether 0 is outside the interval.
     pub fn excludes_zero(self) -> bool {
         self.low > 0.0 || self.high < 0.0
     }
 
-    /// Whether some number of it is positive.
+    /// Whether the interval contains a positive number.
     pub fn reaches_above_zero(self) -> bool {
         self.high > 0.0
     }
 
-    /// Both halves, and the number between them; `None` where it cannot be cut.
+    /// Returns both halves, which share the middle; `None` if the interval cannot be cut.
     pub fn halves(self) -> Option<(Self, Self)> {
         let middle = self.middle()?;
         Some((Self { high: middle, ..self }, Self { low: middle, ..self }))
     }
 
-    /// A number inside.
+    /// Returns a number inside the interval.
     pub fn middle(self) -> Option<f64> {
         let Self { low, high } = self;
         let middle = match (low.is_finite(), high.is_finite()) {
@@ -89,14 +89,14 @@ impl Extent {
         (low < middle && middle < high).then_some(middle)
     }
 
-    /// It and its opposite, with what lies between.
+    /// Returns the hull of the interval and its opposite.
     pub fn hull_with_opposite(self) -> Self {
         let size = self.high.max(-self.low);
         if self.is_empty() { self } else { Self { low: -size, high: size } }
     }
 
-    /// One of its numbers, inside and off the middle where there is an inside: formulas that are
-    /// wrong in general hold in the middle of symmetric ranges.
+    /// Returns a number of the interval, off the middle where there is an interior: false formulas
+    /// often hold in the middle of symmetric ranges.
     pub fn inside(self) -> Option<f64> {
         const SHARE: f64 = 0.381_966;
         let Self { low, high } = self;
@@ -110,13 +110,13 @@ impl Extent {
         single.or_else(|| (low < inside && inside < high).then_some(inside))
     }
 
-    /// The roots of all numbers of it that have one, of either sign.
+    /// Encloses the square roots, of either sign, of all numbers that have one.
     pub fn roots(self) -> Self {
         let root = self.unary(Function::Sqrt);
         if root.is_empty() { root } else { Self { low: -root.high, high: root.high } }
     }
 
-    /// The sign of all numbers in it, if they have one; 0 goes with either.
+    /// Returns the common sign of all numbers, if they have one; 0 counts as either sign.
     pub fn sign(self) -> Option<bool> {
         match (self.low >= 0.0, self.high <= 0.0) {
             (true, _) => Some(true),
@@ -125,12 +125,12 @@ impl Extent {
         }
     }
 
-    /// -x
+    /// Computes -x.
     pub fn negated(self) -> Self {
         Self { low: -self.high, high: -self.low }
     }
 
-    /// |x|
+    /// Computes |x|.
     pub fn modulus(self) -> Self {
         match self.sign() {
             Some(true) => self,
@@ -139,7 +139,7 @@ impl Extent {
         }
     }
 
-    /// x + y
+    /// Computes x + y.
     pub fn plus(self, other: Self) -> Self {
         let (low, high) = (sum(self.low, other.low), sum(self.high, other.high));
         if low.0.is_nan() || high.0.is_nan() {
@@ -148,7 +148,7 @@ impl Extent {
         Self { low: down(low), high: up(high) }
     }
 
-    /// x y
+    /// Computes x y.
     pub fn times(self, other: Self) -> Self {
         let corners = [
             product(self.low, other.low),
@@ -165,7 +165,7 @@ impl Extent {
         }
     }
 
-    /// That part of it which has this sign.
+    /// Returns the part of the interval with this sign.
     pub fn within(self, positive: bool) -> Self {
         match positive {
             _ if self.is_empty() => self,
@@ -174,7 +174,7 @@ impl Extent {
         }
     }
 
-    /// x²
+    /// Computes x².
     pub fn square(self) -> Self {
         let Self { low, high } = self.modulus();
         if self.is_empty() {
@@ -183,13 +183,13 @@ impl Extent {
         Self { low: down(product(low, low)), high: up(product(high, high)) }.within(true)
     }
 
-    /// 1/x
+    /// Computes 1/x.
     pub fn reciprocal(self) -> Self {
         match self.sign() {
             _ if self == (Self { low: 0.0, high: 0.0 }) => Self::EMPTY,
             None => Self::ALL,
             Some(true) => {
-                // 1/0 is no end: what has a value there is not 0.
+                // 1/0 is not an end: an argument with a reciprocal is not 0.
                 let high = if self.low == 0.0 { f64::INFINITY } else { 1.0 / self.low };
                 Self::outward(1.0 / self.high, high).within(true)
             }
@@ -197,7 +197,7 @@ impl Extent {
         }
     }
 
-    /// An increasing function that is defined above `least`, and positive there if that is said.
+    /// Applies an increasing function that is defined above `least`.
     fn rising(self, least: f64, f: impl Fn(f64) -> f64) -> Self {
         if self.high < least {
             return Self::EMPTY;
@@ -207,7 +207,7 @@ impl Extent {
         Self::outward(once.low, once.high)
     }
 
-    /// f(x)
+    /// Computes f(x).
     pub fn unary(self, function: Function) -> Self {
         match function {
             Function::Neg => self.negated(),
@@ -222,11 +222,11 @@ impl Extent {
         }
     }
 
-    /// sin x
+    /// Computes sin x.
     fn sine(self) -> Self {
-        /// Arguments beyond this are not brought back to one turn.
+        /// Largest argument that is reduced to one turn.
         const FAR: f64 = 1e6;
-        /// More than what the turns of an argument below that are rounded by.
+        /// More than the rounding of the turns of an argument below that.
         const SLACK: f64 = 1e-8;
         let Self { low, high } = self;
         if self.is_empty() {
@@ -252,9 +252,9 @@ impl Extent {
         found.common(Self::SIGN)
     }
 
-    /// x^q
+    /// Computes x^q.
     pub fn power(self, exponent: &Rational) -> Self {
-        /// Higher powers are not multiplied out.
+        /// Largest power that is multiplied out.
         const MOST: u64 = 64;
         match exponent.to_integer() {
             // Roots and powers of what is positive are positive.
@@ -269,7 +269,7 @@ impl Extent {
         }
     }
 
-    /// x^n
+    /// Computes x^n.
     fn whole_power(self, n: u64) -> Self {
         match n {
             _ if self.is_empty() => self,
@@ -285,7 +285,7 @@ impl Extent {
         }
     }
 
-    /// How much there is to gain from cutting it.
+    /// Estimates the gain from cutting the interval.
     pub fn spread(self) -> f64 {
         let least = if self.excludes_zero() { self.low.abs().min(self.high.abs()) } else { 0.0 };
         match (self.high - self.low, least) {
@@ -295,11 +295,11 @@ impl Extent {
     }
 }
 
-/// a + b rounded, and the sign of what is missing.
+/// Adds a and b; returns the rounded sum and the sign of the error.
 fn sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     if !sum.is_finite() {
-        // Beyond all numbers nothing is known of the error; an infinite end is one.
+        // Beyond all numbers the error is unknown; an infinite end is exact.
         let is_end = a.is_infinite() || b.is_infinite();
         return (sum, if is_end { 0.0 } else { f64::NAN });
     }
@@ -308,7 +308,8 @@ fn sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// a b rounded, and the sign of what is missing; 0 · ∞ is 0, since ∞ is not a number of an interval.
+/// Multiplies a and b; returns the rounded product and the sign of the error. 0 · ∞ is 0, since ∞
+/// is not a number of an interval.
 fn product(a: f64, b: f64) -> (f64, f64) {
     if a == 0.0 || b == 0.0 {
         return (0.0, 0.0);
@@ -322,12 +323,12 @@ fn product(a: f64, b: f64) -> (f64, f64) {
     (product, if is_exact { libm::fma(a, b, -product) } else { f64::NAN })
 }
 
-/// The largest f64 known not to be above a rounded number with this missing.
+/// Returns the largest f64 known not to exceed the exact value.
 fn down((rounded, missing): (f64, f64)) -> f64 {
     if missing >= 0.0 { rounded } else { rounded.next_down() }
 }
 
-/// The smallest f64 known not to be below a rounded number with this missing.
+/// Returns the smallest f64 known not to lie below the exact value.
 fn up((rounded, missing): (f64, f64)) -> f64 {
     if missing <= 0.0 { rounded } else { rounded.next_up() }
 }

@@ -1,4 +1,5 @@
-//! A computation made algebraic: what a prime field cannot compute is replaced by new inputs.
+//! Reduction to algebraic computations: operations that prime fields lack are replaced by new
+//! inputs.
 //!
 //! ```text
 //! √X, x^(a/b)  links of a chain √X, √√X, …, each with a sign ε of its own, shared by all powers of
@@ -11,8 +12,8 @@
 //! ln, atan     one symbol each
 //! ```
 //!
-//! Symbols are independent of everything by fiat: what vanishes for them vanishes for the
-//! functions, but not the other way round.
+//! Symbols are independent by definition: an expression that vanishes for them vanishes for the
+//! functions, but not conversely.
 
 use std::collections::BTreeMap;
 use std::ops::Deref;
@@ -28,62 +29,62 @@ use super::bounds::Source;
 use super::numbers::Numbers;
 use super::symbols::{Form, Symbols};
 
-/// Roots of roots of roots … of one radicand.
+/// Largest length of a chain of nested square roots of one radicand.
 const LONGEST_CHAIN: u32 = 24;
 
-/// What roots of even index are taken of.
+/// A radicand of roots of even index.
 #[derive(Clone, Debug)]
 pub struct Base {
-    /// The radicand.
+    /// Value of the radicand.
     pub radicand: Expr,
-    /// The places of the original graph that have this value under a root.
+    /// Places of the original graph that have this value under a root.
     pub arguments: Vec<usize>,
-    /// The first step of the original graph that is a root of it.
+    /// First step of the original graph that is a root of it.
     pub first: usize,
-    /// The values √X, √√X, … with the inputs that are their signs.
+    /// The values √X, √√X, …, each with the input that is its sign.
     pub links: Vec<(Expr, usize)>,
 }
 
-/// |X|, with the input that is its sign.
+/// A modulus |X|, with the input that is its sign.
 #[derive(Clone, Copy, Debug)]
 pub struct Modulus {
-    /// The step of the original graph.
+    /// Place of the step in the original graph.
     pub place: usize,
-    /// X
+    /// Argument X.
     pub argument: Expr,
-    /// The input that holds the sign.
+    /// Index of the input that holds the sign.
     pub sign: usize,
 }
 
-/// An algebraic graph: one made from another, or one that was algebraic before.
+/// An algebraic graph, lowered from another or algebraic already.
 pub struct Algebraic<'g> {
-    /// The graph.
+    /// Graph of rational operations.
     pub graph: Held<'g>,
-    /// The new value of each place of the original graph that was asked for and could be had.
+    /// New value of each place of the original graph that was requested and exists.
     pub values: Vec<Option<Expr>>,
-    /// What each input is.
+    /// Distribution of each input.
     pub sources: Vec<Source>,
-    /// How many of the inputs are those of the original; symbols and signs follow.
+    /// Number of inputs of the original; symbols and signs follow.
     pub original_inputs: usize,
-    /// What roots of even index are taken of, each after those it contains.
+    /// Radicands of roots of even index, each after those it contains.
     pub bases: Vec<Base>,
     /// Moduli, each after those it contains.
     pub moduli: Vec<Modulus>,
-    /// Roots of odd index: what they are taken of, and the index.
+    /// Radicands of roots of odd index, with the index.
     pub odd: Vec<(Expr, u64)>,
-    /// Roots of integers: the integer, and the longest chain √n, √√n, … of its roots.
+    /// Integers under roots, each with the length of the longest chain √n, √√n, … of its roots.
     pub numbers: Vec<(Rational, u32)>,
-    /// The signs that each step of the graph depends on, by [`Algebraic::bit`].
+    /// Signs that each step of the graph depends on, in bits by [`Algebraic::bit`].
     masks: Vec<u128>,
-    /// The number of each sign among all signs, by input.
+    /// Index of each sign among all signs, by input.
     bits: FxHashMap<usize, u32>,
 }
 
-/// A graph of one's own, or of somebody else.
+/// An owned or borrowed graph.
 pub enum Held<'g> {
-    /// Made here.
+    /// An owned graph.
     Own(Graph),
-    /// Taken as it is.
+    /// A borrowed graph.
     Lent(&'g Graph),
 }
 
@@ -99,7 +100,7 @@ impl Deref for Held<'_> {
 }
 
 impl<'g> Algebraic<'g> {
-    /// A graph whose values of interest are rational functions of its inputs.
+    /// Wraps a graph whose values of interest are already rational functions of its inputs.
     pub fn plain(graph: &'g Graph, sources: &[Source]) -> Self {
         Self {
             graph: Held::Lent(graph),
@@ -115,8 +116,8 @@ impl<'g> Algebraic<'g> {
         }
     }
 
-    /// The same graph with further values, which `build` makes from the inputs of the original and
-    /// from values that are there.
+    /// Makes the same graph with further values, which `build` makes from the inputs of the
+    /// original and from existing values.
     pub fn with(
         &self,
         build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
@@ -146,7 +147,7 @@ impl<'g> Algebraic<'g> {
         Ok(Some((all, values)))
     }
 
-    /// Lowers the reached steps of `graph`, whose inputs are `sources`.
+    /// Lowers the reached steps of `graph`, whose inputs are distributed as `sources`.
     pub fn of(
         graph: &Graph,
         reached: &[bool],
@@ -156,8 +157,8 @@ impl<'g> Algebraic<'g> {
         Self::made(graph, reached, sources, symbols, false)
     }
 
-    /// The same with a symbol for each root of an integer: relations with rational coefficients are
-    /// told from those that hold for one value of √2 modulo one prime.
+    /// Lowers with a symbol for each root of an integer, so that relations with rational
+    /// coefficients are distinguished from those that hold for one value of √2 modulo one prime.
     pub fn formal(
         graph: &Graph,
         reached: &[bool],
@@ -235,37 +236,37 @@ impl<'g> Algebraic<'g> {
         masks
     }
 
-    /// Whether there are no more signs than [`Algebraic::mask`] can tell apart.
+    /// Whether the signs fit into the bits of [`Algebraic::mask`].
     pub fn has_few_signs(&self) -> bool {
         self.bits.len() <= u128::BITS as usize
     }
 
-    /// The bit of an input that is a sign; 0 for any other.
+    /// Returns the bit of a sign input; 0 for any other input.
     pub fn bit(&self, input: usize) -> u128 {
         self.bits.get(&input).and_then(|bit| 1u128.checked_shl(*bit)).unwrap_or(0)
     }
 
-    /// The signs that a value depends on.
+    /// Returns the signs that a value depends on.
     pub fn mask(&self, value: Expr) -> u128 {
         self.masks.get(self.graph.place(value)).copied().unwrap_or(0)
     }
 
-    /// The signs that some values depend on.
+    /// Returns the signs that some values depend on.
     pub fn mask_of(&self, values: &[Expr]) -> u128 {
         values.iter().fold(0, |mask, value| mask | self.mask(*value))
     }
 
-    /// The longest chain of roots of even index of what is no integer.
+    /// Length of the longest chain of roots of even index, integers excepted.
     pub fn depth(&self) -> u32 {
         self.bases.iter().map(|base| base.links.len() as u32).max().unwrap_or(0)
     }
 
-    /// The integers whose roots have to exist in a prime field.
+    /// Returns the integers that must be squares in a prime field.
     pub fn squares(&self) -> Vec<Rational> {
         self.numbers.iter().map(|(integer, _)| integer.clone()).collect()
     }
 
-    /// Each odd prime that divides the index of a root once.
+    /// Returns the odd prime factors of the indices of roots, each once.
     pub fn odd_indices(&self) -> Vec<u64> {
         let mut primes = Vec::new();
         for (_, index) in &self.odd {
@@ -288,7 +289,7 @@ impl<'g> Algebraic<'g> {
         primes
     }
 
-    /// Whether these outputs contain a symbol that stands for a transcendental function.
+    /// Whether these outputs contain a symbol for a transcendental function.
     pub fn has_symbols(&self, outputs: &[Expr]) -> bool {
         let reached = self.graph.reached(outputs.iter().copied());
         self.graph.steps().enumerate().any(|(place, step)| match step {
@@ -302,19 +303,19 @@ impl<'g> Algebraic<'g> {
     }
 }
 
-/// What is made on the way.
+/// State of a lowering.
 struct Lowering<'s> {
     sources: Vec<Source>,
     bases: Vec<Base>,
-    /// The base of a radicand.
+    /// Index of the base of a radicand.
     base_of: FxHashMap<Expr, usize>,
-    /// The base of a link, and n where it is a root of index 2^n.
+    /// Index of the base of a link, and n where it is a root of index 2^n.
     link_of: FxHashMap<Expr, (usize, u32)>,
-    /// The roots √n, √√n, … of the integers that constants are made of.
+    /// Roots √n, √√n, … of the integers of which constants are products.
     number_roots: BTreeMap<usize, Vec<Expr>>,
-    /// Whether they are symbols.
+    /// Whether these roots are symbols.
     has_formal_numbers: bool,
-    /// The step under way.
+    /// Place of the step under way.
     place: usize,
     moduli: Vec<Modulus>,
     odd: Vec<(Expr, u64)>,
@@ -329,7 +330,7 @@ impl Lowering<'_> {
         Expr::input()
     }
 
-    /// The symbol of this number, made when it is first needed.
+    /// Returns the symbol with this index, made on first use.
     fn symbol(&mut self, number: usize) -> Expr {
         if let Some(made) = self.made[number] {
             return made;
@@ -339,8 +340,8 @@ impl Lowering<'_> {
         symbol
     }
 
-    /// The value of a step, where it is not computed as it stands; what no field can compute has
-    /// none.
+    /// Finds the value of a step that is not computed as it stands; undefined if it cannot be
+    /// computed in a field.
     fn step(
         &mut self,
         graph: &Graph,
@@ -370,7 +371,7 @@ impl Lowering<'_> {
         Some(made.unwrap_or_else(undefined))
     }
 
-    /// The value at a place to a power that is no integer.
+    /// Computes the value at a place to a non-integer power.
     fn power(
         &mut self,
         graph: &Graph,
@@ -407,7 +408,7 @@ impl Lowering<'_> {
         self.root(base, exponent)
     }
 
-    /// n^q for an integer n, by its number.
+    /// Computes n^q for an integer n, given by its index.
     fn number_root(&mut self, number: usize, exponent: &Rational) -> Option<Expr> {
         let radicand = Expr::rational(&self.numbers.integer(number));
         let Parts { whole, part, length, odd, j } = Parts::of(exponent)?;
@@ -418,7 +419,7 @@ impl Lowering<'_> {
         Some(value * self.odd_root(radicand, odd, j))
     }
 
-    /// The root of index 2^length of an integer.
+    /// Returns the root of index 2^length of an integer.
     fn number_link(&mut self, number: usize, length: u32) -> Expr {
         let mut roots = self.number_roots.remove(&number).unwrap_or_default();
         while roots.len() < length as usize {
@@ -434,7 +435,7 @@ impl Lowering<'_> {
         value
     }
 
-    /// X^(j/m) for odd m.
+    /// Computes X^(j/m) for odd m.
     fn odd_root(&mut self, radicand: Expr, odd: i64, j: i64) -> Expr {
         if j == 0 {
             return Expr::rational(&Rational::from(1));
@@ -445,7 +446,8 @@ impl Lowering<'_> {
         radicand.power(&Rational::new(1, odd)).power(&Rational::from(j))
     }
 
-    /// X^q for a base X: X^n, times a power of a link, times a power of a root of odd index.
+    /// Computes X^q for a base X: X^n, times a power of a link, times a power of a root of odd
+    /// index.
     fn root(&mut self, base: usize, exponent: &Rational) -> Option<Expr> {
         let Parts { whole, part, length, odd, j } = Parts::of(exponent)?;
         let radicand = self.bases[base].radicand;
@@ -456,7 +458,7 @@ impl Lowering<'_> {
         Some(value * self.odd_root(radicand, odd, j))
     }
 
-    /// The root of index 2^length of a base.
+    /// Returns the root of index 2^length of a base.
     fn link(&mut self, base: usize, length: u32) -> Expr {
         while self.bases[base].links.len() < length as usize {
             let Base { radicand, links, .. } = &self.bases[base];
@@ -495,7 +497,7 @@ impl Lowering<'_> {
             }
             Form::Angle { multiples, sine } => {
                 let one = Expr::rational(&Rational::from(1));
-                // (c + i s)^n of each, multiplied: cos and sin of the sum.
+                // (c + i s)^n of each, multiplied: cosine and sine of the sum.
                 let (mut cosine_of, mut sine_of) = (one, Expr::rational(&Rational::from(0)));
                 for (number, multiple) in multiples {
                     let t = self.symbol(*number);
@@ -515,17 +517,17 @@ impl Lowering<'_> {
     }
 }
 
-/// An exponent as n + i/2^s + j/m with 0 ≤ i < 2^s and 0 ≤ j < m, m odd.
+/// An exponent in the form n + i/2^s + j/m with 0 ≤ i < 2^s and 0 ≤ j < m, m odd.
 struct Parts {
-    /// n
+    /// Integer part n.
     whole: i64,
-    /// i
+    /// Numerator i.
     part: i64,
-    /// s
+    /// Exponent s.
     length: u32,
-    /// m
+    /// Odd denominator m.
     odd: i64,
-    /// j
+    /// Numerator j.
     j: i64,
 }
 
@@ -549,7 +551,7 @@ impl Parts {
     }
 }
 
-/// A value that no field has.
+/// Makes an undefined value.
 fn undefined() -> Expr {
     Expr::rational(&Rational::from(0)).apply(Function::Recip)
 }

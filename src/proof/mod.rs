@@ -1,8 +1,9 @@
-//! Proofs of algebraic identities by computing in prime fields.
+//! Proofs of algebraic identities by computation in prime fields.
 //!
-//! In goes a graph, some of its values, and what its inputs are; out comes whether all of them are
-//! identically zero, with a bound on the probability of an error, or that one is not, or why nothing
-//! can be said. The law is docs/soundness.md; what it says is in these files:
+//! The input is a graph, some of its values, and the distributions of its inputs. The result is
+//! that all values vanish identically, with a bound on the probability of an error, or that one of
+//! them does not, or the reason why neither is known. The theorems are in docs/soundness.md, and
+//! implemented in these files:
 //!
 //! | | |
 //! |---|---|
@@ -69,46 +70,46 @@ use relations::Relations;
 use symbols::Symbols;
 use trial::{Finding, Roots, Trial};
 
-/// A question about values of a graph.
+/// A prover of statements about values of a graph.
 pub struct Prover<'a> {
-    /// The inputs of the graph in order; those beyond are uniform.
+    /// Distributions of the inputs of the graph in order; further inputs are uniform.
     pub sources: &'a [Source],
-    /// Where the inputs are at real states, in order; those beyond are anywhere.
+    /// Extents of the inputs at real states, in order; further inputs are unbounded.
     pub extents: &'a [Extent],
-    /// The seed of primes and points; what is to be proved enters them too.
+    /// Seed of primes and points, which also depend on the statement to be proved.
     pub seed: u64,
 }
 
-/// Values that are asked about together.
+/// Values to be proved zero together.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
-    /// Whether all of them are identically zero is asked.
+    /// Values to be proved identically zero.
     pub outputs: Vec<Expr>,
-    /// What has a value wherever they matter.
+    /// Values that exist wherever the claim is to hold.
     pub required: Vec<Expr>,
 }
 
 impl Group {
-    /// Values that matter wherever they exist.
+    /// Makes a group of values without further requirements.
     pub fn of(outputs: Vec<Expr>) -> Self {
         Self { outputs, required: Vec::new() }
     }
 }
 
-/// The answer about a group.
+/// The outcome for a group.
 #[derive(Clone, Debug)]
 pub enum Outcome {
-    /// All of its values are zero wherever they exist.
+    /// All values are zero wherever they exist.
     Zero(Certificate),
-    /// One of its values is not identically zero, on the parts of the real inputs that are given:
-    /// that is so at some real inputs if one of the parts holds any.
+    /// One value is not identically zero on the given parts of the real inputs, and hence at some
+    /// real inputs if one of the parts is not empty.
     NonZero(Parts),
-    /// Neither, and the reason.
+    /// Undecided, with the reason.
     Silent(String),
-    /// They are zero wherever they exist, and have no value on a part of the inputs at which what is
-    /// required has one.
+    /// The values are zero wherever they exist, but do not exist on a part of the inputs at which
+    /// the required values do.
     Partial,
-    /// They have a value for no real inputs.
+    /// The values exist for no real inputs.
     Void,
 }
 
@@ -116,13 +117,13 @@ pub enum Outcome {
 #[derive(Clone, Debug, Default)]
 pub struct Parts(Option<Vec<Arc<Part>>>);
 
-/// A part of the real inputs: some inputs have these signs, and some values are positive.
+/// A part of the real inputs on which some inputs have given signs and some values are positive.
 pub struct Part {
-    /// The computation of the values.
+    /// Graph of the computation.
     pub graph: Graph,
-    /// What is positive.
+    /// Values that are positive on the part.
     pub positive: Vec<Expr>,
-    /// Inputs that are signs.
+    /// Sign inputs, and whether each is 1.
     pub signs: Vec<(usize, bool)>,
 }
 
@@ -133,7 +134,7 @@ impl std::fmt::Debug for Part {
 }
 
 impl Part {
-    /// A point of it inside the extents of the inputs, if one is found.
+    /// Searches for a point of the part inside the extents of the inputs.
     pub fn point(&self, extents: &[Extent]) -> Option<Vec<f64>> {
         let mut inputs = extents.to_vec();
         for (input, positive) in &self.signs {
@@ -148,26 +149,26 @@ impl Part {
 }
 
 impl Parts {
-    /// The parts; `None` where they are all real inputs.
+    /// Returns the parts; `None` if they are all real inputs.
     pub fn proper(&self) -> Option<&[Arc<Part>]> {
         self.0.as_deref()
     }
 }
 
 impl Outcome {
-    /// Whether it says that all values are zero.
+    /// Whether all values were proved zero.
     pub fn is_zero(&self) -> bool {
         matches!(self, Outcome::Zero(_))
     }
 
-    /// Whether it says that one value is not identically zero.
+    /// Whether one value was proved not to vanish identically.
     pub fn is_nonzero(&self) -> bool {
         matches!(self, Outcome::NonZero(_))
     }
 }
 
 impl Prover<'_> {
-    /// For each group of outputs: are all of them identically zero?
+    /// Decides for each group of outputs whether all of them vanish identically.
     pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<Outcome>, Fault> {
         let outputs: Vec<Vec<Expr>> = groups.iter().map(|group| group.outputs.clone()).collect();
         let digest = Digest::of(self.seed, graph, &outputs);
@@ -205,8 +206,9 @@ impl Prover<'_> {
         Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
     }
 
-    /// An outcome for values that have none on a part of the inputs, as a derivative has none where
-    /// the radicand of a root vanishes: it stands if what is required has none there either.
+    /// Proves values that are undefined on a part of the inputs, as a derivative is where the
+    /// radicand of a root vanishes. The outcome stands if the required values are undefined there
+    /// too.
     fn on_all_parts(
         &self,
         question: &Asked<'_>,
@@ -232,7 +234,7 @@ impl Prover<'_> {
         })
     }
 
-    /// Groups of rational functions.
+    /// Proves groups of rational functions.
     fn prove_plain(&self, question: &Asked<'_>, groups: &[&[Expr]]) -> Vec<(Outcome, bool)> {
         let Asked { graph, sources, digest } = question;
         let algebraic = Algebraic::plain(graph, sources);
@@ -257,7 +259,7 @@ impl Prover<'_> {
         sources
     }
 
-    /// Replaces what no field computes in the steps that some outputs need.
+    /// Replaces non-rational operations in the steps that some outputs need.
     fn lower(
         &self,
         graph: &Graph,
@@ -277,7 +279,7 @@ impl Prover<'_> {
     }
 }
 
-/// What all groups of a question share.
+/// Data shared by all groups of a question.
 struct Asked<'q> {
     graph: &'q Graph,
     sources: Vec<Source>,
@@ -286,16 +288,16 @@ struct Asked<'q> {
 
 /// Groups that are proved together.
 struct Bucket {
-    /// The places of the steps that they need and no field computes as they stand.
+    /// Places of the non-rational steps that they need.
     special: Vec<usize>,
-    /// What is known of values wherever they matter.
+    /// Facts about values, wherever the claim is to hold.
     facts: Vec<(Expr, Fact)>,
-    /// The groups, by their numbers.
+    /// Indices of the groups.
     members: Vec<usize>,
 }
 
-/// Groups by the steps that they need and no field computes as they stand, and by what is known; in
-/// the order of the first of each.
+/// Sorts groups by the non-rational steps that they need and by the facts; in the order of the
+/// first member of each.
 fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
     let is_special = |step: Step<'_>| match step {
         Step::Constant(_) => false,
@@ -338,7 +340,8 @@ fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
     buckets
 }
 
-/// What holds on all cells together, for each group, and whether it has no value on some of them.
+/// Combines the findings on all cells for each group; the flag tells whether the group is undefined
+/// on some cell.
 fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
     let Explored { leaves, certificate } = explored;
     let of_group = |index: usize| {
@@ -361,7 +364,8 @@ fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
         }
     };
     let mut outcomes: Vec<Outcome> = (0..count).map(of_group).collect();
-    // A group that is not zero on the whole needs no parts; others keep those where they are not.
+    // A group that is not zero on the whole needs no parts; others keep those on which they are not
+    // zero.
     let is_nonzero = |leaf: &Leaf, index: usize| {
         leaf.cell.is_part() && matches!(leaf.findings[index], Some(Finding::NonZero))
     };

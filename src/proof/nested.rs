@@ -1,8 +1,8 @@
-//! Roots that can be written out: √(x² + 2x + 1) = |x + 1| and √(x + 1 + 2√x) = |√x + 1|.
+//! Denesting of roots: √(x² + 2x + 1) = |x + 1| and √(x + 1 + 2√x) = |√x + 1|.
 //!
-//! A radicand is read as a polynomial in the inputs and in the roots and functions that it contains.
-//! Where it is c b², its root is √c |b|. Where it is a + b y with y² = C and a² - b² C = d², then with
-//! u = (a + d)/2
+//! A radicand is read as a polynomial in the inputs and in the roots and functions that it
+//! contains. If it is c b², its root is √c |b|. If it is a + b y with y² = C and a² - b² C = d²,
+//! then with u = (a + d)/2
 //!
 //! ```text
 //! √(a + b y) = |√u + b y/(2√u)|
@@ -20,23 +20,23 @@ use crate::scalar::Scalar;
 
 use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
 
-/// A root written out, its variables standing for values at places.
+/// A denested root, with variables that stand for values at places.
 #[derive(Clone, Debug)]
 pub enum Written {
-    /// √c |p/q|; nothing where c is negative.
+    /// √c |p/q|; undefined where c is negative.
     Square(Rational, Fraction),
-    /// |√u + b y/(2√u)|/|q|, y the root at a place.
+    /// |√u + b y/(2√u)|/|q|, where y is the root at a place.
     Sum {
         /// u
         first: Polynomial,
         /// b
         factor: Polynomial,
-        /// The place of y.
+        /// Place of y.
         root: usize,
         /// q
         below: Polynomial,
     },
-    /// √p/|q|, p without roots.
+    /// √p/|q|, where p contains no roots.
     Plain {
         /// p
         radicand: Polynomial,
@@ -45,12 +45,12 @@ pub enum Written {
     },
 }
 
-/// The product of the values at some places, if it is a square or the root of a sum that can be
-/// written out.
+/// Denests the root of the product of the values at some places, if it is a square or has the form
+/// of a sum.
 pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
     let roots = roots_of_inputs(graph, places);
     let by_roots = |place: usize, step: Step<'_>| match step {
-        // x is y² where y = √x occurs too.
+        // x is y² if y = √x occurs too.
         Step::Input(_) => match roots.iter().find(|(input, _)| *input == place) {
             Some((_, root)) => {
                 let y = Polynomial::variable(*root as u32);
@@ -77,14 +77,14 @@ pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
         let (root, below) = (root as usize, below.clone());
         Some(Written::Sum { first, factor: odd, root, below })
     });
-    // (a + b√C)(a − b√C) contains no root any more.
+    // (a + b√C)(a − b√C) contains no root.
     sum.or_else(|| {
         let radicand = without_roots(graph, above, square_of)?;
         (places.len() > 1).then_some(Written::Plain { radicand, below })
     })
 }
 
-/// A polynomial in which all roots occur in even powers, by what they are roots of.
+/// Replaces all roots, if they occur in even powers only, by their radicands.
 fn without_roots(
     graph: &Graph,
     mut polynomial: Polynomial,
@@ -95,7 +95,7 @@ fn without_roots(
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         _ => false,
     };
-    // The last one first: it may contain those before it.
+    // The last root first: it may contain those before it.
     while let Some(root) = polynomial.variables().into_iter().rev().find(is_root) {
         let [even, odd] = polynomial.split(root, &square_of(root)?)?;
         if !odd.is_zero() {
@@ -106,7 +106,7 @@ fn without_roots(
     Some(polynomial)
 }
 
-/// u = (a + d)/2 with d² = a² - b² C, not 0.
+/// Finds u = (a + d)/2 with d² = a² - b² C, u ≠ 0.
 fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<Polynomial> {
     if b.is_zero() {
         return None;
@@ -123,12 +123,13 @@ fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<P
     };
     let halves = [1, -1]
         .map(|sign| a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)));
-    // What is a square itself needs no further root.
+    // A square needs no further root.
     let order = |u: &Polynomial| (u.square().is_none(), u.size());
     halves.into_iter().filter(|u| !u.is_zero()).min_by_key(order)
 }
 
-/// The inputs that a root is taken of, with one that is, among the places that some others need.
+/// Lists the inputs under a root among the places that some others need, each with one of its
+/// roots.
 fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
     let reached = graph.reached_from(places);
     let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
@@ -142,7 +143,7 @@ fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// A variable for what is no rational operation.
+/// Makes a variable for a step that is not a rational operation.
 fn variable(place: usize, step: Step<'_>) -> Option<Polynomial> {
     let is_rational = match step {
         Step::Constant(_) | Step::Unary(Function::Neg | Function::Recip, _) => true,
@@ -164,7 +165,7 @@ fn product(
 }
 
 impl Written {
-    /// The places of its variables.
+    /// Returns the places of its variables.
     pub fn places(&self) -> Vec<usize> {
         let (polynomials, root) = match self {
             Written::Square(_, root) => ([&root.above, &root.below, &root.below], None),
@@ -175,7 +176,7 @@ impl Written {
         variables.map(|variable| variable as usize).chain(root).collect()
     }
 
-    /// The root in the recording under way, from the values at places; `None` where it is not real.
+    /// Records the root from the values at places; `None` where it is not real.
     pub fn value(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
         let of = |variable: u32| at(variable as usize);
         match self {

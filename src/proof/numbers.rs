@@ -1,8 +1,8 @@
-//! Roots of rational numbers through roots of few integers that are independent of each other.
+//! Roots of rational numbers in terms of roots of a few independent integers.
 //!
 //! Pairwise coprime integers above 1, none of them a square, have roots that are independent over
-//! the rationals. Such integers are made from the constants under roots by common divisors alone:
-//! nothing is factored.
+//! the rationals. Such integers are obtained from the constants under roots by common divisors
+//! alone, without factoring.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -10,19 +10,19 @@ use num_traits::{One, Signed, Zero};
 
 use crate::number::rational::Rational;
 
-/// More integers than this are not refined against each other.
+/// Largest number of integers that are refined against each other.
 const MOST: usize = 64;
-/// Longer constants have no root here.
+/// Largest size in bits of a constant whose root is taken.
 const MOST_BITS: u64 = 4096;
 
-/// Pairwise coprime integers, none a square, of whose powers some constants are products.
+/// Pairwise coprime integers, none a square, such that some constants are products of their powers.
 #[derive(Clone, Debug, Default)]
 pub struct Numbers {
     base: Vec<BigInt>,
 }
 
 impl Numbers {
-    /// Refines the constants; those that are negative or too long are left out.
+    /// Refines the constants; negative and too long ones are left out.
     pub fn of<'c>(constants: impl Iterator<Item = &'c Rational>) -> Self {
         let mut base: Vec<BigInt> = Vec::new();
         let mut open: Vec<BigInt> = constants.filter_map(parts).flatten().collect();
@@ -53,13 +53,13 @@ impl Numbers {
         Self { base }
     }
 
-    /// One of the integers.
+    /// Returns one of the integers.
     pub fn integer(&self, index: usize) -> Rational {
         Rational::from_parts(self.base[index].clone(), BigInt::one())
     }
 
-    /// Numbers of integers and exponents whose product a positive constant is; `None` for one that
-    /// was not refined.
+    /// Writes a positive constant as a product of powers: indices of integers with exponents;
+    /// `None` for a constant that was not refined.
     pub fn powers(&self, constant: &Rational) -> Option<Vec<(usize, i64)>> {
         let [mut above, mut below] = parts(constant)?;
         let mut powers = Vec::new();
@@ -73,7 +73,7 @@ impl Numbers {
     }
 }
 
-/// Divides by n as often as possible; how often that was.
+/// Divides by n as often as possible and returns the number of divisions.
 fn take(value: &mut BigInt, n: &BigInt) -> i64 {
     let mut count = 0;
     loop {

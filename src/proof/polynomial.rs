@@ -1,8 +1,8 @@
-//! Sparse polynomials with rational coefficients, to find the square root of a radicand.
+//! Sparse polynomials with rational coefficients, for square roots of radicands.
 //!
-//! A graph is read as a quotient of polynomials in its inputs and in whatever else is given a
-//! variable (other roots, symbols). Large ones are given up: what is looked for here is the b of
-//! √(x² + 2x + 1) = |x + 1|, not a normal form.
+//! A graph is read as a quotient of polynomials in its inputs and in further variables (other
+//! roots, symbols). Large ones are given up: the aim is to find b in √(x² + 2x + 1) = |x + 1|, not
+//! a normal form.
 
 use std::collections::BTreeMap;
 
@@ -11,16 +11,16 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
-/// Terms beyond which a polynomial is given up.
+/// Largest number of terms of a polynomial.
 const MOST_TERMS: usize = 400;
-/// Products of terms that reading one graph may take.
+/// Largest number of products of terms in reading one graph.
 pub const MOST_WORK: usize = 400_000;
-/// Bits of a coefficient beyond which a polynomial is given up.
+/// Largest size in bits of a coefficient.
 const MOST_BITS: u64 = 2048;
-/// Powers that are multiplied out.
+/// Largest power that is multiplied out.
 const MOST_POWER: i64 = 32;
 
-/// Variables by number with their exponents, in increasing order, none of them 0.
+/// Variables with their exponents, by increasing variable, no exponent 0.
 type Exponents = Vec<(u32, u32)>;
 
 /// A monomial, ordered lexicographically: x₀ above all powers of x₁, and so on.
@@ -78,19 +78,19 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// A number.
+    /// Makes a constant polynomial.
     pub fn constant(value: &Rational) -> Self {
         let mut polynomial = Self::default();
         polynomial.add_term(Monomial::default(), value);
         polynomial
     }
 
-    /// A variable.
+    /// Makes a variable.
     pub fn variable(number: u32) -> Self {
         Self { terms: [(Monomial(vec![(number, 1)]), Rational::from(1))].into() }
     }
 
-    /// The number that it is, if it is one.
+    /// Returns the value of a constant polynomial.
     pub fn number(&self) -> Option<Rational> {
         match self.leading() {
             None => Some(Rational::from(0)),
@@ -98,12 +98,12 @@ impl Polynomial {
         }
     }
 
-    /// How many terms there are.
+    /// Number of terms.
     pub fn size(&self) -> usize {
         self.terms.len()
     }
 
-    /// Whether there is no term.
+    /// Whether the polynomial is 0.
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -120,21 +120,21 @@ impl Polynomial {
         }
     }
 
-    /// p + q
+    /// Computes p + q.
     pub fn plus(&self, other: &Self) -> Self {
         let mut sum = self.clone();
         other.terms.iter().for_each(|(monomial, value)| sum.add_term(monomial.clone(), value));
         sum
     }
 
-    /// c p
+    /// Computes c p.
     pub fn scaled(&self, factor: &Rational) -> Self {
         let scaled = |(monomial, value): (&Monomial, &Rational)| (monomial.clone(), value * factor);
         let terms = self.terms.iter().map(scaled);
         Self { terms: terms.filter(|(_, value)| !value.is_zero()).collect() }
     }
 
-    /// p q; `None` where it is too large.
+    /// Computes p q; `None` if it is too large.
     pub fn times(&self, other: &Self, work: &mut usize) -> Option<Self> {
         *work = work.checked_sub(self.terms.len() * other.terms.len())?;
         let mut product = Self::default();
@@ -156,7 +156,7 @@ impl Polynomial {
         self.terms.last_key_value()
     }
 
-    /// c and a monic b with p = c b².
+    /// Returns c and a monic b with p = c b².
     pub fn square(&self) -> Option<(Rational, Self)> {
         let (monomial, scale) = self.leading()?;
         let head = monomial.root()?;
@@ -186,7 +186,7 @@ impl Polynomial {
         self.scaled(&Rational::from(-1))
     }
 
-    /// p₀ and p₁ with p = p₀ + p₁ y for the variable y, whose square is `square`.
+    /// Returns p₀ and p₁ with p = p₀ + p₁ y for the variable y, whose square is `square`.
     pub fn split(&self, variable: u32, square: &Self) -> Option<[Self; 2]> {
         let mut parts = [Self::default(), Self::default()];
         let mut work = MOST_WORK;
@@ -204,7 +204,7 @@ impl Polynomial {
         Some([even.checked()?, odd.checked()?])
     }
 
-    /// The variables that occur.
+    /// Returns the variables that occur.
     pub fn variables(&self) -> Vec<u32> {
         let mut all: Vec<u32> =
             self.terms.keys().flat_map(|monomial| monomial.0.iter().map(|(v, _)| *v)).collect();
@@ -213,7 +213,7 @@ impl Polynomial {
         all
     }
 
-    /// The value in the recording under way, from those of the variables.
+    /// Records the value from the values of the variables.
     pub fn value(&self, of: &impl Fn(u32) -> Option<Expr>) -> Option<Expr> {
         let mut sum = Expr::rational(&Rational::from(0));
         for (monomial, coefficient) in self.terms.iter().rev() {
@@ -227,12 +227,12 @@ impl Polynomial {
     }
 }
 
-/// p/q
+/// A quotient p/q of polynomials.
 #[derive(Clone, Debug)]
 pub struct Fraction {
-    /// p
+    /// Numerator p.
     pub above: Polynomial,
-    /// q, not 0
+    /// Denominator q, not 0.
     pub below: Polynomial,
 }
 
@@ -241,19 +241,19 @@ impl Fraction {
         Self { above, below: Polynomial::constant(&Rational::from(1)) }
     }
 
-    /// c, and p and q with the fraction c (p/q)².
+    /// Returns c, and p and q such that the fraction is c (p/q)².
     pub fn square(&self) -> Option<(Rational, Self)> {
         let mut work = MOST_WORK;
         let (scale, root) = self.above.times(&self.below, &mut work)?.square()?;
         Some((scale, Self { above: root, below: self.below.clone() }))
     }
 
-    /// p with the fraction p/q².
+    /// Returns p such that the fraction is p/q².
     pub fn over_square(&self) -> Option<Polynomial> {
         self.above.times(&self.below, &mut { MOST_WORK })
     }
 
-    /// The polynomial that it is, if the denominator is a number.
+    /// Returns the fraction as a polynomial, if the denominator is a number.
     pub fn polynomial(&self) -> Option<Polynomial> {
         Some(self.above.scaled(&self.below.number()?.recip()?))
     }
@@ -265,7 +265,7 @@ impl Fraction {
         })
     }
 
-    /// The product of some fractions.
+    /// Multiplies fractions.
     pub fn product<'f>(mut factors: impl Iterator<Item = &'f Self>) -> Option<Self> {
         let one = Self::whole(Polynomial::constant(&Rational::from(1)));
         let mut work = MOST_WORK;
@@ -300,14 +300,14 @@ impl Fraction {
         (exponent.abs() <= MOST_POWER).then_some(power)
     }
 
-    /// The value in the recording under way, from those of the variables.
+    /// Records the value from the values of the variables.
     pub fn value(&self, of: &impl Fn(u32) -> Option<Expr>) -> Option<Expr> {
         Some(self.above.value(of)? / self.below.value(of)?)
     }
 }
 
-/// The value at a place as a fraction; `given` gives the values of places that are not to be looked
-/// into, all inputs among them.
+/// Reads the value at a place as a fraction; `given` provides the values of places that are not
+/// expanded, including all inputs.
 pub fn fraction(
     graph: &Graph,
     place: usize,
@@ -363,7 +363,7 @@ mod tests {
         })
     }
 
-    /// Whether c b² with the b that was found is the fraction itself.
+    /// Whether c b² with the computed b is the fraction itself.
     fn squares(build: impl Fn(&[Expr]) -> Expr) -> Option<bool> {
         let (scale, root) = read(&build)?.square()?;
         let (graph, difference) = record(3, |inputs| {

@@ -11,14 +11,14 @@ use super::lower::Algebraic;
 use super::symbols::Symbols;
 use super::trial::{LANES, Trial};
 
-/// Blocks of points that are tried until one has values for all entries.
+/// Largest number of blocks of points tried until all entries have values.
 const MOST_BLOCKS: usize = 1 << 12;
 
 impl Prover<'_> {
-    /// The ranks of the first `n` rows for each n in `heights`.
+    /// Finds the rank of the first `n` rows for each n in `heights`.
     ///
-    /// The rank at a point is a lower bound for certain, and at a random point the rank but for a
-    /// probability of about its degree over 2^60. `None` where no point was found at which all
+    /// The rank at a point is a rigorous lower bound, and at a random point the rank itself except
+    /// with a probability of about its degree over 2^60. `None` if no point was found at which all
     /// entries have a value.
     pub fn ranks(
         &self,

@@ -3,10 +3,10 @@
 use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
 
-/// Numerators and denominators are looked for up to here.
+/// Bound on numerators and denominators.
 const LARGEST: i128 = 1 << 20;
 
-/// The fraction of small parts with this image, if there is one; it is then the only one.
+/// Finds the fraction with small parts and this image; it is unique if it exists.
 pub fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
     // Half of Euclid's algorithm: r_i = t_i x mod p at every step.
     let (mut previous, mut current) =

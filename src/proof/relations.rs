@@ -16,24 +16,24 @@ use super::symbols::Symbols;
 use super::tower::Tower;
 use super::trial::{Finding, LANES, Residues, Roots, Trial, points};
 
-/// More values than this are not related to each other: the effort grows with the cube.
+/// Largest number of values to be related: the cost is cubic.
 const MOST: usize = 40;
-/// Rows beyond the number of columns.
+/// Number of rows beyond the number of columns.
 const SPARE: usize = 4;
 
-/// What must vanish, from the values at some places; nothing if one of them is missing.
+/// A map from the values at some places to values that must vanish; `None` if a value is missing.
 type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
 
-/// constant + Σ multiples_i e_i over a basis e.
+/// A combination constant + Σ multiples_i e_i over a basis e.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
-    /// The part that is a number.
+    /// Rational constant.
     pub constant: Rational,
-    /// The multiples of the basis elements.
+    /// Multiples of the basis elements.
     pub multiples: Vec<Rational>,
 }
 
-/// Finds relations in a graph; what is transcendental counts as independent.
+/// A search for linear relations in a graph; transcendental steps count as independent.
 pub struct Relations<'g> {
     graph: &'g Graph,
     sources: &'g [Source],
@@ -52,8 +52,8 @@ impl<'g> Relations<'g> {
         Self { graph, sources, algebraic, digest }
     }
 
-    /// Each place's value through a basis chosen among them, and the number 1 if `with_one`; `None`
-    /// when no basis was found and proved.
+    /// Expresses each place's value in a basis chosen among them, together with the number 1 if
+    /// `with_one`; `None` if no basis was found and proved.
     pub fn between(&mut self, places: &[usize], with_one: bool) -> Option<Vec<Combination>> {
         if places.is_empty() || places.len() > MOST {
             return None;
@@ -85,7 +85,7 @@ impl<'g> Relations<'g> {
         self.verify(places, &basis, &combinations).then_some(combinations)
     }
 
-    /// Are two values reciprocal (`true`), or equal (`false`)? `None` where neither is proved.
+    /// Whether two values are reciprocal (`true`) or equal (`false`); `None` if neither is proved.
     pub fn is_reciprocal(&mut self, a: usize, b: usize) -> Option<bool> {
         let defect = |reciprocal: bool| {
             move |values: &[Option<Expr>]| -> Option<Vec<Expr>> {
@@ -106,8 +106,8 @@ impl<'g> Relations<'g> {
         })
     }
 
-    /// Values at random points over one prime, two rows a point: an element of the quadratic
-    /// extension is two of the field.
+    /// Evaluates at random points over one prime, two rows for each point: an element of the
+    /// quadratic extension is two of the field.
     fn rows(
         &self,
         places: &[usize],

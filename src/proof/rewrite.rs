@@ -1,4 +1,4 @@
-//! Rewritings of roots and moduli by what they are.
+//! Replacement of roots and moduli by simpler expressions.
 
 use rustc_hash::FxHashMap;
 
@@ -16,48 +16,48 @@ use super::squares::Square;
 pub enum Root {
     /// √c |b|
     Found(Rational, Square),
-    /// As it is written out.
+    /// A denested root.
     Written(Written),
 }
 
-/// Steps of a graph with what takes their place.
+/// A replacement of steps of a graph.
 #[derive(Clone, Debug)]
 pub enum Rewrite {
     /// |X| is X or -X.
     Signed {
-        /// The place of |X|.
+        /// Place of |X|.
         place: usize,
-        /// Whether it is X.
+        /// Whether |X| is X.
         positive: bool,
     },
     /// |X| is 0.
     Vanishing {
-        /// The place of |X|.
+        /// Place of |X|.
         place: usize,
     },
-    /// √A is 0, and other powers of A that are no integers have no value.
+    /// √A is 0, and other non-integer powers of A are undefined.
     Zero {
-        /// The places of A.
+        /// Places of A.
         arguments: Vec<usize>,
     },
     /// √A = √(A Π A_i)/Π√A_i.
     Root {
-        /// The places of A.
+        /// Places of A.
         arguments: Vec<usize>,
-        /// √(A Π A_i)
+        /// The root √(A Π A_i).
         root: Root,
-        /// The places of the A_i.
+        /// Places of the A_i.
         over: Vec<usize>,
     },
     /// √(u Π T_i) = √u Π √T_i for roots T_i.
     Split {
-        /// The places of the product.
+        /// Places of the product.
         arguments: Vec<usize>,
     },
 }
 
 impl Rewrite {
-    /// The places whose values it is made from, beside the arguments of what it replaces.
+    /// Returns the places that the replacement needs, besides the arguments of the replaced step.
     pub fn needs(&self) -> Vec<usize> {
         match self {
             Rewrite::Root { root, over, .. } => {
@@ -72,7 +72,7 @@ impl Rewrite {
         }
     }
 
-    /// The value of a step, if it is replaced, from the values at places.
+    /// Records the value of a step from the values at places, if the step is replaced.
     pub fn value(
         &self,
         graph: &Graph,
@@ -126,7 +126,7 @@ impl Rewrite {
     }
 }
 
-/// Argument and exponent of a power that is no integer one.
+/// Returns argument and exponent of a non-integer power.
 fn power(step: Step<'_>) -> Option<(usize, Rational)> {
     match step {
         Step::Unary(Function::Sqrt, a) => Some((a, Rational::new(1, 2))),
@@ -135,7 +135,8 @@ fn power(step: Step<'_>) -> Option<(usize, Rational)> {
     }
 }
 
-/// The power of a product, factor by factor: roots as powers of their arguments, the rest at once.
+/// Takes the power of a product factor by factor: roots as powers of their arguments, the rest at
+/// once.
 fn split(
     graph: &Graph,
     place: usize,
@@ -144,7 +145,7 @@ fn split(
 ) -> Option<Expr> {
     let one = || Expr::rational(&Rational::from(1));
     let (mut roots, mut rest): (FxHashMap<usize, Rational>, _) = (FxHashMap::default(), one());
-    // How often each factor occurs, users before their arguments.
+    // Multiplicity of each factor, users before their arguments.
     let mut counts: std::collections::BTreeMap<usize, i64> = [(place, 1)].into();
     while let Some((at, count)) = counts.pop_last() {
         let mut add = |place: usize, more: i64| -> Option<()> {
@@ -182,7 +183,8 @@ fn split(
     Some(product)
 }
 
-/// The facts without which some steps have no value: what roots, logarithms and powers are taken of.
+/// Lists the signs without which some steps are undefined: those of the arguments of roots,
+/// logarithms and powers.
 pub fn conditions(graph: &Graph, reached: &[bool]) -> Vec<(usize, Fact)> {
     let condition = |step: Step<'_>| match step {
         Step::Unary(Function::Sqrt, a) => Some((a, Fact::NotNegative)),

@@ -1,4 +1,4 @@
-//! Roots that depend on others, and what they are.
+//! Dependent roots and their expressions in terms of other roots.
 
 use crate::graph::{Expr, Fault, Graph};
 use crate::number::rational::Rational;
@@ -13,44 +13,44 @@ use super::squares::{Samples, Square};
 use super::tower::{Standing, Tower};
 use super::trial::{Certificate, Finding, Roots, Trial};
 
-/// Others of either kind with which products of a nested radicand are tried.
+/// Largest number of other radicands of either kind multiplied with a nested radicand.
 const MOST_FACTORS: usize = 4;
-/// Sets of such others.
+/// Largest number of sets of such radicands.
 const MOST_SETS: usize = 40;
 
-/// What became of the root of a base.
+/// The result of the search for the root of a base.
 pub enum Search {
-    /// It is independent of those before it.
+    /// The root is independent of those before it.
     Independent,
-    /// It is something else, up to the probability that is bounded.
+    /// The root has another expression, up to the bounded probability.
     Rewrite(Rewrite, Option<Certificate>),
-    /// There are no real inputs at which it exists together with those before it, up to the
-    /// probability that is bounded.
+    /// The root and those before it exist together at no real inputs, up to the bounded
+    /// probability.
     NeverReal(Option<Certificate>),
-    /// It may depend on others, and it was not found how.
+    /// The root may depend on others, but no expression was found.
     Unknown,
 }
 
-/// A graph with its roots, and what is known of them.
+/// A graph with the state of its roots.
 pub struct RootFinder<'f> {
-    /// The computation.
+    /// Graph of the computation.
     pub graph: &'f Graph,
-    /// The same, lowered.
+    /// The same graph, lowered.
     pub algebraic: &'f Algebraic<'f>,
-    /// Its test.
+    /// Test of the lowered graph.
     pub trial: &'f Trial<'f>,
-    /// Its roots.
+    /// Standings of its roots.
     pub tower: &'f Tower,
-    /// Its real inputs.
+    /// Real inputs under consideration.
     pub region: &'f Region<'f>,
-    /// Of what is to be proved.
+    /// Digest of the statement to be proved.
     pub digest: Digest,
-    /// Values at random points, once they are needed.
+    /// Values at random points, made on first use.
     pub samples: Option<Option<Samples>>,
 }
 
 impl RootFinder<'_> {
-    /// What the root of a base is.
+    /// Searches for an expression of the root of a base.
     pub fn search(&mut self, base: usize) -> Result<Search, Fault> {
         let arguments = || self.algebraic.bases[base].arguments.clone();
         match &self.tower.standings[base] {
@@ -83,8 +83,8 @@ impl RootFinder<'_> {
         Ok(Search::Unknown)
     }
 
-    /// Sets of independent roots before a nested one, small ones first: nested roots, and those
-    /// without roots inside that are nearest, as its own may cancel.
+    /// Lists sets of independent roots before a nested one, small ones first: nested roots, and the
+    /// nearest of those without roots inside, as its own may cancel.
     fn before_nested(&self, base: usize) -> Vec<Vec<usize>> {
         let is_nested =
             |index: &usize| self.algebraic.mask(self.algebraic.bases[*index].radicand) != 0;
@@ -104,7 +104,7 @@ impl RootFinder<'_> {
         subsets.into_iter().map(chosen).collect()
     }
 
-    /// √(A Π A_i), if it is known what that is.
+    /// Searches for an expression of √(A Π A_i).
     fn product(&mut self, base: usize, others: &[usize]) -> Result<Option<Search>, Fault> {
         let own = &self.algebraic.bases[base];
         let first = |index: &usize| self.algebraic.bases[*index].arguments.first().copied();

@@ -14,15 +14,15 @@ use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
 use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, points, prime_of, suitable_moduli};
 
-/// Lanes of one prime: the first is what the others are compared with.
+/// Number of lanes of one prime; the first is compared with the others.
 const SHARED: usize = LANES / PRIMES;
-/// Blocks of points that are tried until all values that are needed exist.
+/// Largest number of blocks of points tried until all needed values exist.
 const MOST_BLOCKS: usize = 8;
 
-/// b, the product or quotient of values of the original graph, by their places.
+/// The factor b, a product or quotient of values of the original graph, by their places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Square {
-    /// 1
+    /// The number 1.
     One,
     /// A value.
     Value(usize),
@@ -33,7 +33,7 @@ pub enum Square {
 }
 
 impl Square {
-    /// The places.
+    /// Returns the places.
     pub fn places(self) -> Vec<usize> {
         match self {
             Square::One => Vec::new(),
@@ -42,7 +42,7 @@ impl Square {
         }
     }
 
-    /// The value of b, from the values at places.
+    /// Records b from the values at places.
     pub fn value(self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
         Some(match self {
             Square::One => Expr::rational(&Rational::from(1)),
@@ -60,8 +60,8 @@ type Values = [Element; LANES];
 struct Entry {
     place: usize,
     square: Values,
-    /// At the last point over that at the first point of the same prime, and the inverse of that: a
-    /// number as factor drops out.
+    /// The square at the last point divided by that at the first point of the same prime, and the
+    /// inverse of this ratio, in which constant factors cancel.
     ratios: [Element; 2],
     /// Whether the sign of the value is known.
     is_known: bool,
@@ -71,21 +71,21 @@ struct Entry {
 pub struct Samples {
     field: Quadratic<LANES>,
     moduli: [Modulus; LANES],
-    /// Where there is a value other than 0 at all points, by place.
+    /// Entries for values that are nonzero at all points, by increasing place.
     entries: Vec<Entry>,
     /// The first entry with a ratio, and the first with a known sign.
     with_ratio: FxHashMap<Element, [Option<usize>; 2]>,
-    /// The radicands, by base.
+    /// Values of the radicands, by base.
     radicands: Vec<Values>,
 }
 
-/// The point that entries are looked up by, and that which it is compared with.
+/// The point by whose ratio entries are looked up.
 const LAST: usize = LANES - 1;
 const COMPARED: usize = LANES - SHARED;
 
 impl Samples {
-    /// Values at points where the radicands of the bases `needed` exist; `None` where no such point
-    /// is found. `known` tells where signs are known.
+    /// Evaluates the graph at points where the radicands of the bases `needed` have roots; `None`
+    /// if no such point is found. `known` tells which signs are known.
     pub fn of(
         algebraic: &Algebraic<'_>,
         needed: &[usize],
@@ -97,7 +97,7 @@ impl Samples {
         let mut outputs: Vec<Expr> =
             places.iter().filter_map(|place| algebraic.values[*place]).collect();
         outputs.extend(algebraic.bases.iter().map(|base| base.radicand));
-        // √√A exists at some of the points only at which √A does.
+        // √√A exists only at some of the points at which √A does.
         let chained = needed.iter().map(|index| &algebraic.bases[*index]);
         let chained = chained.filter(|base| base.links.len() > 1);
         let last = chained.filter_map(|base| base.links.last()).map(|(link, _)| *link);
@@ -105,7 +105,7 @@ impl Samples {
         outputs.extend(last);
         let last = radicands.end..outputs.len();
         let tape = Tape::new(&algebraic.graph, &outputs);
-        // An identity has to be tested modulo primes that had no part in finding it.
+        // An identity must be tested modulo primes that were not used to find it.
         let moduli = suitable_moduli(digest, Stream::Squares, algebraic);
         let field = Quadratic::new(moduli);
         let mut evaluator = Evaluator::new(&tape, field.clone());
@@ -148,8 +148,8 @@ impl Samples {
         Some(Self { field, moduli, entries, with_ratio, radicands })
     }
 
-    /// b and c with A Π A_i = c b² at all points, for a base and others by their numbers: b from the
-    /// places before `before`, with a known sign where there is such a b.
+    /// Finds b and c with A Π A_i = c b² at all points, for a base and others by their indices: b
+    /// from the places before `before`, preferably with a known sign.
     pub fn square(
         &self,
         base: usize,
@@ -173,7 +173,7 @@ impl Samples {
         })
     }
 
-    /// b of which b² is a multiple of the target by a number, and the values of b².
+    /// Finds b such that b² is a constant multiple of the target; returns b and the values of b².
     fn find(&self, target: &Values, only_known: bool, before: usize) -> Option<(Square, Values)> {
         let of = |ratio: Element| -> Option<&Entry> {
             let [first, known] = self.with_ratio.get(&ratio)?;
@@ -218,7 +218,7 @@ impl Samples {
         Some(inverse)
     }
 
-    /// Whether a is the same multiple of b at all points of a prime, for each prime.
+    /// Whether, for each prime, a is the same multiple of b at all points.
     fn is_multiple(&self, a: &Values, b: &Values) -> bool {
         (0..LANES).all(|lane| {
             let first = prime_of(lane) * SHARED;
@@ -227,7 +227,7 @@ impl Samples {
         })
     }
 
-    /// The rational number that a is times b at all points.
+    /// Finds the rational number that is a/b at all points.
     fn number(&self, a: &Values, b: &Values) -> Option<Rational> {
         let mut number = None;
         for lane in (0..LANES).step_by(SHARED) {

@@ -1,8 +1,8 @@
-//! One symbol for each element of a basis of transcendental arguments.
+//! Symbols for transcendental functions, one for each element of a basis of their arguments.
 //!
-//! A symbol for each exp, sin and x^y by itself would lose exp(2x) = exp(x)² and sin 2φ =
-//! 2 sin φ cos φ. So the arguments are written through a basis over the rationals, and
-//! exp(Σ n_i e_i) becomes Π T_i^n_i, sin and cos become polynomials in points of the circle.
+//! A separate symbol for each exp, sin and x^y would lose exp(2x) = exp(x)² and sin 2φ = 2 sin φ
+//! cos φ. The arguments are therefore written in a basis over the rationals, and exp(Σ n_i e_i)
+//! becomes Π T_i^n_i, sin and cos become polynomials in points of the circle.
 
 use rustc_hash::FxHashMap;
 
@@ -12,44 +12,44 @@ use crate::number::{Function, Operation};
 
 use super::relations::{Combination, Relations};
 
-/// Symbols by their numbers, each with its integer multiple.
+/// Indices of symbols, each with its integer multiple.
 type Multiples = Vec<(usize, i64)>;
 
-/// Multiples of a basis element beyond this are given a symbol of their own.
+/// Largest multiple of a basis element; beyond it an argument gets a symbol to itself.
 const LARGEST_MULTIPLE: i64 = 64;
 
-/// How a transcendental step is made from symbols.
+/// The form of a transcendental step in terms of symbols.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
-    /// A symbol of its own.
+    /// A separate symbol.
     Opaque(usize),
     /// base^q · Π T_i^n_i
     Product {
-        /// The place of x, and the rational part of the exponent, for x^y.
+        /// For x^y: the place of x, and the rational part of the exponent.
         base: Option<(usize, Rational)>,
         /// Symbols with their powers.
         powers: Vec<(usize, i64)>,
     },
-    /// sin or cos of Σ n_i e_i.
+    /// The sine or cosine of Σ n_i e_i.
     Angle {
         /// Symbols with their multiples.
         multiples: Vec<(usize, i64)>,
-        /// Is it the sine?
+        /// Whether the function is the sine.
         sine: bool,
     },
 }
 
-/// The forms of all transcendental steps of a graph.
+/// Forms of all transcendental steps of a graph.
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
-    /// By place.
+    /// Form by place.
     pub forms: FxHashMap<usize, Form>,
-    /// How many symbols there are.
+    /// Number of symbols.
     pub count: usize,
 }
 
 impl Symbols {
-    /// A symbol of its own for every transcendental step.
+    /// Gives every transcendental step a separate symbol.
     pub fn opaque(graph: &Graph, reached: &[bool]) -> Self {
         let mut symbols = Self::default();
         for (place, _) in transcendental(graph, reached) {
@@ -59,8 +59,8 @@ impl Symbols {
         symbols
     }
 
-    /// The same with one symbol for each element of a basis; `relations` finds linear relations
-    /// between values of the graph, proved like any identity.
+    /// Gives each element of a basis a symbol; `relations` finds linear relations between values of
+    /// the graph, proved like any identity.
     pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut Relations<'_>) -> Self {
         let mut symbols = Self::opaque(graph, reached);
         let steps: Vec<(usize, Step<'_>)> = transcendental(graph, reached).collect();
@@ -72,7 +72,7 @@ impl Symbols {
             })
             .collect();
         symbols.exponentials(None, &exponentials, relations);
-        // Bases that are equal, or reciprocal, share their symbols: (1/x)^y = x^(-y).
+        // Equal or reciprocal bases share their symbols: (1/x)^y = x^(-y).
         let mut bases: Vec<Vec<(usize, bool)>> = Vec::new();
         for (_, step) in &steps {
             let Step::Binary(Operation::Pow, base, _) = step else { continue };
@@ -112,7 +112,8 @@ impl Symbols {
         symbols
     }
 
-    /// exp(e), or x^e for a base x, for several places and exponents e, or -e where that is said.
+    /// Forms exp(e), or x^e for a base x, for several places and exponents e, or -e where so
+    /// flagged.
     fn exponentials(
         &mut self,
         base: Option<usize>,
@@ -120,7 +121,7 @@ impl Symbols {
         relations: &mut Relations<'_>,
     ) {
         let arguments: Vec<usize> = steps.iter().map(|(_, argument, _)| *argument).collect();
-        // The exponent 1 is a basis element by itself where there is a base: x^1 = x.
+        // With a base, the exponent 1 is a basis element: x^1 = x.
         let Some(combinations) = relations.between(&arguments, base.is_some()) else { return };
         let Some((first, multiples)) = self.allot(&combinations) else { return };
         for (((place, _, inverse), multiples), combination) in
@@ -144,8 +145,9 @@ impl Symbols {
         }
     }
 
-    /// New symbols for the basis, each for so small a part of its element that all multiples are
-    /// integers; the number of the first, and the multiples of each combination.
+    /// Allots new symbols to the basis, each for a part of its element small enough for all
+    /// multiples to be integers; returns the index of the first, and the multiples of each
+    /// combination.
     fn allot(&mut self, combinations: &[Combination]) -> Option<(usize, Vec<Multiples>)> {
         let width = combinations.iter().map(|c| c.multiples.len()).max().unwrap_or(0);
         let mut parts = vec![1i64; width];
@@ -175,7 +177,7 @@ impl Symbols {
     }
 }
 
-/// The steps that no field computes, in order.
+/// Iterates over the transcendental steps, in order.
 fn transcendental<'g>(
     graph: &'g Graph,
     reached: &'g [bool],
@@ -192,7 +194,7 @@ fn transcendental<'g>(
     })
 }
 
-/// Does any reached step need a symbol?
+/// Whether any reached step needs a symbol.
 pub fn any(graph: &Graph, reached: &[bool]) -> bool {
     transcendental(graph, reached).next().is_some()
 }

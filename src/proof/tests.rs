@@ -7,7 +7,7 @@ use crate::graph::record;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// Inputs in 1..2, or in -2..-1 for those that are negative.
+/// Proves over inputs in 1..2, or in -2..-1 for the negative ones.
 fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
     let (graph, value) = record(negative.len(), build).expect("records");
     let [one, two] = [1, 2].map(Rational::from);
@@ -202,7 +202,7 @@ fn a_root_is_only_replaced_where_its_factors_are_real() {
     }
 }
 
-/// Inputs in -2..2.
+/// Proves over inputs in -2..2.
 fn prove_anywhere(inputs: usize, build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
     let (graph, value) = record(inputs, build).expect("records");
     let two = Rational::from(2);
@@ -312,7 +312,7 @@ fn many_roots_are_one_proof() {
 #[test]
 fn products_of_nested_roots_are_found() {
     let outcome = prove(&[false, false], |x| {
-        // y + 9 above √x, so that all is real
+        // y + 9 exceeds √x, so that all values are real.
         let (y, root) = (x[1] + 9.0, x[0].sqrt());
         (y + root).sqrt() * (y - root).sqrt() - (y * y - x[0]).sqrt()
     });

@@ -1,11 +1,11 @@
-//! The roots of a computation, one upon the other: which are independent of those before them.
+//! Independence of the roots of a computation, each over those before it.
 //!
-//! A root of X is independent where X is no square in the field that the roots before it generate
-//! over F_p(i)(z). For radicands without roots that is seen by characters: at a point z each of them
-//! is a square in F_p or is none, which makes a vector over the field of two elements for each; if
-//! these vectors, together with that of -1, are linearly independent, no product of the radicands is
-//! a square up to sign. A vector that depends on others names the product that may be a square. A
-//! radicand that contains roots is no square if it is none at one point.
+//! A root of X is independent where X is not a square in the field that the roots before it
+//! generate over F_p(i)(z). For radicands without roots, characters decide this: at a point z each
+//! of them is a square in F_p or is not, which makes a vector over the field of two elements for
+//! each; if these vectors, together with that of -1, are linearly independent, no product of the
+//! radicands is a square up to sign. A vector that depends on others names the product that may be
+//! a square. A radicand that contains roots is not a square if it is a non-square at one point.
 //!
 //! docs/soundness.md, "Roots".
 
@@ -19,35 +19,36 @@ use super::digest::Digest;
 use super::lower::Algebraic;
 use super::trial::{MOST_NESTED, Trial};
 
-/// What is known of the root of a base.
+/// Status of the root of a base.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standing {
-    /// Its radicand is no square in the field of the roots before it, modulo each of the primes.
+    /// Radicand known not to be a square in the field of the roots before it, modulo each of the
+    /// primes.
     Independent,
-    /// Its radicand is 0 at all points.
+    /// Radicand equal to 0 at all points.
     Zero,
-    /// Its radicand times those of these bases seems to be a square, up to a number.
+    /// Radicand whose product with those of these bases seems to be a square, up to a number.
     Dependent(Vec<usize>),
-    /// Its radicand contains a factor that is a root.
+    /// Radicand with a root as a factor.
     Split,
-    /// It contains what is not known to be independent.
+    /// Radicand that contains roots not known to be independent.
     Deferred,
-    /// Its radicand hardly ever has a value.
+    /// Radicand without a value at almost all points.
     Unreached,
 }
 
-/// The standing of all bases of an algebraic graph.
+/// Standings of all bases of an algebraic graph.
 pub struct Tower {
-    /// By base.
+    /// Standings by base.
     pub standings: Vec<Standing>,
-    /// The signs of independent roots.
+    /// Signs of the independent roots, as bits.
     pub independent: u128,
-    /// How many independent roots have a radicand that contains others.
+    /// Number of independent roots whose radicand contains others.
     pub nested: u32,
 }
 
 impl Tower {
-    /// Examines the bases of `algebraic`, which was made from `graph`.
+    /// Examines the bases of `algebraic`, which was lowered from `graph`.
     pub fn of(graph: &Graph, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) -> Self {
         let bases = &algebraic.bases;
         let mut tower =
@@ -57,7 +58,7 @@ impl Tower {
         tower
     }
 
-    /// Whether a value contains nothing but independent roots.
+    /// Whether a value contains independent roots only.
     pub fn is_clean(&self, algebraic: &Algebraic<'_>, value: Expr) -> bool {
         algebraic.mask(value) & !self.independent == 0
     }
@@ -76,7 +77,7 @@ impl Tower {
         }
     }
 
-    /// Radicands without roots.
+    /// Examines radicands without roots.
     fn first_layer(&mut self, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) {
         let bases = algebraic.bases.iter().enumerate();
         let first: Vec<usize> = bases
@@ -121,7 +122,7 @@ impl Tower {
         }
     }
 
-    /// Radicands that contain roots, in their order.
+    /// Examines radicands that contain roots, in their order.
     fn nested_layers(
         &mut self,
         graph: &Graph,
@@ -131,7 +132,7 @@ impl Tower {
     ) {
         let is_nested = |index: &usize| algebraic.mask(algebraic.bases[*index].radicand) != 0;
         let mut open = Vec::new();
-        // A root of a root is a factor; other nested roots are looked at once all else is clean.
+        // A root of a root is a factor; other nested roots are examined once all else is clean.
         for index in (0..algebraic.bases.len()).filter(is_nested) {
             let base = &algebraic.bases[index];
             if !self.may_become_clean(algebraic, base.radicand, &open) {
@@ -161,7 +162,7 @@ impl Tower {
         }
     }
 
-    /// Whether a value contains independent roots and nested ones that are open, and no others.
+    /// Whether a value contains independent roots and open nested ones only.
     fn may_become_clean(&self, algebraic: &Algebraic<'_>, value: Expr, open: &[usize]) -> bool {
         let signs = open.iter().flat_map(|index| &algebraic.bases[*index].links);
         let open = signs.fold(0, |mask, (_, sign)| mask | algebraic.bit(*sign));

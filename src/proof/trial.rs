@@ -1,4 +1,4 @@
-//! Is a value identically zero? Tested at random points modulo random primes.
+//! Tests for identical vanishing at random points modulo random primes.
 //!
 //! Theorem 1 of docs/soundness.md. Let n bound the degree of the numerator of R, a root of X counting
 //! half of X, β the product of the indices of its odd roots, H the bits of its coefficients and e
@@ -21,22 +21,22 @@ use super::chance::{Chance, Stream, Wanted};
 use super::digest::Digest;
 use super::lower::Algebraic;
 
-/// Points that are tried at once.
+/// Number of points evaluated at once.
 pub const LANES: usize = 8;
-/// Primes, as many lanes having the same one as there are points to each.
+/// Number of primes; each is shared by as many lanes as it has points.
 pub const PRIMES: usize = 4;
-/// Accepted points for each prime.
+/// Number of accepted points for each prime.
 const POINTS: usize = LANES / PRIMES;
-/// Draws for each prime, where no nested root refuses any.
+/// Largest number of draws for each prime, without nested roots, which refuse draws.
 const DRAWS: u64 = 64;
-/// More nested roots refuse too many draws.
+/// Largest number of nested roots; more would refuse too many draws.
 pub const MOST_NESTED: u32 = 10;
 /// Log₂ of the number of primes p = 3 mod 4 between 2^60 and 2^61, rounded down.
 const POOL: f64 = 53.0;
-/// Log₂ of the error that a proof stays below.
+/// Log₂ of the largest error probability of a proof.
 const TARGET: f64 = -100.0;
 
-/// The prime that a lane computes modulo, by number.
+/// Returns the index of the prime that a lane computes modulo.
 pub fn prime_of(lane: usize) -> usize {
     lane * PRIMES / LANES
 }
@@ -46,33 +46,33 @@ pub fn prime_of(lane: usize) -> usize {
 pub enum Finding {
     /// Zero at all points.
     Zero(Certificate),
-    /// Not zero at an accepted point.
+    /// Nonzero at an accepted point.
     NonZero,
-    /// Neither, and the reason.
+    /// Undecided, with the reason.
     Silent(String),
 }
 
-/// A bound on the probability that a value which was zero at all points is not zero.
+/// A bound on the probability that a value found zero at all points is not identically zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
-    /// Primes used.
+    /// Number of primes used.
     pub primes: usize,
-    /// Accepted points, all primes together.
+    /// Number of accepted points, all primes together.
     pub points: usize,
-    /// Points that were drawn.
+    /// Number of points drawn.
     pub draws: u64,
-    /// The bound βn on the degree.
+    /// Bound βn on the degree.
     pub degree: f64,
-    /// The bound H on the bits of the coefficients.
+    /// Bound H on the bits of the coefficients.
     pub height: f64,
-    /// Roots of any index.
+    /// Number of roots of any index.
     pub roots: usize,
     /// Log₂ of the error probability.
     pub error_log2: f64,
 }
 
 impl Certificate {
-    /// The bound when both are needed.
+    /// Returns the bound for the case that both certificates are needed.
     pub fn and(self, other: Self) -> Self {
         // log₂(2^a + 2^b) ≤ max + 1
         Self {
@@ -87,12 +87,12 @@ impl Certificate {
     }
 }
 
-/// The smaller number of points; none where there were none at all.
+/// Returns the smaller number of points; 0 counts as missing.
 fn fewest(a: usize, b: usize) -> usize {
     if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }
 
-/// The bound when all certificates there are are needed.
+/// Returns the bound for all certificates present.
 pub fn both(a: Option<Certificate>, b: Option<Certificate>) -> Option<Certificate> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.and(b)),
@@ -100,16 +100,16 @@ pub fn both(a: Option<Certificate>, b: Option<Certificate>) -> Option<Certificat
     }
 }
 
-/// Roots with a part in a test that is not that of an independent one of the first layer.
+/// Roots other than the independent ones of the first layer that take part in a test.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Roots<'r> {
-    /// How many have a radicand that contains others.
+    /// Number of roots whose radicand contains others.
     pub nested: u32,
     /// Signs that are not random: inputs with their values.
     pub fixed: &'r [(usize, bool)],
 }
 
-/// An algebraic graph ready to be tested: its bounds, and primes that suit it.
+/// An algebraic graph ready to be tested, with its bounds and suitable primes.
 pub struct Trial<'a> {
     algebraic: &'a Algebraic<'a>,
     bounds: OnceCell<Bounds>,
@@ -118,7 +118,7 @@ pub struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// Draws primes; values are bounded when that is first asked for.
+    /// Draws primes; bounds are computed on first use.
     pub fn new(algebraic: &'a Algebraic<'a>, digest: Digest) -> Self {
         let moduli = suitable_moduli(digest, Stream::Primes, algebraic);
         Self { algebraic, bounds: OnceCell::new(), moduli, digest }
@@ -131,15 +131,15 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// The moduli of the lanes.
+    /// Returns the moduli of the lanes.
     pub fn moduli(&self) -> &[Modulus; LANES] {
         &self.moduli
     }
 
-    /// The finding for each group of outputs: whether all of a group are identically zero.
+    /// Tests for each group of outputs whether all of them vanish identically.
     ///
-    /// All roots that the groups contain are to be independent modulo the primes, or to have their
-    /// signs among the fixed ones; the signs of the others are random.
+    /// All roots that the groups contain must be independent modulo the primes, or have their signs
+    /// among the fixed ones; the signs of the others are random.
     pub fn test(&self, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {
         let outputs: Vec<Expr> = groups.iter().flat_map(|group| group.iter().copied()).collect();
         match self.algebraic.mask_of(&outputs) {
@@ -148,8 +148,9 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Whether one of a group has no value at any random point at which some given values exist: it
-    /// divides by what is 0 identically, but for a probability below that of a certificate.
+    /// Whether a value of a group is undefined at every random point at which some given values
+    /// exist: it divides by an expression that vanishes identically, except with a probability
+    /// below that of a certificate.
     pub fn is_void(&self, group: &[Expr], given: &[Expr], roots: Roots<'_>) -> bool {
         match self.algebraic.mask_of(&[group, given].concat()) {
             0 => self.is_void_in(Prime::new(self.moduli), group, given, roots),
@@ -216,7 +217,7 @@ impl<'a> Trial<'a> {
                 open.iter().flat_map(|index| groups[*index].iter().copied()).collect();
             let tape = Tape::new(&self.algebraic.graph, &outputs);
             let mut evaluator = Evaluator::new(&tape, field.clone());
-            // As long as nothing is settled, nothing has to be laid out anew.
+            // Until a group is settled, the tape need not be laid out anew.
             let mut unsettled = true;
             while unsettled && drawn < draws {
                 let points = self.points(roots.fixed, &mut chance);
@@ -258,7 +259,7 @@ impl<'a> Trial<'a> {
             .collect()
     }
 
-    /// The bound that zeros at all points would give.
+    /// Computes the bound that zeros at all points would give.
     fn certificate(&self, outputs: &[Expr], roots: Roots<'_>, draws: u64) -> Option<Certificate> {
         let algebraic = self.algebraic;
         let (mut degree, mut height) = (0f64, 0f64);
@@ -272,8 +273,8 @@ impl<'a> Trial<'a> {
         Some(self.bounded(degree, height, odd, mask, roots, draws))
     }
 
-    /// The bound for the difference of any two values that are equal at all points of one block;
-    /// `None` where it would not be below the target.
+    /// Computes the bound for the difference of any two values that are equal at all points of one
+    /// block; `None` if it would not be below the target.
     pub fn of_differences(&self) -> Option<Certificate> {
         let (degree, height) = self.bounds().of_differences();
         let odd = self.algebraic.odd.iter();
@@ -304,15 +305,15 @@ impl<'a> Trial<'a> {
         count += numbers as usize;
         let is_met = |(sign, _): &&(usize, bool)| mask & algebraic.bit(*sign) != 0;
         let loose = roots.fixed.iter().filter(is_met).count();
-        // Conjugates over the rationals multiply heights; so do all choices of dependent signs.
+        // Conjugates over the rationals multiply heights, as do all choices of dependent signs.
         let height = (height.max(1.0) + 1.0) * 2f64.powi((numbers as usize + loose) as i32);
-        // Each condition halves the pool at most.
+        // Each condition at most halves the pool.
         let chains = algebraic.depth().saturating_sub(2) as usize;
         let conditions = algebraic.odd_indices().len() + algebraic.numbers.len() + chains;
         let pool = POOL - conditions as f64;
         let unlucky_prime = height / 60.0 * (-pool).exp2();
         let unlucky_points = (draws as f64 * degree * (-60f64).exp2()).powi(POINTS as i32);
-        // A union over the outputs: one that is not zero is enough.
+        // Union bound over the outputs: one nonzero output is enough.
         let error_log2 = PRIMES as f64 * (unlucky_prime + unlucky_points).log2();
         Certificate {
             primes: PRIMES,
@@ -325,13 +326,13 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The inputs of one block of random points.
+    /// Draws the inputs of one block of random points.
     pub fn points(&self, fixed: &[(usize, bool)], chance: &mut Chance) -> Vec<[u64; LANES]> {
         points(&self.moduli, &self.algebraic.sources, fixed, chance)
     }
 }
 
-/// Whether some value of a group is not zero at an accepted point; counts the accepted ones.
+/// Whether some value of a group is nonzero at an accepted point; counts the accepted ones.
 fn is_nonzero<F: Residues>(values: &[&F::Block], accepted: &mut [usize; PRIMES]) -> bool {
     for lane in 0..LANES {
         let zeros = values.iter().map(|block| F::is_zero(block, lane));
@@ -344,12 +345,12 @@ fn is_nonzero<F: Residues>(values: &[&F::Block], accepted: &mut [usize; PRIMES])
     false
 }
 
-/// A finite field in each lane.
+/// A domain with a finite field in each lane.
 pub trait Residues: Domain + Clone {
-    /// Elements of the prime fields in the domain's form.
+    /// Converts elements of the prime fields into the domain's form.
     fn blocks(points: &[[u64; LANES]]) -> Vec<Self::Block>;
 
-    /// Whether the value in a lane is 0; `None` where there is none.
+    /// Whether the value in a lane is 0; `None` where it is undefined.
     fn is_zero(block: &Self::Block, lane: usize) -> Option<bool>;
 }
 
@@ -373,9 +374,10 @@ impl Residues for Quadratic<LANES> {
     }
 }
 
-/// Primes with unique odd roots and chains of square roots where a graph has them, lane by lane.
+/// Draws primes with the unique odd roots and the chains of square roots that a graph needs, lane
+/// by lane.
 ///
-/// The last ones are kept: one claim after the other asks for the same.
+/// The last primes are cached, since successive claims often need the same ones.
 pub fn suitable_moduli(
     digest: Digest,
     stream: Stream,
@@ -406,7 +408,7 @@ pub fn suitable_moduli(
     })
 }
 
-/// The inputs of one block of random points.
+/// Draws the inputs of one block of random points.
 pub fn points(
     moduli: &[Modulus; LANES],
     sources: &[Source],
