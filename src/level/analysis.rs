@@ -1,8 +1,9 @@
-//! The order in which the equations of a level are solved, and for what.
+//! Choice of the order in which the equations of a level are solved, and of their unknowns.
 //!
 //! Equations are taken in blocks: one with as few unknowns as possible, and all others that contain
-//! none but these. A block of j equations is solved for j of its unknowns; the rest of them are free.
-//! Which entries of the equations' derivatives are free of which components is read off the graph.
+//! no further unknowns. A block of j equations is solved for j of its unknowns; the rest of them
+//! are free. The graph shows which entries of the equations' derivatives are free of which
+//! components.
 
 use num_traits::Zero;
 
@@ -14,15 +15,15 @@ use crate::graph::{Expr, Graph, Step as Node, record};
 use crate::mechanics::{Model, Origin, components};
 use crate::number::rational::Rational;
 
-/// Larger levels are not solved.
+/// Largest number of equations of a level.
 const MOST_EQUATIONS: usize = 16;
 const MOST_COMPONENTS: usize = 96;
-/// Larger blocks are not solved together.
+/// Largest number of equations that are solved together.
 const MOST_TOGETHER: usize = 6;
-/// Choices of unknowns that are looked at in one block.
+/// Largest number of choices of unknowns examined in one block.
 const MOST_CHOICES: usize = 400;
 
-/// Components of the state, and of the free parameters, as bits.
+/// Set of components of the state, as bits.
 type Set = u128;
 
 fn bit(component: usize) -> Set {
@@ -33,7 +34,7 @@ fn members(set: Set) -> Vec<usize> {
     (0..Set::BITS as usize).filter(|k| set >> k & 1 == 1).collect()
 }
 
-/// The steps that solve those equations of a model that are kept; `None` where none are found.
+/// Finds steps that solve the kept equations of a model; `None` if there are none.
 pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
     let equations: Vec<usize> = (0..kept.len()).filter(|index| kept[*index]).collect();
     let dimension = model.dimension();
@@ -59,13 +60,13 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
     Some(Solution { steps })
 }
 
-/// An equation with its derivatives, as far as they matter.
+/// An equation with the derivatives that the analysis needs.
 struct Look {
     equation: Equation,
     graph: Graph,
-    /// The components of the state that each node depends on.
+    /// Components of the state that each node depends on.
     sets: Vec<Set>,
-    /// The free parameters that the equation depends on, by component.
+    /// Components of the free parameters that the equation depends on.
     parameters: Vec<usize>,
     value: Expr,
     slopes: Vec<Expr>,
@@ -131,23 +132,24 @@ impl Look {
         self.graph.constant_value(value).is_some_and(Rational::is_zero)
     }
 
-    /// The components that it contains.
+    /// Returns the components that the equation contains.
     fn contained(&self) -> Set {
         self.set(self.value)
     }
 
-    /// Whether it is linear in some components together.
+    /// Whether the equation is jointly linear in some components.
     fn is_linear_in(&self, set: Set) -> bool {
         members(set).into_iter().all(|k| self.set(self.slopes[k]) & set == 0)
     }
 
-    /// Whether it is of degree 2 at most in some components together.
+    /// Whether the equation is of degree at most 2 jointly in some components.
     fn is_quadratic_in(&self, set: Set) -> bool {
         let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
         self.bends.iter().filter(inside).all(|(_, _, bend)| self.set(*bend) & set == 0)
     }
 
-    /// The equation as a quadric with numbers as coefficients in all components that it contains.
+    /// Returns the equation as a quadric with constant coefficients in all components that it
+    /// contains.
     fn quadric(&self, components: &[usize]) -> Option<Quadric> {
         if !self.parameters.is_empty() || !self.is_quadratic_in(self.contained()) {
             return None;
@@ -164,7 +166,7 @@ impl Look {
         Some(Quadric { constant: value.clone(), slopes: slopes.to_vec(), bends })
     }
 
-    /// The value and the slopes at the origin.
+    /// Returns the value and the slopes at the origin.
     fn at_origin(&self, components: &[usize]) -> Option<Vec<Rational>> {
         let wanted: Vec<Expr> =
             [self.value].into_iter().chain(components.iter().map(|k| self.slopes[*k])).collect();
@@ -182,7 +184,8 @@ impl Look {
     }
 }
 
-/// The components of the state that each step depends on, by their inputs after the free ones.
+/// Finds the components of the state that each step depends on; their inputs follow the free
+/// parameters.
 fn sets(graph: &Graph, free: usize) -> Vec<Set> {
     let mut sets: Vec<Set> = Vec::with_capacity(graph.len());
     for step in graph.steps() {
@@ -198,7 +201,7 @@ fn sets(graph: &Graph, free: usize) -> Vec<Set> {
     sets
 }
 
-/// The search for an order.
+/// The search for an order of solution.
 struct Search<'m> {
     model: &'m Model,
     looks: Vec<Look>,
@@ -211,7 +214,8 @@ impl<'m> Search<'m> {
 
     fn steps(&self) -> Option<Vec<Step>> {
         let mut left: Vec<usize> = (0..self.looks.len()).collect();
-        // Components that are solved for, or free because an equation was solved for another.
+        // Components that are solved for, or free because an equation was solved for another
+        // component.
         let (mut settled, mut solved): (Set, Set) = (0, 0);
         let mut steps = Vec::new();
         while !left.is_empty() {
@@ -239,7 +243,7 @@ impl<'m> Search<'m> {
             left.retain(|index| !members.contains(index));
             steps.push(step);
         }
-        // A parameter that is solved for depends on all of the state: it comes last.
+        // A parameter that is solved for depends on the whole state: it comes last.
         let is_parameter = |step: &Step| matches!(step, Step::Parameter { .. });
         let (parameters, mut others): (Vec<Step>, Vec<Step>) =
             steps.into_iter().partition(is_parameter);
@@ -247,7 +251,7 @@ impl<'m> Search<'m> {
         Some(others)
     }
 
-    /// A step that solves a block of equations for as many of its unknowns.
+    /// Finds a step that solves a block of equations for the same number of its unknowns.
     fn step(&self, block: &[usize], unknown: Set, settled: Set, solved: Set) -> Option<Step> {
         let count = block.len();
         if count > MOST_TOGETHER || count > unknown.count_ones() as usize {
@@ -278,8 +282,8 @@ impl<'m> Search<'m> {
         best.map(|(_, step)| step)
     }
 
-    /// Whether a block is linear in some of its unknowns and can be solved for them; less where that
-    /// divides by less.
+    /// Rates solving a block that is jointly linear in the chosen unknowns; `None` if it cannot be
+    /// solved for them. Constant divisors cost least.
     fn linear_cost(&self, block: &[usize], chosen: &[usize], set: Set, solved: Set) -> Option<u32> {
         if !block.iter().all(|index| self.looks[*index].is_linear_in(set))
             || !self.is_regular(block, chosen)
@@ -300,13 +304,14 @@ impl<'m> Search<'m> {
         Some(if over_solved { 3 } else { 2 })
     }
 
-    /// Whether the slopes of equations by as many components make a regular matrix in general.
+    /// Whether the square matrix of slopes of the equations is regular in general.
     fn is_regular(&self, block: &[usize], chosen: &[usize]) -> bool {
         let slope = |index: usize, k: usize| {
             let look = &self.looks[index];
             !look.is_zero(look.slopes[k])
         };
-        // A pairing in which no slope is 0 as it stands; points at which it is regular are drawn.
+        // A pairing in which no slope is identically 0; points at which the matrix is regular are
+        // drawn.
         fn pairs(rows: &[usize], columns: &[usize], slope: &impl Fn(usize, usize) -> bool) -> bool {
             let Some((row, rows)) = rows.split_first() else { return true };
             columns.iter().any(|column| {
@@ -317,7 +322,7 @@ impl<'m> Search<'m> {
         pairs(block, chosen, &slope)
     }
 
-    /// All unknowns in which a block is linear together, those chosen among them.
+    /// Returns all unknowns in which a block is jointly linear, including the chosen ones.
     fn linear_together(&self, block: &[usize], chosen: Set, unknown: Set) -> Vec<usize> {
         let mut set = chosen;
         for component in members(unknown & !chosen) {
@@ -329,7 +334,7 @@ impl<'m> Search<'m> {
         members(set)
     }
 
-    /// A step with one equation that is quadratic on the line that the others leave.
+    /// Finds a step with one equation that is quadratic on the line left by the others.
     fn quadratic(
         &self,
         block: &[usize],
@@ -343,13 +348,13 @@ impl<'m> Search<'m> {
         if !self.looks[last].is_quadratic_in(set) {
             return None;
         }
-        // The line runs along any of the components.
+        // The line may run along any of the components.
         let (mut components, line) = chosen.iter().rev().find_map(|line| {
             let rest: Vec<usize> = chosen.iter().copied().filter(|k| k != line).collect();
             self.is_regular(&linear, &rest).then_some((rest, *line))
         })?;
         components.push(line);
-        // What is divided by may be free of all unknowns of the block.
+        // The divisor may be free of all unknowns of the block.
         let slopes = linear.iter().flat_map(|index| {
             let look = &self.looks[*index];
             chosen.iter().map(|k| look.set(look.slopes[*k]))
@@ -367,7 +372,7 @@ impl<'m> Search<'m> {
         Some(Step::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
     }
 
-    /// A quadric with a rational point on an axis, all components of which are unknown.
+    /// Finds a step for a quadric that has a rational point on an axis and unknown components only.
     fn quadric(&self, index: usize, unknown: Set, settled: Set) -> Option<Step> {
         let look = &self.looks[index];
         let contained = look.contained();
@@ -383,8 +388,8 @@ impl<'m> Search<'m> {
         Some(Step::Quadric { equation: look.equation, components, point })
     }
 
-    /// An equation that is left, with a scalar parameter that enters it linearly, with a number as
-    /// factor, and no other equation.
+    /// Finds a remaining equation with a scalar parameter that enters it linearly, with a constant
+    /// factor, and occurs in no other equation.
     fn parameter(&self, left: &[usize]) -> Option<(usize, usize)> {
         let is_scalar = scalar_components(self.model);
         left.iter().find_map(|index| {
@@ -402,7 +407,7 @@ impl<'m> Search<'m> {
     }
 }
 
-/// The components of the free parameters that are scalars drawn from a range.
+/// Returns the components of the free parameters that are scalars drawn from a range.
 fn scalar_components(model: &Model) -> Vec<usize> {
     use crate::mechanics::{Draw, Recipe};
     let mut start = 0;

@@ -1,4 +1,5 @@
-//! One equation of a level, as it is solved: F = 0, or A − e² = 0 in place of √A = e.
+//! An equation of a level in the form in which it is solved: F = 0, or A − e² = 0 in place of √A =
+//! e.
 
 use num_dual::{Dual, DualNum};
 use num_traits::{One, Zero};
@@ -7,10 +8,10 @@ use crate::graph::Expr;
 use crate::mechanics::{LevelEquation, Model, Phase};
 use crate::scalar::Scalar;
 
-/// An equation of a model's level, by its number.
+/// An equation of a model's level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Equation {
-    /// The number.
+    /// Index of the equation in the level.
     pub index: usize,
     /// Whether both sides are squared.
     pub is_squared: bool,
@@ -21,7 +22,7 @@ impl Equation {
         &model.level[self.index]
     }
 
-    /// Left minus right at a point.
+    /// Evaluates left minus right side at a point.
     pub fn value<T: Scalar>(self, phase: &Phase<'_, T>) -> T {
         let equation = self.of(phase.model());
         match &equation.root {
@@ -35,21 +36,21 @@ impl Equation {
         }
     }
 
-    /// What must not be negative, where a root was squared away.
+    /// Returns the side that must not be negative, where a root was squared away.
     pub fn other_side(self, phase: &Phase<'_, Expr>) -> Option<Expr> {
         let root = self.of(phase.model()).root.as_ref().filter(|_| self.is_squared)?;
         Some(phase.scalar(&root.other_side))
     }
 }
 
-/// A point that is being completed.
+/// A point of the level under construction.
 #[derive(Clone)]
 pub struct Point<'m> {
-    /// The system.
+    /// Model of the system.
     pub model: &'m Model,
-    /// The components of the free parameters.
+    /// Components of the free parameters.
     pub parameters: Vec<Expr>,
-    /// The components of the state.
+    /// Components of the state.
     pub state: Vec<Expr>,
 }
 
@@ -59,12 +60,12 @@ impl Point<'_> {
         Phase::new(self.model, &parameters, state)
     }
 
-    /// The equation's value here.
+    /// Evaluates the equation at the point.
     pub fn value(&self, equation: Equation) -> Expr {
         equation.value(&self.phase(|x| x, &self.state))
     }
 
-    /// The equation's slope along each of some components.
+    /// Returns the slope of the equation along each of some components.
     pub fn slopes(&self, equation: Equation, components: &[usize]) -> Vec<Expr> {
         let slope = |component: &usize| {
             let along = |k: usize| if k == *component { Expr::one() } else { Expr::zero() };
@@ -75,7 +76,7 @@ impl Point<'_> {
         components.iter().map(slope).collect()
     }
 
-    /// The equation's value along a direction: F(x + tu) = c + 2bt + at² + …; c, b and a.
+    /// Expands the equation along a direction: F(x + tu) = c + 2bt + at² + …; returns c, b and a.
     pub fn along(&self, equation: Equation, direction: &[(usize, Expr)]) -> [Expr; 3] {
         let mut along = vec![Expr::zero(); self.state.len()];
         for (component, slope) in direction {
@@ -90,7 +91,7 @@ impl Point<'_> {
         [value.re.re, value.re.eps * half, value.eps.eps * half]
     }
 
-    /// The second derivative of the equation along two components.
+    /// Returns the second derivative of the equation along two components.
     pub fn bend(&self, equation: Equation, first: usize, second: usize) -> Expr {
         let unit = |k: usize, of: usize| if k == of { Expr::one() } else { Expr::zero() };
         let state: Vec<Dual<Dual<Expr>>> = self
@@ -106,7 +107,7 @@ impl Point<'_> {
         equation.value(&self.phase(lift, &state)).eps.eps
     }
 
-    /// The slope of the equation along a component of the free parameters.
+    /// Returns the slope of the equation along a component of the free parameters.
     pub fn parameter_slope(&self, equation: Equation, component: usize) -> Expr {
         let along = |k: usize| if k == component { Expr::one() } else { Expr::zero() };
         let parameters = self.parameters.iter().enumerate();
@@ -117,7 +118,7 @@ impl Point<'_> {
     }
 }
 
-/// The determinant of a small matrix given by rows, expanded by minors.
+/// Computes the determinant of a small matrix given by rows, expanded by minors.
 pub fn determinant<T: DualNum<Primitive = f64> + Copy>(rows: &[Vec<T>]) -> T {
     let n = rows.len();
     let mut minors = vec![T::zero(); 1 << n];

@@ -1,5 +1,5 @@
-//! Level sets as textbooks write them: equations solved one after the other, each for variables that
-//! enter linearly or quadratically.
+//! Solution of level sets in closed form: equations solved one after another, each for variables
+//! that enter linearly or quadratically.
 //!
 //! ```text
 //! quadric     one equation of degree 2 with numbers as coefficients and a rational point x₀:
@@ -9,7 +9,7 @@
 //! parameter   F(x) = c for a free parameter c that occurs nowhere else: c = F(x)
 //! ```
 //!
-//! Each step uses what the steps before it have solved. docs/soundness.md, "Level sets", says when
+//! Each step uses the results of the steps before it. docs/soundness.md, "Level sets", states when
 //! no part of a level is missed.
 
 mod analysis;

@@ -1,21 +1,21 @@
-//! Quadrics with numbers as coefficients that meet an axis at a rational point.
+//! Quadrics with rational coefficients that meet an axis at a rational point.
 
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
 
 /// F(x) = c + (b,x) + (x,Ax) with rational coefficients.
 pub struct Quadric {
-    /// c
+    /// Constant term c.
     pub constant: Rational,
-    /// b
+    /// Linear coefficients b.
     pub slopes: Vec<Rational>,
-    /// 2A
+    /// Matrix 2A of second derivatives.
     pub bends: Vec<Vec<Rational>>,
 }
 
 impl Quadric {
-    /// Whether it is irreducible: its matrix in homogeneous coordinates is regular, and larger than
-    /// that of a pair of points.
+    /// Whether the quadric is irreducible: its matrix in homogeneous coordinates is regular, and
+    /// larger than that of a pair of points.
     pub fn is_irreducible(&self) -> bool {
         let n = self.slopes.len();
         let two = Rational::from(2);
@@ -28,7 +28,7 @@ impl Quadric {
         n >= 2 && !determinant_vanishes(rows)
     }
 
-    /// Where an axis meets it in a rational point at which its slope is not 0: the lower one.
+    /// Finds the lower intersection with an axis, if it is rational and the slope there is not 0.
     pub fn on_axis(&self, axis: usize) -> Option<Rational> {
         let (a, b) = (&self.bends[axis][axis], &self.slopes[axis]);
         // a x²/2 + b x + c = 0
@@ -41,7 +41,7 @@ impl Quadric {
     }
 }
 
-/// Whether a square matrix is singular, by elimination.
+/// Whether a square matrix is singular, tested by elimination.
 fn determinant_vanishes(mut rows: Vec<Vec<Rational>>) -> bool {
     let n = rows.len();
     for column in 0..n {

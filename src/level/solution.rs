@@ -1,4 +1,4 @@
-//! A level that is solved: its steps, and the points they make.
+//! A solved level: its steps, and the points they make.
 
 use super::equation::Point;
 use super::steps::{Pivot, Step};
@@ -6,34 +6,34 @@ use crate::graph::Expr;
 use crate::mechanics::{Draw, Line, Model, Phase, Range};
 use crate::proof::Fact;
 
-/// The steps that make points of a level.
+/// A sequence of steps that makes points of a level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     pub(super) steps: Vec<Step>,
 }
 
-/// A point of a level as it is recorded.
+/// A recorded point of a level.
 pub struct Solved {
-    /// The components of the free parameters, then those of the state.
+    /// Components of the free parameters, followed by those of the state.
     pub made: Vec<Expr>,
-    /// What is known of values there.
+    /// Signs of values at the point.
     pub facts: Vec<(Expr, Fact)>,
-    /// What must not vanish at a real point, lest a part of the level is missed.
+    /// Values that must not vanish at any real point, or part of the level is missed.
     pub pivots: Vec<Pivot>,
 }
 
 impl Solution {
-    /// The number of roots, each of which has two signs.
+    /// Number of roots, each with two signs.
     pub fn signs(&self) -> usize {
         self.steps.iter().filter(|step| matches!(step, Step::Quadratic { .. })).count()
     }
 
-    /// The components of the state that are made, rather than drawn.
+    /// Returns the components of the state that are solved for rather than drawn.
     pub fn components(&self) -> Vec<usize> {
         self.steps.iter().flat_map(|step| step.components().iter().copied()).collect()
     }
 
-    /// The components of the free parameters that are made.
+    /// Returns the components of the free parameters that are solved for.
     pub fn parameters(&self) -> Vec<usize> {
         let component = |step: &Step| match step {
             Step::Parameter { component, .. } => Some(*component),
@@ -42,12 +42,12 @@ impl Solution {
         self.steps.iter().filter_map(component).collect()
     }
 
-    /// The draws of the state's components and of the signs, from those of the components.
+    /// Returns the draws of the state's components and of the signs, given those of the components.
     pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
         let mut draws = free.to_vec();
         for step in &self.steps {
             let Step::Quadric { components, .. } = step else { continue };
-            // The directions of lines through one point.
+            // The directions of lines through the rational point.
             for component in &components[..components.len() - 1] {
                 draws[*component] = Draw::Of(Line::All, Range::between((-8, 5), (8, 5)));
             }
@@ -56,14 +56,14 @@ impl Solution {
         draws
     }
 
-    /// What must not vanish at any point of the level, from the coordinates of the point and the free
-    /// parameters.
+    /// Returns the values that must not vanish at any point of the level, from the coordinates of
+    /// the point and the free parameters.
     pub fn pivots(&self, model: &Model, parameters: &[Expr], state: &[Expr]) -> Vec<Pivot> {
         let point = Point { model, parameters: parameters.to_vec(), state: state.to_vec() };
         self.steps.iter().filter_map(|step| step.pivot(&point)).collect()
     }
 
-    /// The point made from the free parameters and from draws.
+    /// Makes the point from the free parameters and the draws.
     pub fn point(&self, model: &Model, parameters: Vec<Expr>, draws: &[Expr]) -> Solved {
         let (state, signs) = draws.split_at(model.dimension());
         let mut signs = signs.iter().copied();

@@ -1,4 +1,4 @@
-//! The steps by which a level is solved, and how each makes a point.
+//! Steps that solve a level, and the points they make.
 
 use num_dual::DualNum;
 use num_traits::{One, Zero};
@@ -9,73 +9,74 @@ use crate::mechanics::calculus::gram_determinant;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// Larger sets of minors are not written out.
+/// Largest number of minors that are written out.
 const MOST_MINORS: usize = 40;
 
-/// Equations solved together, for as many components of the state.
+/// A step that solves equations together, for the same number of components of the state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// An equation of degree 2 with numbers as coefficients.
+    /// An equation of degree 2 with constant coefficients.
     Quadric {
-        /// The equation.
+        /// Equation to solve.
         equation: Equation,
-        /// All components that it contains, the last one the axis that the point lies on.
+        /// All components of the equation, the last one being the axis through the rational point.
         components: Vec<usize>,
-        /// Where the axis meets it.
+        /// Coordinate of the rational point on the axis.
         point: Rational,
     },
-    /// Equations that are linear in some components together.
+    /// Equations that are jointly linear in some components.
     Linear {
-        /// The equations.
+        /// Equations to solve.
         equations: Vec<Equation>,
-        /// The components that are solved for.
+        /// Components to solve for.
         components: Vec<usize>,
-        /// All components in which the equations are linear together.
+        /// All components in which the equations are jointly linear.
         all: Vec<usize>,
     },
-    /// The same with one equation more, quadratic on the line that the others leave.
+    /// Linear equations, and one that is quadratic on the line left by them.
     Quadratic {
-        /// The linear equations.
+        /// Linear equations.
         linear: Vec<Equation>,
-        /// The quadratic one.
+        /// Quadratic equation.
         quadratic: Equation,
-        /// The components that are solved for, the last one along the line.
+        /// Components to solve for, the last one along the line.
         components: Vec<usize>,
-        /// Components of which what is divided by is free.
+        /// Components on which the divisor does not depend.
         all: Vec<usize>,
-        /// Whether the equations are of degree 2 at most in these together.
+        /// Whether the equations are of degree at most 2 jointly in the components `all`.
         is_of_degree_2: bool,
     },
     /// An equation that is solved for a free parameter.
     Parameter {
-        /// The equation.
+        /// Equation to solve.
         equation: Equation,
-        /// The component of the free parameters.
+        /// Component of the free parameters to solve for.
         component: usize,
     },
 }
 
-/// Values one of which is not zero at any real point, lest a part of the level is missed.
+/// Values attached to the divisor of a step: no part of the level is missed if one of them vanishes
+/// at no real point.
 #[derive(Clone, Debug)]
 pub struct Pivot {
-    /// The equations, by their numbers.
+    /// Indices of the equations.
     pub equations: Vec<usize>,
-    /// The determinant of the products of the equations' slopes by all unknowns of which what is
-    /// divided by is free.
+    /// Gram determinant of the equations' slopes along all unknowns that the divisor does not
+    /// depend on.
     pub slope: Expr,
-    /// The minors of these slopes, where they are few: all of them vanish where `slope` does.
+    /// Minors of these slopes, if there are few: all of them vanish where `slope` does.
     pub minors: Vec<Expr>,
-    /// The sum of squares of what is divided by and of what is left where that vanishes.
+    /// Sum of squares of the divisor and of the terms that remain where it vanishes.
     pub whole: Expr,
-    /// For one linear equation: its slopes and the rest. Where they have no common factor nothing
-    /// can be missed by this step alone.
+    /// Slopes and constant term of a single linear equation. If they have no common factor, the
+    /// step alone misses nothing.
     pub entries: Vec<Expr>,
-    /// The components of the state that the step makes.
+    /// Components of the state that the step makes.
     pub components: Vec<usize>,
 }
 
 impl Step {
-    /// The components of the state that it makes.
+    /// Returns the components of the state that the step makes.
     pub fn components(&self) -> &[usize] {
         match self {
             Step::Quadric { components, .. }
@@ -85,7 +86,7 @@ impl Step {
         }
     }
 
-    /// The equations that it solves.
+    /// Returns the equations that the step solves.
     pub fn equations(&self) -> Vec<Equation> {
         match self {
             Step::Quadric { equation, .. } | Step::Parameter { equation, .. } => vec![*equation],
@@ -96,11 +97,12 @@ impl Step {
         }
     }
 
-    /// What must not vanish at a point of the level, from its coordinates.
+    /// Returns the pivot at a point of the level, from its coordinates.
     pub fn pivot(&self, point: &Point<'_>) -> Option<Pivot> {
         let mut completed = point.clone();
         let pivot = self.complete(&mut completed, None)?;
-        // The slopes of a linear step are free of what it makes; a quadratic one has made a root.
+        // The slopes of a linear step do not depend on its results; a quadratic step has taken a
+        // root.
         Some(match self {
             Step::Quadratic { linear, quadratic, all, is_of_degree_2, .. } => {
                 let equations = self.equations();
@@ -117,7 +119,7 @@ impl Step {
         })
     }
 
-    /// Completes a point; the pivot, where one may vanish. `sign` chooses a root.
+    /// Completes a point and returns the pivot if it may vanish; `sign` chooses a root.
     pub fn complete(&self, point: &mut Point<'_>, sign: Option<Expr>) -> Option<Pivot> {
         match self {
             Step::Quadric { equation, components, point: start } => {
@@ -130,7 +132,8 @@ impl Step {
             Step::Quadratic { linear, quadratic, components, all, .. } => {
                 let equations: Vec<Equation> = linear.iter().copied().chain([*quadratic]).collect();
                 let whole = quadratic_step(point, linear, *quadratic, components, sign);
-                // Where the equations are independent, points with another pivot are near.
+                // Where the equations are independent, there are nearby points with a nonzero
+                // pivot.
                 let rows: Vec<Vec<Expr>> =
                     equations.iter().map(|equation| point.slopes(*equation, all)).collect();
                 let slope = gram_determinant(&rows);
@@ -153,7 +156,7 @@ impl Step {
     }
 }
 
-/// x₀ − 2B(x₀,u)/q(u) · u for the direction u that the components hold, 1 along the axis.
+/// Makes x₀ − 2B(x₀,u)/q(u) · u for the direction u in the components, 1 along the axis.
 fn quadric(point: &mut Point<'_>, equation: Equation, components: &[usize], start: &Rational) {
     let Some((axis, others)) = components.split_last() else { return };
     let mut direction: Vec<(usize, Expr)> =
@@ -171,7 +174,7 @@ fn quadric(point: &mut Point<'_>, equation: Equation, components: &[usize], star
     }
 }
 
-/// The matrix and the rest of equations that are linear in some components.
+/// Returns the matrix and the constant terms of equations that are linear in some components.
 fn system(
     point: &mut Point<'_>,
     equations: &[Equation],
@@ -185,8 +188,9 @@ fn system(
     (rows, rest)
 }
 
-/// The slopes of equations of degree 2 at most along the vector x of some components, at a point
-/// that satisfies them: for F = q(x) + (l,x) + c it is 2q + (l,x) = 2F − 2c − (l,x), and F = 0 there.
+/// Computes the slopes of equations of degree at most 2 along the vector x of some components, at a
+/// point of the level: for F = q(x) + (l,x) + c this is 2q + (l,x) = 2F − 2c − (l,x), and F = 0
+/// there.
 fn along_itself(
     point: &Point<'_>,
     linear: &[Equation],
@@ -207,7 +211,7 @@ fn along_itself(
     rest.chain([-(constant + constant) - slope]).collect()
 }
 
-/// The minors of all rows, unless there are many.
+/// Returns the maximal minors of the rows, unless there are too many.
 fn minors(rows: &[Vec<Expr>]) -> Vec<Expr> {
     let width = rows.first().map_or(0, Vec::len);
     let of = |columns: &Vec<usize>| {
@@ -219,8 +223,8 @@ fn minors(rows: &[Vec<Expr>]) -> Vec<Expr> {
     if all.len() > MOST_MINORS { Vec::new() } else { all.iter().map(of).collect() }
 }
 
-/// All choices of so many of some components, in lexicographic order; the last ones, where there are
-/// more than a bound.
+/// Lists all choices of `count` components in lexicographic order; only the last ones if there are
+/// more than `most`.
 pub fn choices(from: &[usize], count: usize, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for round in 0..count {
@@ -242,7 +246,7 @@ pub fn choices(from: &[usize], count: usize, most: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// The solution of A x + m = 0, by Cramer's rule.
+/// Solves A x + m = 0 by Cramer's rule.
 fn solved(rows: &[Vec<Expr>], rest: &[Expr]) -> Vec<Expr> {
     let whole = determinant(rows);
     let replaced = |column: usize| {
@@ -262,7 +266,7 @@ fn linear(
     components: &[usize],
     all: &[usize],
 ) -> Pivot {
-    // What may be solved for as well counts as unknown for the pivot.
+    // Components that could be solved for as well count as unknown for the pivot.
     let kept: Vec<Expr> = all.iter().map(|component| point.state[*component]).collect();
     let (mut rows, rest) = system(point, equations, all);
     let (slope, minors) = (gram_determinant(&rows), minors(&rows));
@@ -313,7 +317,7 @@ fn quadratic_step(
     }
     direction.push((*last, Expr::one()));
     let [c, b, a] = point.along(quadratic, &direction);
-    // A root that is not chosen is the first of both.
+    // Without a sign the positive root is taken.
     let root = (b * b - a * c).sqrt() * sign.unwrap_or_else(Expr::one);
     let length = (root - b) / a;
     for (component, slope) in direction {

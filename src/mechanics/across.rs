@@ -1,4 +1,4 @@
-//! Γ = E - k ∂r/∂γ on the plane across γ, and its inverse there.
+//! The operator Γ = E - k ∂r/∂γ on the plane across γ, and its inverse there.
 //!
 //! Where r = -∇h with h of degree 1, ∂r/∂γ is symmetric and (∂r/∂γ)γ = 0, so that Γ keeps γ and the
 //! plane across it. With A = E - γ⊗γ/γ² - k ∂r/∂γ, which is Γ on that plane and 0 on γ,
@@ -7,24 +7,24 @@
 //! D_T = ½((tr A)² - tr A²),   Γ⁻¹u = (tr A u - A u)/D_T      for u across γ
 //! ```
 //!
-//! by Cayley and Hamilton in two dimensions. The cofactors of Γ itself would say the same, but where
-//! D_T is small they lose its square's digits: those of Γ's eigenvalue 1 along γ drown them.
+//! by the theorem of Cayley and Hamilton in two dimensions. The cofactors of Γ itself give the same
+//! result, but lose twice the digits where D_T is small: Γ's eigenvalue 1 along γ dominates them.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::linear::{across, adjugate, determinant_with, isotropic};
 use crate::scalar::Scalar;
 
-/// Γ, ready to be inverted across γ.
+/// The operator Γ, prepared for inversion across γ.
 pub enum AcrossNormal<T> {
-    /// A, tr A and D_T.
+    /// Γ for symmetric ∂r/∂γ: A, tr A and D_T.
     Symmetric { matrix: Matrix3<T>, trace: T, determinant: T },
-    /// Γ of any r(γ), with its adjugate, det Γ and D_T.
+    /// Γ for any r(γ): its adjugate, det Γ and D_T.
     General { adjugate: Matrix3<T>, determinant: T, across: T },
 }
 
 impl<T: Scalar> AcrossNormal<T> {
-    /// For ∂r/∂γ symmetric and zero on γ.
+    /// Makes Γ for ∂r/∂γ symmetric and zero on γ.
     pub fn symmetric(slope: &Matrix3<T>, k: T, gamma: &Vector3<T>) -> Self {
         let projection = isotropic(T::one()) - gamma * gamma.transpose() / gamma.dot(gamma);
         let matrix = projection - slope * k;
@@ -34,7 +34,7 @@ impl<T: Scalar> AcrossNormal<T> {
         Self::Symmetric { matrix, trace, determinant }
     }
 
-    /// For any ∂r/∂γ.
+    /// Makes Γ for any ∂r/∂γ.
     pub fn general(slope: &Matrix3<T>, k: T, gamma: &Vector3<T>) -> Self {
         let matrix = isotropic(T::one()) - slope * k;
         let adjugate = adjugate(&matrix);
@@ -42,7 +42,7 @@ impl<T: Scalar> AcrossNormal<T> {
         Self::General { adjugate, determinant, across: across(&matrix, gamma) }
     }
 
-    /// D_T, the determinant of Γ across γ.
+    /// Returns D_T, the determinant of Γ across γ.
     pub fn determinant(&self) -> T {
         match self {
             Self::Symmetric { determinant, .. } => *determinant,
@@ -50,7 +50,7 @@ impl<T: Scalar> AcrossNormal<T> {
         }
     }
 
-    /// Γ⁻¹u for u across γ.
+    /// Computes Γ⁻¹u for u across γ.
     pub fn solve(&self, u: &Vector3<T>) -> Vector3<T> {
         match self {
             Self::Symmetric { matrix, trace, determinant } => {
@@ -60,10 +60,10 @@ impl<T: Scalar> AcrossNormal<T> {
         }
     }
 
-    /// Γ⁻ᵀu up to a multiple of γ, for any u.
+    /// Computes Γ⁻ᵀu up to a multiple of γ, for any u.
     pub fn solve_transposed(&self, u: &Vector3<T>) -> Vector3<T> {
         match self {
-            // A takes no notice of what u has along γ.
+            // The part of u along γ does not affect A u.
             Self::Symmetric { .. } => self.solve(u),
             Self::General { adjugate, determinant, .. } => {
                 (adjugate.transpose() * u).map(|x| x / *determinant)

@@ -1,8 +1,8 @@
-//! A homogeneous ball that rolls, with spin, on a surface that is fixed or turns about e₃.
+//! A homogeneous ball rolling, with spin, on a surface that is fixed or turns about e₃.
 //!
-//! Vectors in the fixed frame. r is the centre of the ball, which moves on the surface Σ parallel
-//! to the one it touches; γ the normal of Σ from the point of contact to the centre, μ the central
-//! moment of inertia, D = mR², Ω = Ωe₃ the angular velocity of the surface:
+//! Vectors are in the fixed frame. r is the centre of the ball, which moves on the surface Σ
+//! parallel to the supporting one; γ is the normal of Σ from the point of contact to the centre, μ
+//! the central moment of inertia, D = mR², Ω = Ωe₃ the angular velocity of the surface:
 //!
 //! ```text
 //! M  = μω + Dγ×(ω×γ),    ω = (M + (D/μ)(M,γ)γ)/(μ + D)
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Borisov, Mamaev, Nonholonomic dynamical systems, the ball on a surface; the sign of the moment
-//! is that with which the energy is conserved.
+//! is the one for which the energy is conserved.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
@@ -28,32 +28,32 @@ use crate::scalar::Scalar;
 /// A homogeneous ball on a surface.
 #[derive(Clone, Debug)]
 pub struct BallOnSurface {
-    /// m
+    /// Mass m.
     pub mass: Formula,
-    /// R
+    /// Radius R.
     pub radius: Formula,
-    /// μ
+    /// Central moment of inertia μ.
     pub moment: Formula,
-    /// Σ
+    /// Surface Σ of the centre.
     pub surface: Surface,
-    /// U, a function of r, which stands in the place of the second state variable.
+    /// Potential U(r), where r takes the place of the second state variable.
     pub potential: Option<Potential>,
-    /// Ω
+    /// Angular velocity Ω of the surface.
     pub rotation: Option<Formula>,
-    /// Are components taken in the frame of the turning surface?
+    /// Whether components are taken in the frame of the turning surface.
     pub rotating_frame: bool,
 }
 
-/// How the surface of the centre is given.
+/// Definition of the surface of the centre.
 #[derive(Clone, Debug)]
 pub enum Surface {
-    /// The level surfaces of F(r); the state is (M, r).
+    /// Level surfaces of F(r); the state is (M, r).
     Level(Formula),
-    /// By a support function; the state is (M, γ).
+    /// A support function; the state is (M, γ).
     Support(Shape),
 }
 
-/// What the equations compute on their way.
+/// Intermediate results of the equations of motion.
 pub struct BallMotion<T> {
     normal: Vector3<T>,
     centre: Vector3<T>,
@@ -63,7 +63,7 @@ pub struct BallMotion<T> {
 }
 
 impl BallOnSurface {
-    /// (M', r') or (M', γ')
+    /// Returns the rates (M', r') or (M', γ').
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let at = &phase.configuration;
         let momentum = vector(at.variable(0));
@@ -71,7 +71,7 @@ impl BallOnSurface {
         let (mass, radius) = (self.value(at, &self.mass), self.value(at, &self.radius));
         let turn = self.turn(at);
         let turned = self.rotating_frame;
-        // Rates in the fixed frame, from those in a frame that turns.
+        // Converts rates in a turning frame to the fixed frame.
         let absolute = |x: Vector3<T>, rate: Vector3<T>| {
             if turned { rate + turn.cross(&x) } else { rate }
         };
@@ -94,7 +94,7 @@ impl BallOnSurface {
         rate.iter().chain(second.iter()).copied().collect()
     }
 
-    /// (M,ω)/2 + U
+    /// Energy (M,ω)/2 + U.
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let (at, motion) = (&phase.configuration, self.motion(phase));
         let kinetic = vector(at.variable(0)).dot(&motion.omega) / T::from(2.0);
@@ -104,7 +104,7 @@ impl BallOnSurface {
         }
     }
 
-    /// A quantity that a formula names.
+    /// Evaluates a quantity named in a formula.
     pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let at = &phase.configuration;
         match (quantity, &self.surface) {
@@ -125,7 +125,7 @@ impl BallOnSurface {
         }
     }
 
-    /// A quantity that needs no derivative.
+    /// Evaluates a quantity that needs no derivative.
     pub fn configuration_quantity<T: Scalar>(
         &self,
         quantity: Quantity,
@@ -145,7 +145,7 @@ impl BallOnSurface {
         scalar(at.evaluate(formula))
     }
 
-    /// Ω e₃
+    /// Angular velocity Ωe₃ of the surface.
     fn turn<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let rate = self.rotation.as_ref().map_or_else(T::zero, |rate| self.value(at, rate));
         Vector3::new(T::zero(), T::zero(), rate)
@@ -214,7 +214,7 @@ impl BallOnSurface {
     }
 }
 
-/// The point with r in the place of the second state variable, where U is evaluated.
+/// Replaces the second state variable by r, for the evaluation of U.
 fn at_centre<'m, T: Scalar>(
     at: &Configuration<'m, T>,
     centre: &Vector3<T>,
@@ -222,12 +222,12 @@ fn at_centre<'m, T: Scalar>(
     at.moved(NORMAL, Value::Vector(*centre))
 }
 
-/// ∂f/∂r
+/// Gradient ∂f/∂r.
 fn gradient<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> Vector3<T> {
     Vector3::from_fn(|i, _| scalar(at.lift(NORMAL, axis(i)).evaluate(f)).eps)
 }
 
-/// ∂f/∂r and ∂²f/∂r²
+/// Gradient ∂f/∂r and Hessian ∂²f/∂r².
 fn second_order<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> (Vector3<T>, Matrix3<T>) {
     let zero = T::zero();
     let (mut slope, mut hessian) = (Vector3::repeat(zero), Matrix3::repeat(zero));

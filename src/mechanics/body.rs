@@ -12,34 +12,34 @@ use super::rubber::{NORMAL, normal};
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
-/// How a body's surface is given.
+/// Definition of a body's surface.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// h(γ), homogeneous of degree 1.
+    /// Support function h(γ), homogeneous of degree 1.
     Support(Formula),
-    /// h on the unit sphere; extended as |γ| h(γ/|γ|).
+    /// Support function h on the unit sphere, extended as |γ| h(γ/|γ|).
     SupportOnSphere(Formula),
     /// A body of revolution about e₃: h = |γ| p(z), z = γ₃/|γ|.
     Profile(Formula),
-    /// r(γ) itself, with the extension off |γ| = 1 that the formula has.
+    /// Contact vector r(γ), extended off |γ| = 1 by its formula.
     Contact(Formula),
-    /// |γ| P(γ/|γ|) with P a polynomial whose coefficients are free parameters.
+    /// Support function |γ| P(γ/|γ|) with a polynomial P whose coefficients are free parameters.
     Arbitrary(Polynomial),
-    /// |γ| P(z), likewise.
+    /// Profile |γ| P(z) with a polynomial P whose coefficients are free parameters.
     ArbitraryProfile(Polynomial),
 }
 
 /// A polynomial on the unit sphere, or on [-1,1], with free parameters as coefficients.
 #[derive(Clone, Debug)]
 pub struct Polynomial {
-    /// Exponents of the variables, one triple a coefficient.
+    /// Exponents of the variables, one triple for each coefficient.
     pub exponents: Vec<[u32; 3]>,
-    /// The index of the first coefficient among the model's parameters.
+    /// Index of the first coefficient among the model's parameters.
     pub first_parameter: usize,
 }
 
 impl Polynomial {
-    /// All monomials of degree `degree` and `degree - 1` in three variables.
+    /// Makes all monomials of degrees `degree` and `degree - 1` in three variables.
     ///
     /// On the unit sphere these span all polynomials up to that degree, since γ² = 1 there.
     pub fn on_sphere(degree: u32, first_parameter: usize) -> Self {
@@ -54,7 +54,7 @@ impl Polynomial {
         Self { exponents, first_parameter }
     }
 
-    /// All monomials up to `degree` in three variables.
+    /// Makes all monomials up to `degree` in three variables.
     pub fn in_space(degree: u32, first_parameter: usize) -> Self {
         let mut exponents = Vec::new();
         for i in 0..=degree {
@@ -65,12 +65,12 @@ impl Polynomial {
         Self { exponents, first_parameter }
     }
 
-    /// All powers of one variable up to `degree`.
+    /// Makes all powers of one variable up to `degree`.
     pub fn on_interval(degree: u32, first_parameter: usize) -> Self {
         Self { exponents: (0..=degree).map(|k| [0, 0, k]).collect(), first_parameter }
     }
 
-    /// The value at x.
+    /// Evaluates the polynomial at x.
     pub fn evaluate<T: Scalar>(&self, at: &Configuration<'_, T>, x: Vector3<T>) -> T {
         let highest = self.exponents.iter().flatten().max().copied().unwrap_or(0);
         let powers: Vec<Vec<T>> = x
@@ -91,7 +91,7 @@ impl Polynomial {
 }
 
 impl Shape {
-    /// The formula that is typed for it, if it is no arbitrary function.
+    /// Returns the formula of the surface, unless it is an arbitrary function.
     pub fn formula(&self) -> Option<&Formula> {
         match self {
             Shape::Support(formula)
@@ -102,7 +102,7 @@ impl Shape {
         }
     }
 
-    /// h at a point of configuration space.
+    /// Evaluates h at a point of configuration space.
     pub fn support<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
         match self {
@@ -125,11 +125,11 @@ impl Shape {
         }
     }
 
-    /// p(z), the support function of a body of revolution on the unit sphere.
+    /// Evaluates p(z), the support function of a body of revolution on the unit sphere.
     pub fn profile<T: Scalar>(&self, at: &Configuration<'_, T>, z: T) -> T {
         match self {
             Shape::Profile(p) => {
-                // z is γ₃/|γ|: at γ = (·,·,z) of length 1 only γ₃ is read.
+                // z is γ₃/|γ|: a profile uses γ through this cosine alone.
                 scalar(at.with_axis_cosine(z).evaluate(p))
             }
             Shape::ArbitraryProfile(polynomial) => {
@@ -139,7 +139,7 @@ impl Shape {
         }
     }
 
-    /// r and ∂r/∂γ.
+    /// Returns r and ∂r/∂γ.
     pub fn contact<T: Scalar>(&self, at: &Configuration<'_, T>) -> (Vector3<T>, Matrix3<T>) {
         match self {
             Shape::Contact(r) => {
@@ -160,7 +160,7 @@ impl Shape {
         }
     }
 
-    /// p, p', p'' at z.
+    /// Returns p, p', p'' at z.
     pub fn profile_jet<T: Scalar>(&self, at: &Configuration<'_, T>, z: T) -> [T; 3] {
         let z = Dual::new(Dual::new(z, T::one()), Dual::from_re(T::one()));
         let lifted = at.lift_constant().lift_constant();
@@ -169,7 +169,7 @@ impl Shape {
     }
 }
 
-/// r = -∇h and ∂r/∂γ from h with derivative parts along e_i and e_j, for i ≤ j.
+/// Computes r = -∇h and ∂r/∂γ from h with derivative parts along e_i and e_j, for i ≤ j.
 pub fn contact_of<T: Scalar>(
     support: impl Fn(usize, usize) -> Dual<Dual<T>>,
 ) -> (Vector3<T>, Matrix3<T>) {
@@ -189,7 +189,7 @@ pub fn contact_of<T: Scalar>(
     (r, slope)
 }
 
-/// The unit vector e_j as a value.
+/// Returns the unit vector e_j as a value.
 pub(super) fn axis<T: Scalar>(j: usize) -> Value<T> {
     let mut unit = Vector3::repeat(T::zero());
     unit[j] = T::one();

@@ -1,5 +1,5 @@
-//! Derivatives along the field and of it, all by num-dual: gradients, Lie derivatives,
-//! divergences, and what a level set takes from a divergence.
+//! Derivatives of functions and of the field by automatic differentiation: gradients, Lie
+//! derivatives, divergences, and the contribution of a level set to a divergence.
 
 use std::cell::OnceCell;
 
@@ -10,7 +10,7 @@ use super::phase::Phase;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
-/// A point of phase space with the points next to it, made once for all derivatives that are taken.
+/// A point of phase space with its lifts to dual numbers, made once for all derivatives.
 pub struct Jet<'m, T> {
     /// The point itself.
     pub phase: Phase<'m, T>,
@@ -22,7 +22,7 @@ pub struct Jet<'m, T> {
 }
 
 impl<'m, T: Scalar> Jet<'m, T> {
-    /// The jet at a point; nothing is computed yet.
+    /// Makes the jet at a point; nothing is computed yet.
     pub fn new(phase: Phase<'m, T>) -> Self {
         Self {
             phase,
@@ -34,7 +34,8 @@ impl<'m, T: Scalar> Jet<'m, T> {
         }
     }
 
-    /// The jet at a point whose divergence is made by the system's own formula, where there is one.
+    /// Makes the jet at a point with the divergence by the system's closed formula, where there is
+    /// one.
     pub fn short(phase: Phase<'m, T>) -> Self {
         let divergence = phase.model().system.divergence(&phase);
         let jet = Self::new(phase);
@@ -44,34 +45,34 @@ impl<'m, T: Scalar> Jet<'m, T> {
         jet
     }
 
-    /// The point with the field as its derivative part.
+    /// Returns the point with the field as its derivative part.
     pub fn along_field(&self) -> &Phase<'m, Dual<T>> {
         self.along_field.get_or_init(|| self.phase.lift(self.phase.field()))
     }
 
-    /// The point with a derivative part along each coordinate in turn.
+    /// Returns the point with a derivative part along each coordinate in turn.
     pub fn along_axes(&self) -> &[Phase<'m, Dual<T>>] {
         self.along_axes.get_or_init(|| {
             (0..self.phase.model().dimension()).map(|index| self.phase.lift_along(index)).collect()
         })
     }
 
-    /// L_v f, the derivative of f along the field.
+    /// Computes L_v f, the derivative of f along the field.
     pub fn lie_derivative(&self, f: impl FnOnce(&Phase<'m, Dual<T>>) -> Dual<T>) -> T {
         f(self.along_field()).eps
     }
 
-    /// The partial derivatives of f by the state's components.
+    /// Computes the partial derivatives of f with respect to the state's components.
     pub fn gradient(&self, f: impl Fn(&Phase<'m, Dual<T>>) -> Dual<T>) -> Vec<T> {
         self.along_axes().iter().map(|phase| f(phase).eps).collect()
     }
 
-    /// L_vF, component by component.
+    /// Computes L_vF, component by component.
     pub fn rates(&self, formula: &Formula) -> Vec<T> {
         self.along_field().evaluate(formula).components().iter().map(|x| x.eps).collect()
     }
 
-    /// The gradients of the components of F.
+    /// Computes the gradients of the components of F.
     pub fn gradients(&self, formula: &Formula) -> Vec<Vec<T>> {
         let columns: Vec<Vec<T>> = self
             .along_axes()
@@ -82,16 +83,16 @@ impl<'m, T: Scalar> Jet<'m, T> {
         (0..count).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
     }
 
-    /// Σ ∂v_i/∂x_i over all components of the state.
+    /// Computes div v = Σ ∂v_i/∂x_i over all components of the state.
     pub fn divergence(&self) -> T {
         let along = || self.along_axes().iter().enumerate();
         *self.divergence.get_or_init(|| along().map(|(i, phase)| phase.field()[i].eps).sum())
     }
 
-    /// Σ d(L_vF_i)(n_i) over the level functions that are kept, with dF_i(n_j) = δ_ij.
+    /// Computes Σ d(L_vF_i)(n_i) over the kept level functions, with dF_i(n_j) = δ_ij.
     ///
-    /// On a level set {F_i = c_i} with dx = dF_1∧…∧dF_k∧σ, L_v σ = (div v - this) σ. It vanishes
-    /// where the F_i are integrals near the level.
+    /// On a level set {F_i = c_i} with dx = dF_1∧…∧dF_k∧σ, L_v σ = (div v - this sum) σ. It
+    /// vanishes where the F_i are integrals near the level.
     pub fn level_cofactor(&self, kept: &[bool]) -> T {
         let functions: Vec<&LevelFunction> = kept_functions(self.phase.model(), kept).collect();
         if functions.is_empty() || self.phase.model().system.conserves_level() {
@@ -106,12 +107,12 @@ impl<'m, T: Scalar> Jet<'m, T> {
         sum
     }
 
-    /// The level functions that are kept, at another point.
+    /// Evaluates the kept level functions at another point.
     pub fn level_at(&self, there: &Phase<'m, T>, kept: &[bool]) -> Vec<T> {
         kept_functions(there.model(), kept).map(|f| there.level_function(f)).collect()
     }
 
-    /// The gradients of the level functions that are kept.
+    /// Computes the gradients of the kept level functions.
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
         let all = self.level_gradients.get_or_init(|| {
             let level = self.phase.model().level.iter();
@@ -122,7 +123,7 @@ impl<'m, T: Scalar> Jet<'m, T> {
         all.iter().zip(kept).filter(|(_, kept)| **kept).map(|(g, _)| g.clone()).collect()
     }
 
-    /// The gradient of the energy, where there is one.
+    /// Computes the gradient of the energy, where there is one.
     pub fn energy_gradient(&self) -> Option<&Vec<T>> {
         let make = || {
             let slope = |at: &Phase<'m, Dual<T>>| Some(at.model().system.energy(at)?.eps);
@@ -132,7 +133,7 @@ impl<'m, T: Scalar> Jet<'m, T> {
     }
 }
 
-/// The level functions that `kept` selects.
+/// Selects the level functions given by `kept`.
 fn kept_functions<'a>(
     model: &'a Model,
     kept: &'a [bool],
@@ -141,7 +142,7 @@ fn kept_functions<'a>(
     level.filter(|(_, kept)| **kept).map(|(equation, _)| &equation.function)
 }
 
-/// Vectors n_i in the span of some gradients with dF_i(n_j) = δ_ij.
+/// Finds vectors n_i in the span of some gradients with dF_i(n_j) = δ_ij.
 pub fn transversals<T: Scalar>(gradients: &[Vec<T>]) -> Vec<Vec<T>> {
     let count = gradients.len();
     let unit = |i: usize, j: usize| if i == j { T::one() } else { T::zero() };
@@ -156,7 +157,7 @@ pub fn transversals<T: Scalar>(gradients: &[Vec<T>]) -> Vec<Vec<T>> {
     (0..count).map(transversal).collect()
 }
 
-/// u less its part in the span of `others`: zero exactly when u depends on them.
+/// Computes u minus its projection on the span of `others`: zero exactly when u depends on them.
 pub fn rejection<T: Scalar>(u: &[T], others: &[Vec<T>]) -> Vec<T> {
     let projections = others.iter().map(|other| dot(u, other)).collect();
     let weights = solve_positive(gram(others), projections);
@@ -164,15 +165,16 @@ pub fn rejection<T: Scalar>(u: &[T], others: &[Vec<T>]) -> Vec<T> {
     u.iter().enumerate().map(|(k, x)| if others.is_empty() { *x } else { *x - part(k) }).collect()
 }
 
-/// Σ a_i b_i
+/// Computes the inner product Σ a_i b_i.
 pub fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).map(|(a, b)| *a * *b).sum()
 }
 
-/// Minors are 2ⁿ; beyond this a determinant is the last coefficient of the characteristic polynomial.
+/// Largest size of a determinant computed by minors, of which there are 2ⁿ; larger ones are the
+/// last coefficient of the characteristic polynomial.
 const MOST_BY_MINORS: usize = 10;
 
-/// The Gram determinant of some vectors: zero exactly when they are dependent.
+/// Computes the Gram determinant of some vectors: zero exactly when they are dependent.
 ///
 /// Expanded by minors of the first rows, since a pivot may vanish where the vectors are dependent.
 pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
@@ -201,7 +203,8 @@ pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
     minors[(1 << n) - 1]
 }
 
-/// The coefficients of λ^(n-1), …, 1 in det(λE - A), A given by its columns; Faddeev, LeVerrier.
+/// Computes the coefficients of λ^(n-1), …, 1 in det(λE - A), A given by its columns, by the method
+/// of Faddeev and LeVerrier.
 pub fn characteristic_polynomial<T: Scalar>(columns: &[Vec<T>]) -> Vec<T> {
     let n = columns.len();
     let mut coefficients = Vec::new();
@@ -224,7 +227,7 @@ pub fn characteristic_polynomial<T: Scalar>(columns: &[Vec<T>]) -> Vec<T> {
     coefficients
 }
 
-/// tr(B A⁻¹) for matrices given by their columns, by the normal equations of A.
+/// Computes tr(B A⁻¹) for matrices given by their columns, by the normal equations of A.
 pub fn trace_of_quotient<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> T {
     let solved = |j: usize| {
         let side = a.iter().map(|column| dot(column, &b[j])).collect();
@@ -237,7 +240,7 @@ fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
     vectors.iter().map(|a| vectors.iter().map(|b| dot(a, b)).collect()).collect()
 }
 
-/// Solves A x = b for a positive definite A: elimination needs no pivots there.
+/// Solves A x = b for a positive definite A, by elimination without pivots.
 pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     for k in 0..b.len() {
         let (above, below) = a.split_at_mut(k + 1);

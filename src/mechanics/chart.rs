@@ -1,7 +1,8 @@
-//! Charts: how a state on the level set is made from free numbers, exactly, in any domain.
+//! Charts of level sets: exact maps from free numbers to states, in any domain.
 //!
 //! A chart makes the *point* only. Derivatives are taken in the ambient variables, and the chart's
-//! formulas are put in afterwards: differentiating along the chart would give another quantity.
+//! formulas are substituted afterwards: differentiation along the chart would give another
+//! quantity.
 
 use nalgebra::Vector3;
 
@@ -11,35 +12,35 @@ use super::recipe::{Draw, Line, Range};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
-/// How states are made.
+/// A map from draws to states.
 #[derive(Clone, Debug)]
 pub enum Chart {
-    /// The rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where s = 1 on
-    /// γ² = 1 and t = 0 on (ω,γ) = 0.
+    /// Chart of the rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where s
+    /// = 1 on γ² = 1 and t = 0 on (ω,γ) = 0.
     Rolling,
-    /// A ball on a surface: M free, γ as for the rubber systems.
+    /// Chart of a ball on a surface: M free, γ as for the rubber systems.
     Sphere,
-    /// Every component of the state by itself; there is no level set, or it is left.
+    /// Independent components of the state; there is no level set, or it does not apply.
     Free,
-    /// The user's parametrisation.
+    /// A parametrisation given by the user.
     Given(Box<GivenChart>),
-    /// The level's own equations, to be solved.
+    /// Solution of the level's equations.
     Equations,
 }
 
-/// A parametrisation typed by the user.
+/// A parametrisation given by the user.
 #[derive(Clone, Debug)]
 pub struct GivenChart {
-    /// A model whose state is the chart's inputs and whose parameters are the case's.
+    /// Model whose state is the chart's inputs and whose parameters are the case's.
     pub model: Model,
-    /// The draws of the inputs' components.
+    /// Draws of the inputs' components.
     pub draws: Vec<Draw>,
-    /// One formula a state variable.
+    /// One formula for each state variable.
     pub formulas: Vec<Formula>,
 }
 
 impl Chart {
-    /// The draws that make a state; `kept[i]` says whether level equation i is to hold.
+    /// Returns the draws that make a state; `kept[i]` tells whether level equation i is to hold.
     pub fn draws(&self, free: &[Draw], kept: &[bool]) -> Vec<Draw> {
         match self {
             Chart::Rolling | Chart::Sphere => {
@@ -47,7 +48,7 @@ impl Chart {
                     |line, low, high, count| vec![Draw::Of(line, Range::between(low, high)); count];
                 let mut draws = of(Line::All, (-8, 5), (8, 5), 2);
                 draws.extend(of(Line::All, (-2, 1), (2, 1), 3));
-                // The length of γ, then the spin.
+                // The length of γ, followed by the spin.
                 for (kept, line) in kept.iter().zip([Line::Positive, Line::All]) {
                     draws.extend(of(line, (1, 2), (3, 2), usize::from(!kept)));
                 }
@@ -59,7 +60,7 @@ impl Chart {
         }
     }
 
-    /// The state made from draws; `parameters` are the components of the free parameters.
+    /// Makes the state from draws.
     pub fn point<T: Scalar>(
         &self,
         _: &Model,
@@ -80,7 +81,7 @@ impl Chart {
     }
 }
 
-/// (ω, γ) with γ² = 1 and (ω,γ) = 0 from (u, v, a), by the chart of the rubber systems.
+/// Maps (u, v, a) to (ω, γ) with γ² = 1 and (ω,γ) = 0 by the chart of the rubber systems.
 #[cfg(feature = "testing")]
 pub(crate) fn rolling_point<T: Scalar>(draws: [T; 5]) -> [T; 6] {
     let state = on_sphere(&Chart::Rolling, &[true, true], &draws);

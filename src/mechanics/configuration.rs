@@ -1,4 +1,4 @@
-//! The part of a point of phase space without velocities; see [`phase`](super::phase).
+//! Points of configuration space: the velocity-free part of a [`phase`](super::phase) point.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -12,11 +12,11 @@ use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::scalar::Scalar;
 
-/// Beyond so many formulas in formulas, those inside are evaluated first.
+/// Depth of nested formulas beyond which the inner ones are evaluated first.
 pub(super) const DEEP: u32 = 64;
 
-/// Evaluates what the formula of `symbol` uses before it, so that long chains of formulas that use
-/// each other take no deep stack. `formula` gives the formula of a symbol that has no value yet.
+/// Evaluates the formulas that the formula of `symbol` uses before it, so that long chains of
+/// formulas need no deep stack. `formula` returns the formula of a symbol that has no value yet.
 pub(super) fn settle<'f>(
     symbol: Symbol,
     formula: impl Fn(Symbol) -> Option<&'f Formula>,
@@ -37,7 +37,7 @@ pub(super) fn settle<'f>(
 
 /// A point of configuration space over the scalar T: parameters and γ.
 pub struct Configuration<'m, T> {
-    /// The case this belongs to.
+    /// Model to which the point belongs.
     pub model: &'m Model,
     pub(super) parameters: Rc<[Option<Value<T>>]>,
     state: Vec<Value<T>>,
@@ -56,21 +56,21 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         Self { model, parameters, state, axis_cosine: None, known, depth }
     }
 
-    /// The same point with another value of state variable `index`.
+    /// Returns the same point with another value of state variable `index`.
     pub fn moved(&self, index: usize, value: Value<T>) -> Self {
         let mut state = self.state.clone();
         state[index] = value;
         Self::new(self.model, Rc::clone(&self.parameters), state)
     }
 
-    /// The same point, with `z` as the cosine that a profile is evaluated at.
+    /// Returns the same point with `z` as the cosine at which a profile is evaluated.
     pub fn with_axis_cosine(&self, z: T) -> Self {
         let mut moved = Self::new(self.model, Rc::clone(&self.parameters), self.state.clone());
         moved.axis_cosine = Some(z);
         moved
     }
 
-    /// `z`, by its definition γ₃/|γ| unless it was given.
+    /// Returns `z`, which is γ₃/|γ| unless it was given.
     pub fn axis_cosine(&self) -> T {
         self.axis_cosine.unwrap_or_else(|| {
             let gamma = normal(self);
@@ -78,17 +78,17 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         })
     }
 
-    /// The value of a formula that reaches no further than the configuration.
+    /// Evaluates a formula that depends on the configuration at most.
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
     }
 
-    /// The value of state variable `index`.
+    /// Returns the value of state variable `index`.
     pub fn variable(&self, index: usize) -> Value<T> {
         self.state[index].clone()
     }
 
-    /// The value of parameter `index`.
+    /// Returns the value of parameter `index`.
     pub fn parameter(&self, index: usize) -> Value<T> {
         match (&self.parameters[index], &self.model.parameters[index].origin) {
             (Some(value), _) => value.clone(),
@@ -97,7 +97,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         }
     }
 
-    /// The value of a parameter by name, if it is declared.
+    /// Returns the value of a parameter by name, if it is declared.
     pub fn named(&self, name: &str) -> Option<Value<T>> {
         match self.model.vocabulary.find(name)?.meaning {
             Meaning::Parameter(index) => Some(self.parameter(index)),
@@ -133,7 +133,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         value
     }
 
-    /// The formula behind a symbol that has no value yet.
+    /// Returns the formula of a symbol that has no value yet.
     fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
         if self.known.borrow().contains_key(&symbol) {
             return None;
@@ -141,19 +141,20 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         formula_of(self.model, symbol)
     }
 
-    /// The same point with derivative parts: `direction` for state variable `index`, 0 elsewhere.
+    /// Lifts the point with derivative parts `direction` for state variable `index`, 0 elsewhere.
     pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
         let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
         state[index] = dual_value(&self.state[index], &direction);
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
     }
 
-    /// The components of all state variables in order.
+    /// Returns the components of all state variables in order.
     pub fn components(&self) -> Vec<T> {
         self.state.iter().flat_map(|value| value.components()).collect()
     }
 
-    /// The same point with the derivative part `direction`, one entry a component of the state.
+    /// Lifts the point with the derivative part `direction`, one entry for each component of the
+    /// state.
     pub fn lift_state(&self, direction: &[T]) -> Configuration<'m, Dual<T>> {
         let mut rest = direction;
         let state = self
@@ -168,14 +169,14 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
     }
 
-    /// The same point with all derivative parts 0.
+    /// Lifts the point with all derivative parts 0.
     pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
         let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
         Configuration::new(self.model, lift_parameters(&self.parameters), state)
     }
 }
 
-/// The formula of an abbreviation, or of a parameter that has one.
+/// Returns the formula of an abbreviation, or of a parameter that has one.
 pub(super) fn formula_of(model: &Model, symbol: Symbol) -> Option<&Formula> {
     match model.vocabulary.entry(symbol).meaning {
         Meaning::Abbreviation(index) => model.abbreviations.get(index),

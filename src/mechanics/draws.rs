@@ -1,7 +1,7 @@
-//! Addressable randomness: state number i depends on the seed and on i alone.
+//! Random draws addressed by index: state i depends on the seed and on i alone.
 //!
-//! The first states are short decimals, so that they can be read; the others have all digits of f64,
-//! lest a formula that repeats itself on decimals is taken for a true one.
+//! The first states are short decimals, for readability; the others have all digits of f64, so that
+//! a formula that repeats itself on decimals is not taken for a true one.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -9,73 +9,73 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use super::recipe::{Draw, Range};
 use crate::number::rational::Rational;
 
-/// States with short decimals.
+/// Number of states with short decimals.
 const SHORT: u64 = 64;
 
-/// Random numbers for states, strictly inside their ranges, never 0.
+/// Random numbers for states, strictly inside their ranges and never 0.
 ///
-/// The same seed and index give the same numbers, whatever else is drawn, on every machine.
+/// The same seed and index give the same numbers on every machine, whatever else is drawn.
 #[derive(Clone, Debug)]
 pub struct Draws {
     sources: Vec<Source>,
 }
 
-/// Where one number comes from.
+/// Source of one number.
 #[derive(Clone, Debug)]
 enum Source {
     List(Vec<Rational>),
-    /// 1 or −1
+    /// A sign, 1 or −1.
     Sign,
     Range {
-        /// Short decimals.
+        /// Grid of short decimals.
         grid: Grid,
-        /// The ends, rounded inwards.
+        /// Ends of the range, rounded inwards.
         ends: [f64; 2],
     },
 }
 
-/// Equidistant decimals inside a range.
+/// A grid of equidistant decimals inside a range.
 #[derive(Clone, Debug)]
 enum Grid {
-    /// `low + n step` for n in 1..=count
+    /// The numbers `low + n step` for n in 1..=count.
     Any { low: Rational, step: Rational, count: u64 },
-    /// The same over one denominator, where all parts are small: `(low + n step)/denominator`.
+    /// The same over a common denominator, where all parts are small: `(low + n step)/denominator`.
     Small { low: i64, step: i64, denominator: i64, count: u64 },
 }
 
 impl Draws {
-    /// Prepares one number a draw.
+    /// Prepares one number for each draw.
     pub fn new(draws: &[Draw]) -> Self {
         Self { sources: draws.iter().map(Source::new).collect() }
     }
 
-    /// How many numbers a state takes.
+    /// Number of random numbers for a state.
     pub fn len(&self) -> usize {
         self.sources.len()
     }
 
-    /// Is nothing drawn?
+    /// Whether nothing is drawn.
     pub fn is_empty(&self) -> bool {
         self.sources.is_empty()
     }
 
-    /// The numbers of state `index`.
+    /// Draws the numbers of state `index`.
     pub fn state(&self, seed: u64, index: u64) -> Vec<Rational> {
         self.attempt(seed, index, 0)
     }
 
-    /// Other numbers for state `index`, for an attempt after others that did not lead to a state.
+    /// Draws other numbers for state `index`, after attempts that did not lead to a state.
     pub fn attempt(&self, seed: u64, index: u64, attempt: u32) -> Vec<Rational> {
         self.picked(seed, index, attempt, Source::pick)
     }
 
-    /// Numbers for a state near the ends of ranges and near 0, where what is small elsewhere may have
-    /// another sign.
+    /// Draws numbers for a state near the ends of ranges and near 0, where quantities that are
+    /// small elsewhere may change sign.
     pub fn edge(&self, seed: u64, index: u64) -> Vec<Rational> {
         self.picked(seed, index, 0, Source::edge)
     }
 
-    /// The f64 nearest to each of them, and whether it is that number.
+    /// Returns the f64 nearest to each number, and whether it is exact.
     pub fn nearest(&self, seed: u64, index: u64, attempt: u32) -> Vec<(f64, bool)> {
         self.picked(seed, index, attempt, Source::nearest)
     }
@@ -90,7 +90,7 @@ impl Draws {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(index);
         if attempt > 0 {
-            // A number takes two words; each attempt goes on where the one before ended.
+            // A number takes two words; each attempt continues where the last one ended.
             stream.set_word_pos(u128::from(attempt) * 2 * self.sources.len() as u128);
         }
         let is_short = index < SHORT;
@@ -118,7 +118,7 @@ impl Source {
         }
     }
 
-    /// What `pick` gives, in f64, without making a rational number of it where parts are small.
+    /// Returns the result of `pick` in f64, without making a rational number where parts are small.
     fn nearest(&self, bits: u64, is_short: bool) -> (f64, bool) {
         match self {
             Source::Sign => (sign(bits) as f64, true),
@@ -147,7 +147,7 @@ impl Source {
 }
 
 impl Source {
-    /// One of both ends, 0, or any number, up to a thousandth of the range.
+    /// Draws a number near one of both ends or 0, or any number, up to a thousandth of the range.
     fn edge(&self, bits: u64, is_short: bool) -> Rational {
         const NEAR: f64 = 1.0 / 1024.0;
         let (place, bits) = (bits % 4, bits >> 2 << 2);
@@ -171,9 +171,9 @@ fn sign(bits: u64) -> i64 {
     if bits >> 63 == 0 { 1 } else { -1 }
 }
 
-/// A number strictly between two ends and not 0, if there is one in f64.
+/// Draws a number strictly between two ends and not 0, if f64 has one.
 fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
-    // 53 bits, and a half so that neither end is met.
+    // 53 bits, and a half so that neither end is attained.
     let share = ((bits >> 11) as f64 + 0.5) * (-53f64).exp2();
     let value = low + (high - low) * share;
     (low < value && value < high && value != 0.0).then_some(value)
@@ -207,20 +207,20 @@ impl Grid {
             }
             Grid::Any { low, step, count } => {
                 let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
-                // Formulas that are wrong in general hold on coordinate planes.
+                // Some false formulas hold on coordinate planes.
                 if value.is_zero() { &value + step } else { value }
             }
         }
     }
 }
 
-/// A number of a grid, times its denominator.
+/// Returns a number of a grid, times its denominator.
 fn numerator(bits: u64, low: i64, step: i64, count: u64) -> i64 {
     let value = low + step * (1 + scale(bits, count) as i64);
     if value == 0 { step } else { value }
 }
 
-/// Both numbers over one denominator, if a grid of them cannot overflow.
+/// Brings both numbers over one denominator, if a grid of them cannot overflow.
 fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Grid> {
     const SMALL: i64 = 1 << 31;
     let (_, below) = low.parts();
@@ -232,13 +232,14 @@ fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Grid> {
     room.then_some(Grid::Small { low, step, denominator, count })
 }
 
-/// A step of the form 10^k and how many points lie strictly inside `width`: about a thousand.
+/// Chooses a step of the form 10^k; returns it with the number of points strictly inside `width`,
+/// about a thousand.
 fn grid(width: &Rational) -> (Rational, u64) {
     let (size, _) = width.to_f64();
     let exponent = (size.log10().floor() as i32).clamp(-400, 400) - 3;
     let step = Rational::from(10).powi(exponent).unwrap_or_else(|| Rational::from(1));
     let (steps, _) = step.recip().map_or((1000.0, true), |inverse| (width * &inverse).to_f64());
-    // One point is kept back, for the step away from 0.
+    // One point is reserved for the step away from 0.
     (step, (steps.ceil() as u64).saturating_sub(2).max(1))
 }
 

@@ -1,7 +1,7 @@
-//! A body with a flat part rolling, rubber-like, on a sphere.
+//! A body with a flat part in rubber rolling on a sphere.
 //!
 //! The contact stays in the plane face: γ = e₃ in the body, ω = (ω₁,ω₂,0), and the point of contact
-//! r = (r₁,r₂,z) wanders, z fixed (the third coordinate of the vector from the mass centre):
+//! r = (r₁,r₂,z) moves with fixed z (the third coordinate of the vector from the mass centre):
 //!
 //! ```text
 //! r₁' = ω₂/k,  r₂' = -ω₁/k
@@ -23,19 +23,19 @@ use crate::scalar::Scalar;
 /// A body with a flat part on a sphere of curvature k.
 #[derive(Clone, Debug)]
 pub struct FlatBase {
-    /// m
+    /// Mass m.
     pub mass: Formula,
-    /// The central inertia tensor I.
+    /// Central inertia tensor I.
     pub inertia: Formula,
-    /// k
+    /// Curvature k of the sphere.
     pub curvature: Formula,
-    /// z
+    /// Height z of the contact.
     pub height: Formula,
-    /// S
+    /// Constant angular momentum S of a rotor.
     pub gyrostat: Option<Formula>,
 }
 
-/// The constants of the motion's equations over one scalar.
+/// Constants of the equations of motion over one scalar.
 #[derive(Clone, Copy)]
 struct Constants<T> {
     mass: T,
@@ -58,7 +58,7 @@ impl FlatBase {
         }
     }
 
-    /// (ω₁', ω₂', r₁', r₂')
+    /// Returns the rates (ω₁', ω₂', r₁', r₂').
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let [w1, w2, r1, r2] = coordinates(phase);
         let constants = self.constants(phase);
@@ -66,13 +66,14 @@ impl FlatBase {
         vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
     }
 
-    /// ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂, zero exactly when a density ρ(r₁,r₂) exists; ∂ln ρ/∂r_i = ξ_i, (4.8).
+    /// Computes ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂, zero exactly when a density ρ(r₁,r₂) exists; ∂ln ρ/∂r_i = ξ_i,
+    /// (4.8).
     pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let [from_1, from_2] = self.criterion_terms(phase);
         from_2 - from_1
     }
 
-    /// ∂ξ₁/∂r₂ and ∂ξ₂/∂r₁.
+    /// Computes ∂ξ₁/∂r₂ and ∂ξ₂/∂r₁.
     pub fn criterion_terms<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
         let [_, _, r1, r2] = coordinates(phase);
         let constants = self.constants(phase).map(Dual::from_re);
@@ -81,14 +82,14 @@ impl FlatBase {
         [constants.xi1([still(r1), along(r2)]).eps, constants.xi2([along(r1), still(r2)]).eps]
     }
 
-    /// (ξ₁, ξ₂) with div v = -(ξ,r').
+    /// Computes (ξ₁, ξ₂) with div v = -(ξ,r').
     pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
         let [_, _, r1, r2] = coordinates(phase);
         let constants = self.constants(phase);
         [constants.xi1([r1, r2]), constants.xi2([r1, r2])]
     }
 
-    /// ½(ω,Ĩω)
+    /// Energy ½(ω,Ĩω).
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let [w1, w2, r1, r2] = coordinates(phase);
         let omega = Vector3::new(w1, w2, T::zero());
@@ -96,7 +97,7 @@ impl FlatBase {
         omega.dot(&(inertia * omega)) / T::from(2.0)
     }
 
-    /// A quantity that a formula names.
+    /// Evaluates a quantity named in a formula.
     pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let [w1, w2, r1, r2] = coordinates(phase);
         let constants = self.constants(phase);
@@ -138,17 +139,17 @@ impl<T: Scalar> Constants<T> {
         ]
     }
 
-    /// ξ₁: ω = (0,k) makes r' = (1,0).
+    /// Computes ξ₁: ω = (0,k) makes r' = (1,0).
     fn xi1(&self, r: [T; 2]) -> T {
         -self.divergence([T::zero(), self.curvature], r)
     }
 
-    /// ξ₂: ω = (-k,0) makes r' = (0,1).
+    /// Computes ξ₂: ω = (-k,0) makes r' = (0,1).
     fn xi2(&self, r: [T; 2]) -> T {
         -self.divergence([-self.curvature, T::zero()], r)
     }
 
-    /// ∂ω₁'/∂ω₁ + ∂ω₂'/∂ω₂
+    /// Computes ∂ω₁'/∂ω₁ + ∂ω₂'/∂ω₂.
     fn divergence(&self, omega: [T; 2], r: [T; 2]) -> T {
         let lifted = self.map(Dual::from_re);
         let r = r.map(Dual::from_re);

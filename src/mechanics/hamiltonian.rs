@@ -1,4 +1,4 @@
-//! Hamilton's equations x' = P ∂H/∂x, with the bracket P and the function H given by the file.
+//! Hamilton's equations x' = P ∂H/∂x with bracket P and function H from the case file.
 
 use super::calculus::dot;
 use super::configuration::Configuration;
@@ -8,19 +8,19 @@ use super::variables::{Block, symmetric_part, tensor};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
-/// A function and a bracket of the state variables.
+/// A Hamiltonian system: a function and a bracket of the state variables.
 #[derive(Clone, Debug)]
 pub struct Hamiltonian {
-    /// H
+    /// Hamiltonian H.
     pub function: Formula,
-    /// The blocks of P, by pairs of state variables.
+    /// Blocks of P, by pairs of state variables.
     pub blocks: Vec<Vec<Option<Block>>>,
-    /// The state variable that is time, whose rate is 1.
+    /// Index of the state variable that is time, with rate 1.
     pub clock: Option<usize>,
 }
 
 impl Hamiltonian {
-    /// The rates of all components of the state.
+    /// Returns the rates of all components of the state.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let state = &phase.model().state;
         let gradient: Vec<T> = (0..phase.model().dimension())
@@ -39,18 +39,18 @@ impl Hamiltonian {
         rates
     }
 
-    /// H
+    /// Evaluates H.
     pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         at.evaluate(&self.function).scalar().unwrap_or_else(T::zero)
     }
 
-    /// P + Pᵀ, which vanishes where P is a bracket.
+    /// Computes P + Pᵀ, which vanishes where P is a bracket.
     pub fn symmetric_part<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let state = &phase.model().state;
         symmetric_part(state, &tensor(state, &self.blocks, phase))
     }
 
-    /// H and the blocks that are typed.
+    /// Iterates over H and the given blocks.
     pub fn functions(&self) -> impl Iterator<Item = &Formula> {
         let blocks = self.blocks.iter().flatten().flatten().filter_map(Block::typed);
         [&self.function].into_iter().chain(blocks)

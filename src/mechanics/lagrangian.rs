@@ -8,9 +8,9 @@
 //! nonholonomic: 𝓛 = L          vakonomic: 𝓛 = L - Σ λ_k f_k, λ_k' = μ_k
 //! ```
 //!
-//! and f_k' = 0 gives the reactions μ. Where f_k is not linear, a_k = ∂f_k/∂w
-//! (Chetaev's rule). In coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov, Dynamics of systems with
-//! nonintegrable constraints II: (27), (28), (33).
+//! and f_k' = 0 gives the reactions μ. Where f_k is not linear, a_k = ∂f_k/∂w (Chetaev's rule). In
+//! coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov, Dynamics of systems with nonintegrable
+//! constraints II: (27), (28), (33).
 
 use num_dual::Dual;
 
@@ -24,28 +24,28 @@ use crate::scalar::Scalar;
 /// A Lagrangian system with constraints.
 #[derive(Clone, Debug)]
 pub struct Lagrangian {
-    /// T
+    /// Kinetic energy T.
     pub kinetic: Formula,
-    /// U
+    /// Potential U.
     pub potential: Option<Formula>,
-    /// f_k
+    /// Constraints f_k.
     pub constraints: Vec<Formula>,
-    /// What each state variable is.
+    /// Role of each state variable.
     pub roles: Vec<Role>,
-    /// How the fields X_i commute.
+    /// Commutators of the fields X_i.
     pub algebra: Algebra,
     /// Generalised forces, by the components of the state that are their velocities.
     pub forces: Vec<(usize, Formula)>,
-    /// Are the multipliers part of the state?
+    /// Whether the motion is vakonomic, with multipliers in the state.
     pub vakonomic: bool,
 }
 
-/// What a state variable is.
+/// The role of a state variable.
 #[derive(Clone, Debug)]
 pub enum Role {
-    /// A coordinate whose rate is this state variable.
+    /// A coordinate whose rate is the given state variable.
     Coordinate(usize),
-    /// A coordinate whose rate is given, by formulas whose components follow one after the other.
+    /// A coordinate with a given rate; the components of its formulas follow one after another.
     Carried(Vec<Formula>),
     /// Time, whose rate is 1.
     Time,
@@ -55,29 +55,30 @@ pub enum Role {
     Multiplier,
 }
 
-/// How the fields X_i commute.
+/// Commutation relations of the fields X_i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Algebra {
-    /// They do: velocities are those of coordinates.
+    /// Commuting fields: velocities are the rates of coordinates.
     Commuting,
-    /// The three components from this one on are an angular velocity in the body: P' = P × ω.
+    /// Rotations: three components from this one on are an angular velocity in the body, P' = P ×
+    /// ω.
     Rotations(usize),
-    /// They are as many as the coordinates, and their commutators are computed.
+    /// General fields, as many as the coordinates; their commutators are computed.
     Frame,
 }
 
-/// The pieces of the equations at a point.
+/// Terms of the equations of motion at a point.
 struct Motion<T> {
-    /// The components of the state that are velocities.
+    /// Components of the state that are velocities.
     velocities: Vec<usize>,
     acceleration: Vec<T>,
     reactions: Vec<T>,
-    /// The rates of the coordinates, 0 in the other components.
+    /// Rates of the coordinates, 0 in the other components.
     drift: Vec<T>,
 }
 
 impl Lagrangian {
-    /// The rates of all components of the state.
+    /// Returns the rates of all components of the state.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let motion = self.motion(phase);
         let mut field = motion.drift;
@@ -90,12 +91,12 @@ impl Lagrangian {
         field
     }
 
-    /// μ_k, the reaction of a constraint.
+    /// Returns the reaction μ_k of a constraint.
     pub fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
         self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::zero)
     }
 
-    /// (w, ∂𝓛/∂w) - 𝓛, which is L₂ - L₀ + Σ λ_k b_k in a vakonomic system.
+    /// Energy (w, ∂𝓛/∂w) - 𝓛, which is L₂ - L₀ + Σ λ_k b_k in a vakonomic system.
     pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let state = at.components();
         let mut stretch = vec![T::zero(); state.len()];
@@ -106,7 +107,7 @@ impl Lagrangian {
         scaled.eps - scaled.re
     }
 
-    /// The components of the state that are velocities.
+    /// Returns the components of the state that are velocities.
     pub fn velocities(&self, state: &[Variable]) -> Vec<usize> {
         self.components(state, |role| matches!(role, Role::Velocity)).collect()
     }
@@ -115,7 +116,7 @@ impl Lagrangian {
         self.components(state, |role| matches!(role, Role::Multiplier))
     }
 
-    /// The components of the variables with some role.
+    /// Returns the components of the variables with some role.
     fn components<'a>(
         &'a self,
         state: &'a [Variable],
@@ -129,7 +130,7 @@ impl Lagrangian {
         places.filter(move |(_, role)| keep(role)).flat_map(|(place, _)| place)
     }
 
-    /// L, or L - Σ λ_k f_k.
+    /// Evaluates L, or L - Σ λ_k f_k.
     pub fn lagrangian<T: Scalar>(&self, at: &Configuration<'_, T>, with_multipliers: bool) -> T {
         let scalar = |formula| at.evaluate(formula).scalar().unwrap_or_else(T::zero);
         let mut value = scalar(&self.kinetic);
@@ -145,7 +146,7 @@ impl Lagrangian {
         value
     }
 
-    /// The rates of the coordinates as functions of the state; 0 in the other components.
+    /// Returns the rates of the coordinates as functions of the state, 0 in the other components.
     pub fn drift<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
         let mut rates = Vec::new();
         for (role, variable) in self.roles.iter().zip(&at.model.state) {
@@ -178,7 +179,7 @@ impl Lagrangian {
         let drift = self.drift(at);
         let moved: Vec<Configuration<'_, Dual<T>>> =
             units.iter().map(|unit| at.lift_state(unit)).collect();
-        // ∂²𝓛 along w_i and a direction
+        // ∂²𝓛 along w_i and a direction.
         let mixed = |i: usize, direction: &[T]| {
             let direction: Vec<Dual<T>> = direction.iter().map(|x| Dual::from_re(*x)).collect();
             self.lagrangian(&moved[i].lift_state(&direction), self.vakonomic).eps.eps
@@ -229,7 +230,7 @@ impl Lagrangian {
         Motion { velocities, acceleration, reactions, drift }
     }
 
-    /// c^b_ia w_a P_b = (p, [X_i, Y]) with Y = Σ w_a X_a and (p, X_i) = P_i.
+    /// Computes c^b_ia w_a P_b = (p, [X_i, Y]) with Y = Σ w_a X_a and (p, X_i) = P_i.
     fn turning<T: Scalar>(
         &self,
         at: &Configuration<'_, T>,

@@ -1,26 +1,26 @@
-//! Small linear algebra without pivots or comparisons, fit for recorded scalars.
+//! Small linear algebra without pivots or comparisons, for recorded scalars.
 
 use nalgebra::{Matrix3, Vector3};
 
 pub(super) use crate::formula::adjugate;
 use crate::scalar::Scalar;
 
-/// The determinant, from an adjugate that is already there.
+/// Computes the determinant from a known adjugate.
 pub fn determinant_with<T: Scalar>(a: &Matrix3<T>, adjugate: &Matrix3<T>) -> T {
     (0..3).map(|k| a[(0, k)] * adjugate[(k, 0)]).sum()
 }
 
-/// x E
+/// Isotropic matrix x E.
 pub fn isotropic<T: Scalar>(x: T) -> Matrix3<T> {
     Matrix3::from_diagonal_element(x)
 }
 
-/// m((r,r)E - r⊗r), what a point mass at r adds to an inertia tensor.
+/// Contribution m((r,r)E - r⊗r) of a point mass at r to an inertia tensor.
 pub fn point_mass<T: Scalar>(m: T, r: &Vector3<T>) -> Matrix3<T> {
     (isotropic(r.dot(r)) - r * r.transpose()) * m
 }
 
-/// The determinant of A restricted to the plane across γ: (γ, adj(A)γ)/γ².
+/// Computes the determinant of A restricted to the plane across γ: (γ, adj(A)γ)/γ².
 pub fn across<T: Scalar>(a: &Matrix3<T>, gamma: &Vector3<T>) -> T {
     gamma.dot(&(adjugate(a) * gamma)) / gamma.dot(gamma)
 }

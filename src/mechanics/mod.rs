@@ -68,14 +68,14 @@ pub enum System {
     Ball(Box<BallOnSurface>),
     /// A Lagrangian with constraints that are linear in the velocities.
     Lagrangian(Box<Lagrangian>),
-    /// Hamilton's equations with a bracket that the case gives.
+    /// Hamilton's equations with a bracket given by the case.
     Hamiltonian(Box<Hamiltonian>),
-    /// The user's own field: the rate of each state variable.
+    /// A vector field of the user: the rate of each state variable.
     Field(Vec<Formula>),
 }
 
 impl System {
-    /// The formulas of the equations of motion that may depend on the state.
+    /// Returns the formulas of the equations of motion that may depend on the state.
     pub fn functions(&self) -> Vec<&Formula> {
         fn typed(potential: &Option<Potential>) -> Option<&Formula> {
             match potential {
@@ -110,7 +110,7 @@ impl System {
         }
     }
 
-    /// Is a surface, a profile or a potential arbitrary?
+    /// Whether a surface, a profile or a potential is arbitrary.
     pub fn has_arbitrary_function(&self) -> bool {
         let is_open = |shape: &Shape| shape.formula().is_none();
         let is_any =
@@ -128,7 +128,7 @@ impl System {
         }
     }
 
-    /// The time derivatives of the state's components, in order.
+    /// Returns the time derivatives of the state's components, in order.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
             System::Rubber(body) => body.field(phase),
@@ -142,7 +142,7 @@ impl System {
         }
     }
 
-    /// ½(ω,Ĩω) + U, for the systems that are bodies, or have a Lagrangian; or H.
+    /// Energy: ½(ω,Ĩω) + U of a body, that of a Lagrangian, or H; `None` for a vector field.
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) => Some(body.energy(phase)),
@@ -154,7 +154,7 @@ impl System {
         }
     }
 
-    /// Short formulas for values that claims are made of, where some are known.
+    /// Closed formulas for values that occur in claims, where some are known.
     pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
             System::Rubber(body) => body.shortcuts(phase),
@@ -162,7 +162,7 @@ impl System {
         }
     }
 
-    /// div v by a formula of the system's own, where there is one.
+    /// Divergence div v by a closed formula of the system, where there is one.
     pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) if phase.model().extension.is_empty() => body.divergence(phase),
@@ -170,18 +170,18 @@ impl System {
         }
     }
 
-    /// Is there a criterion for densities of the configuration alone?
+    /// Whether a criterion for densities of the configuration alone exists.
     pub fn has_criterion(&self) -> bool {
         matches!(self, System::Rubber(_) | System::FlatBase(_))
     }
 
-    /// Is there an energy?
+    /// Whether the system has an energy.
     pub fn has_energy(&self) -> bool {
         !matches!(self, System::Field(_))
     }
 
-    /// Are the rates of velocities more than quadratic forms of the velocities: is there a potential,
-    /// a gyrostat, a rotation?
+    /// Whether the rates of velocities are more than quadratic forms of the velocities, because of
+    /// a potential, a gyrostat or a rotation.
     pub fn energy_is_inhomogeneous(&self) -> bool {
         match self {
             System::Rubber(body) => {
@@ -193,8 +193,8 @@ impl System {
         }
     }
 
-    /// The same body without potential and gyrostat; nothing where it is not known what belongs to the
-    /// free motion (a further moment may be quadratic in the velocities).
+    /// Returns the same body without potential and gyrostat; `None` where the free motion is not
+    /// known (a further moment may be quadratic in the velocities).
     pub fn without_forces(&self) -> Option<System> {
         let mut free = self.clone();
         match &mut free {
@@ -216,7 +216,8 @@ impl System {
         Some(free)
     }
 
-    /// Zero everywhere exactly when a density of the configuration alone exists.
+    /// Computes the criterion, which is zero everywhere exactly when a density of the configuration
+    /// alone exists.
     pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) => Some(body.criterion(&phase.configuration)),
@@ -225,7 +226,8 @@ impl System {
         }
     }
 
-    /// The covector whose rotation the criterion is: w(γ) of a rubber body, ξ(r) of a flat base.
+    /// Returns the covector whose rotation is the criterion: w(γ) of a rubber body, ξ(r) of a flat
+    /// base.
     pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
         match self {
             System::Rubber(body) => {
@@ -236,7 +238,7 @@ impl System {
         }
     }
 
-    /// The square of what the criterion is small against: |a|² for a rubber body, the squares of
+    /// Returns the square of the scale of the criterion: |a|² for a rubber body, the squares of
     /// both terms for a flat base.
     pub fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         match self {
@@ -252,8 +254,9 @@ impl System {
         }
     }
 
-    /// (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ there, as it is
-    /// for the surface of a body; nothing where r is the gradient of a support function anyhow.
+    /// Computes (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ
+    /// there, as it is for the surface of a body; `None` where r is the gradient of a support
+    /// function.
     pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         match self {
             System::Rubber(body) if matches!(body.shape, Shape::Contact(_)) => {
@@ -263,7 +266,7 @@ impl System {
         }
     }
 
-    /// The moment of forces that a case gives beside or in place of a potential.
+    /// Returns the moment of forces given besides or instead of a potential.
     pub fn moment(&self) -> Option<&Formula> {
         match self {
             System::Rubber(body) => body.moment.as_ref(),
@@ -271,7 +274,7 @@ impl System {
         }
     }
 
-    /// Are the level functions integrals in all of phase space by construction?
+    /// Whether the level functions are integrals in all of phase space by construction.
     ///
     /// True for a body whose r is homogeneous of degree 0: then Γγ = γ and γ' is across γ.
     pub fn conserves_level(&self) -> bool {
@@ -282,7 +285,7 @@ impl System {
         }
     }
 
-    /// The tangential χ with div v = (χ,ω) on the level.
+    /// Computes the tangential χ with div v = (χ,ω) on the level.
     pub fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
         match self {
             System::Rubber(body) => Some(body.chi(&phase.configuration).into()),
@@ -290,8 +293,8 @@ impl System {
         }
     }
 
-    /// Is ω' homogeneous and quadratic in ω? Then the criterion excludes every density that is
-    /// analytic near ω = 0; with a potential, a moment or a gyrostat only those of the
+    /// Whether ω' is homogeneous and quadratic in ω. Then the criterion excludes every density that
+    /// is analytic near ω = 0; with a potential, a moment or a gyrostat only densities of the
     /// configuration alone.
     pub fn is_free(&self) -> bool {
         match self {

@@ -1,4 +1,4 @@
-//! A mechanical system with its names, parameters, state and level set: what a case is about.
+//! A mechanical system with its names, parameters, state and level set.
 
 use std::rc::Rc;
 
@@ -13,15 +13,15 @@ use crate::scalar::Scalar;
 /// A parameter of a case.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its canonical name.
+    /// Canonical name.
     pub name: String,
-    /// Scalar, vector or matrix.
+    /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
-    /// Where its value comes from.
+    /// Source of the value.
     pub origin: Origin,
 }
 
-/// Where a parameter's value comes from.
+/// The source of a parameter's value.
 #[derive(Clone, Debug)]
 pub enum Origin {
     /// Fixed by the file, component by component; folded into the tape.
@@ -35,25 +35,25 @@ pub enum Origin {
 /// A variable of the state.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// Its canonical name.
+    /// Canonical name.
     pub name: String,
-    /// Scalar, vector or matrix.
+    /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
 }
 
 impl Variable {
-    /// How many components it has.
+    /// Number of components.
     pub fn len(&self) -> usize {
         components(self.kind)
     }
 
-    /// Never: every variable has a component.
+    /// Whether the variable has no components: never.
     pub fn is_empty(&self) -> bool {
         false
     }
 }
 
-/// Components of a value of this kind.
+/// Number of components of a value of this type.
 pub fn components(kind: Type) -> usize {
     kind.size()
 }
@@ -61,63 +61,63 @@ pub fn components(kind: Type) -> usize {
 /// One equation F = 0 of the level set.
 #[derive(Clone, Debug)]
 pub struct LevelEquation {
-    /// How the user or the paper writes it, e.g. `(ω,γ) = 0`.
+    /// Text of the equation as the user or the paper writes it, such as `(ω,γ) = 0`.
     pub text: String,
-    /// F, a scalar.
+    /// Function F, a scalar.
     pub function: LevelFunction,
-    /// Its sides, where one of them is a root: A = e² is solved in place of √A = e.
+    /// Sides of the equation if one of them is a root: A = e² is solved in place of √A = e.
     pub root: Option<RootEquation>,
 }
 
-/// √A = e, or |x| = e.
+/// An equation √A = e, or |x| = e.
 #[derive(Clone, Debug)]
 pub struct RootEquation {
-    /// A or x.
+    /// Radicand A, or x.
     pub radicand: Formula,
-    /// Whether it is x.
+    /// Whether the equation is |x| = e.
     pub is_modulus: bool,
-    /// e, which is not negative on the level.
+    /// Other side e, which is not negative on the level.
     pub other_side: Formula,
 }
 
-/// The function whose zeros a level equation means.
+/// The function whose zeros are the points of a level equation.
 #[derive(Clone, Debug)]
 pub enum LevelFunction {
-    /// F0 = (γ,γ) - 1 of the rubber systems.
+    /// Function F0 = (γ,γ) - 1 of the rubber systems.
     UnitNormal,
-    /// F1 = (ω,γ): no spinning.
+    /// Function F1 = (ω,γ) of the constraint without spinning.
     NoSpin,
     /// The difference of the two sides of an equation.
     Formula(Formula),
 }
 
-/// A mechanical system, its names and its level set: what a case is about.
+/// A mechanical system with its names and its level set, the subject of a case.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// The equations of motion.
+    /// Equations of motion.
     pub system: System,
-    /// All names.
+    /// All names of the case.
     pub vocabulary: Vocabulary,
     /// Parameters in the order of the file, then those of arbitrary functions.
     pub parameters: Vec<Parameter>,
-    /// State variables in order: the system's own, then those that a case adds.
+    /// State variables in order: the system's variables, then those added by a case.
     pub state: Vec<Variable>,
-    /// The rates of the variables that a case adds to a built-in system, one after the other; that of
+    /// Rates of the variables that a case adds to a built-in system, one after another; the rate of
     /// a vector may take several formulas.
     pub extension: Vec<Formula>,
     /// New variables as functions of the state, with a bracket for them.
     pub variables: Option<Box<Variables>>,
-    /// `let` abbreviations.
+    /// Abbreviations defined by `let`.
     pub abbreviations: Vec<Formula>,
-    /// The equations of the level set.
+    /// Equations of the level set.
     pub level: Vec<LevelEquation>,
-    /// Names whose values are written into the case outside formulas: in sizes, and in keys.
+    /// Names whose values are written into the case outside formulas, as sizes and in keys.
     pub fixed: Vec<Symbol>,
 }
 
 impl Model {
-    /// A model with the same parameters whose state is only named, and those abbreviations that
-    /// can be read in its names; there they mean the same function of what they name.
+    /// Makes a model with the same parameters, a state that is only named, and the abbreviations
+    /// that can be read in its names, where they are the same functions of the named values.
     pub fn with_names(&self, vocabulary: Vocabulary, state: Vec<Variable>) -> Self {
         let mut named = Self {
             system: self.system.clone(),
@@ -147,14 +147,14 @@ impl Model {
         named
     }
 
-    /// Does a formula, or an abbreviation that it uses, contain an ∫?
+    /// Whether a formula, or an abbreviation that it uses, contains an ∫.
     pub fn has_antiderivative(&self, formula: &Formula) -> bool {
         let all = self.vocabulary.with_abbreviations(formula, &self.abbreviations);
         all.into_iter().any(Formula::has_antiderivative)
     }
 
-    /// Is the value of a parameter written into the case, or into one of these formulas, as a size or an
-    /// index? Then the parameter cannot change.
+    /// Whether the value of a parameter is written into the case, or into one of these formulas, as
+    /// a size or an index, so that the parameter cannot change.
     pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
         let given = self.parameters.iter().filter_map(|parameter| match &parameter.origin {
             Origin::Formula(formula) => Some(formula),
@@ -183,7 +183,7 @@ impl Model {
         false
     }
 
-    /// The formulas that are functions of the state before anything is claimed: the equations of
+    /// Returns the formulas that are functions of the state apart from the claims: the equations of
     /// motion, the new variables, and the level.
     pub fn functions(&self) -> Vec<&Formula> {
         let level = self.level.iter().filter_map(|equation| match &equation.function {
@@ -193,13 +193,13 @@ impl Model {
         self.dynamics().into_iter().chain(level).collect()
     }
 
-    /// The formulas of the equations of motion and of the new variables.
+    /// Returns the formulas of the equations of motion and of the new variables.
     pub fn dynamics(&self) -> Vec<&Formula> {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
         self.system.functions().into_iter().chain(&self.extension).chain(images).collect()
     }
 
-    /// How many state variables are the system's own, before those that a case adds.
+    /// Number of state variables of the system, without those that a case adds.
     pub fn own_variables(&self) -> usize {
         let mut added: usize = self.extension.iter().map(|rate| rate.value_type().size()).sum();
         let mut count = self.state.len();
@@ -210,12 +210,12 @@ impl Model {
         count
     }
 
-    /// The dimension of phase space.
+    /// Dimension of phase space.
     pub fn dimension(&self) -> usize {
         self.state.iter().map(Variable::len).sum()
     }
 
-    /// The variable that a component of the state belongs to, and its place there.
+    /// Returns the variable that a component of the state belongs to, and the place in it.
     pub fn variable_of(&self, component: usize) -> Option<(&Variable, usize)> {
         let mut first = 0;
         let starts = self.state.iter().map(|variable| {
@@ -226,7 +226,7 @@ impl Model {
         found.map(|(variable, start)| (variable, component - start))
     }
 
-    /// The name of a component of the state, such as `γ3` or `L[2,1]`.
+    /// Returns the name of a component of the state, such as `γ3` or `L[2,1]`.
     pub fn component_name(&self, component: usize) -> String {
         match self.variable_of(component) {
             Some((variable, place)) => variable.kind.component(&variable.name, place),
@@ -234,17 +234,17 @@ impl Model {
         }
     }
 
-    /// How many inputs the free parameters take.
+    /// Number of inputs for the free parameters.
     pub fn free_components(&self) -> usize {
         self.free_parameters().map(|parameter| components(parameter.kind)).sum()
     }
 
-    /// The parameters that are inputs of the tape.
+    /// Returns the parameters that are inputs of the tape.
     pub fn free_parameters(&self) -> impl Iterator<Item = &Parameter> {
         self.parameters.iter().filter(|parameter| matches!(parameter.origin, Origin::Free(_)))
     }
 
-    /// Where parameter `index` stands among the components of the free ones, if it is free.
+    /// Returns the place of parameter `index` among the components of the free ones, if it is free.
     pub fn free_component(&self, index: usize) -> Option<usize> {
         let is_free = |parameter: &Parameter| matches!(parameter.origin, Origin::Free(_));
         let before = self.parameters[..index].iter().filter(|parameter| is_free(parameter));
@@ -252,12 +252,13 @@ impl Model {
         is_free(&self.parameters[index]).then_some(start)
     }
 
-    /// The draws that make the free parameters, in order.
+    /// Returns the draws that make the free parameters, in order.
     pub fn parameter_draws(&self) -> Vec<Draw> {
         self.recipes().flat_map(Recipe::draws).collect()
     }
 
-    /// The draw of a component of the free parameters that is one number drawn by itself.
+    /// Returns the index of the draw of a component of the free parameters, if it is a single drawn
+    /// number.
     pub fn draw_of_component(&self, component: usize) -> Option<usize> {
         let (mut first, mut draw) = (0, 0);
         for parameter in self.free_parameters() {
@@ -271,8 +272,8 @@ impl Model {
         None
     }
 
-    /// The components of the free parameters, made from as many of the draws as they need, and
-    /// the draws that are left.
+    /// Makes the components of the free parameters from the draws they need; returns them with the
+    /// remaining draws.
     pub fn make_parameters<'d, T: Scalar>(&self, mut draws: &'d [T]) -> (Vec<T>, &'d [T]) {
         let mut values = Vec::new();
         for recipe in self.recipes() {
@@ -290,7 +291,7 @@ impl Model {
         })
     }
 
-    /// Spreads the values of the free parameters (`inputs`, in order) over all parameters.
+    /// Distributes the values of the free parameters (`inputs`, in order) over all parameters.
     pub fn assign<T: Scalar>(&self, inputs: &[T]) -> Rc<[Option<Value<T>>]> {
         let mut rest = inputs;
         self.parameters

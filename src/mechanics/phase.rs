@@ -1,8 +1,7 @@
-//! Points over some scalar; everything a formula can name is computed from them, once, and only
-//! when asked for.
+//! Points of phase space over a scalar. Values of named quantities are computed on demand, once.
 //!
-//! [`Phase`] is a point of phase space, [`Configuration`] its part without velocities, where support
-//! functions and potentials live. The two are kept apart because a `Phase<T>` differentiates the
+//! [`Phase`] is a point of phase space, [`Configuration`] its velocity-free part, on which support
+//! functions and potentials depend. The two are separate because a `Phase<T>` differentiates the
 //! body, and so needs `Configuration<Dual<T>>`, but never the reverse.
 
 use std::cell::{Cell, OnceCell, RefCell};
@@ -23,21 +22,21 @@ use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
 pub struct Phase<'m, T> {
-    /// The part without velocities.
+    /// Velocity-free part.
     pub configuration: Configuration<'m, T>,
     known: RefCell<FxHashMap<Symbol, Value<T>>>,
     depth: Cell<u32>,
-    /// Values that keep the domain of what is written.
+    /// Values that are defined exactly where the written formulas are.
     literal: RefCell<FxHashMap<Symbol, Value<T>>>,
     motion: OnceCell<Box<Motion<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
-    /// The rates of the system's own variables.
+    /// Rates of the system's variables, without those that a case adds.
     own_field: OnceCell<Vec<T>>,
     field: OnceCell<Vec<T>>,
 }
 
 impl<'m, T: Scalar> Phase<'m, T> {
-    /// The point with the given values of the free parameters and of the state's components.
+    /// Makes the point with the given values of the free parameters and of the state's components.
     pub fn new(model: &'m Model, free: &[T], state: &[T]) -> Self {
         Self::with_parameters(model, model.assign(free), state)
     }
@@ -65,23 +64,23 @@ impl<'m, T: Scalar> Phase<'m, T> {
         }
     }
 
-    /// The case this belongs to.
+    /// Returns the model to which the point belongs.
     pub fn model(&self) -> &'m Model {
         self.configuration.model
     }
 
-    /// The state's components in order.
+    /// Returns the state's components in order.
     pub fn state(&self) -> Vec<T> {
         self.configuration.components()
     }
 
-    /// The value of a formula.
+    /// Evaluates a formula.
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
     }
 
-    /// The value of a formula, with one exactly where every operation has one that is written in it,
-    /// in the abbreviations or in the parameters it uses.
+    /// Evaluates a formula so that the value is defined exactly where every operation written in
+    /// it, in its abbreviations and in its parameters is.
     pub fn evaluate_literally(&self, formula: &Formula) -> Value<T> {
         formula.evaluate_literally(&mut |symbol| self.literal_value(symbol))
     }
@@ -112,22 +111,22 @@ impl<'m, T: Scalar> Phase<'m, T> {
         value
     }
 
-    /// The formula behind a symbol that has no literal value yet.
+    /// Returns the formula of a symbol that has no literal value yet.
     fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
         match self.model().vocabulary.entry(symbol).meaning {
             _ if self.literal.borrow().contains_key(&symbol) => None,
-            // the value of a changed parameter is not that of its formula
+            // the value of a changed parameter differs from that of its formula
             Meaning::Parameter(index) if self.configuration.parameters[index].is_some() => None,
             _ => formula_of(self.model(), symbol),
         }
     }
 
-    /// The value of a scalar formula.
+    /// Evaluates a scalar formula.
     pub fn scalar(&self, formula: &Formula) -> T {
         self.evaluate(formula).scalar().unwrap_or_else(T::zero)
     }
 
-    /// The value behind a symbol.
+    /// Returns the value of a symbol.
     pub fn value(&self, symbol: Symbol) -> Value<T> {
         if let Some(value) = self.known.borrow().get(&symbol) {
             return value.clone();
@@ -157,7 +156,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         value
     }
 
-    /// The formula behind a symbol that has no value yet.
+    /// Returns the formula of a symbol that has no value yet.
     fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
         if self.known.borrow().contains_key(&symbol) {
             return None;
@@ -165,11 +164,12 @@ impl<'m, T: Scalar> Phase<'m, T> {
         formula_of(self.model(), symbol)
     }
 
-    /// The rate of state variable `index`.
+    /// Returns the rate of state variable `index`.
     fn rate(&self, index: usize) -> Value<T> {
         let state = &self.model().state;
         let start: usize = state[..index].iter().map(Variable::len).sum();
-        // The rates that a case adds may use those of the system, so these come without them.
+        // The rates that a case adds may use those of the system, which are therefore computed
+        // separately.
         let own = self.own_field();
         let rates = if start < own.len() { own } else { self.field() };
         Value::from_components(state[index].kind, &rates[start..])
@@ -179,7 +179,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         self.own_field.get_or_init(|| self.model().system.field(self))
     }
 
-    /// The vector field: the time derivatives of the state's components, in order.
+    /// Returns the vector field: the time derivatives of the state's components, in order.
     pub fn field(&self) -> &[T] {
         self.field.get_or_init(|| {
             let mut field = self.own_field().to_vec();
@@ -189,17 +189,17 @@ impl<'m, T: Scalar> Phase<'m, T> {
         })
     }
 
-    /// The intermediate results of a rubber system's equations.
+    /// Returns the intermediate results of a rubber system's equations.
     pub(super) fn motion(&self, make: impl FnOnce() -> Motion<T>) -> &Motion<T> {
         self.motion.get_or_init(|| Box::new(make()))
     }
 
-    /// The intermediate results of the equations of a ball on a surface.
+    /// Returns the intermediate results of the equations of a ball on a surface.
     pub(super) fn ball_motion(&self, make: impl FnOnce() -> BallMotion<T>) -> &BallMotion<T> {
         self.ball_motion.get_or_init(|| Box::new(make()))
     }
 
-    /// The value of level function F.
+    /// Evaluates a level function F.
     pub fn level_function(&self, function: &LevelFunction) -> T {
         match function {
             LevelFunction::UnitNormal => {
@@ -214,7 +214,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         }
     }
 
-    /// Another point, with other values of some parameters.
+    /// Returns another point, with other values of some parameters.
     pub fn with(&self, parameters: &[(usize, Value<T>)], state: &[T]) -> Self {
         let mut all = Rc::clone(&self.configuration.parameters);
         if !parameters.is_empty() {
@@ -227,12 +227,12 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self::with_parameters(self.model(), all, state)
     }
 
-    /// A point of another model that has the same parameters.
+    /// Returns a point of another model that has the same parameters.
     pub fn in_model<'n>(&self, model: &'n Model, state: &[T]) -> Phase<'n, T> {
         Phase::with_parameters(model, Rc::clone(&self.configuration.parameters), state)
     }
 
-    /// The same point with a derivative part of one scalar parameter.
+    /// Lifts the point with a derivative part of one scalar parameter.
     pub fn lift_parameter(&self, index: usize, direction: T) -> Phase<'m, Dual<T>> {
         let mut parameters = lift_parameters(&self.configuration.parameters).to_vec();
         let value = self.configuration.parameter(index);
@@ -241,7 +241,8 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Phase::with_parameters(self.model(), parameters.into(), &state)
     }
 
-    /// The same point with the derivative part `direction`, one entry a component of the state.
+    /// Lifts the point with the derivative part `direction`, one entry for each component of the
+    /// state.
     pub fn lift(&self, direction: &[T]) -> Phase<'m, Dual<T>> {
         let state: Vec<_> =
             self.state().into_iter().zip(direction).map(|(x, d)| Dual::new(x, *d)).collect();
@@ -249,7 +250,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Phase::with_parameters(self.model(), parameters, &state)
     }
 
-    /// The same point with the derivative part along coordinate `index`.
+    /// Lifts the point with a derivative part along coordinate `index`.
     pub fn lift_along(&self, index: usize) -> Phase<'m, Dual<T>> {
         let mut direction = vec![T::zero(); self.model().dimension()];
         direction[index] = T::one();

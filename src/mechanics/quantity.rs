@@ -1,4 +1,4 @@
-//! The names a system defines by itself, as the papers use them.
+//! Names that systems define, in the notation of the papers.
 
 use super::vocabulary::Reach;
 use crate::formula::Type;
@@ -71,7 +71,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Is it a function of the position alone, with no velocity in it?
+    /// Whether the quantity is a function of the position alone.
     pub fn is_of_position(self) -> bool {
         use Quantity::*;
         !matches!(
@@ -88,22 +88,22 @@ impl Quantity {
     }
 }
 
-/// What decides whether a quantity is there.
+/// Features of a case that decide which quantities exist.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Features {
-    /// The parameter R, a scalar.
+    /// Whether the parameter R, a scalar, is declared.
     pub radius: bool,
-    /// The parameter c, a vector.
+    /// Whether the parameter c, a vector, is declared.
     pub displacement: bool,
-    /// A curved base.
+    /// Whether the base is curved.
     pub curvature: bool,
-    /// A potential.
+    /// Whether there is a potential.
     pub potential: bool,
-    /// The body is given by its profile.
+    /// Whether the body is given by its profile.
     pub profile: bool,
 }
 
-/// The quantities of a rubber body: name, meaning, kind, reach.
+/// Lists the quantities of a rubber body: name, quantity, type, dependence.
 pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     use Reach::{Configuration, Parameters, Phase};
@@ -155,7 +155,7 @@ pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach
     all
 }
 
-/// The quantities of a body with a flat part on a sphere.
+/// Lists the quantities of a body with a flat part on a sphere.
 pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     vec![
@@ -166,7 +166,7 @@ pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
     ]
 }
 
-/// The quantities of a ball on a surface that is given by a support function, or as a level.
+/// Lists the quantities of a ball on a surface that is given by a support function, or as a level.
 pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     let mut all = vec![
@@ -191,12 +191,12 @@ pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
     all
 }
 
-/// The quantities of Hamilton's equations.
+/// Lists the quantities of Hamilton's equations.
 pub fn of_hamiltonian() -> Vec<(&'static str, Quantity, Type, Reach)> {
     vec![("energy", Quantity::Energy, Type::Scalar, Reach::Phase)]
 }
 
-/// The quantities of a Lagrangian system with some constraints.
+/// Lists the quantities of a Lagrangian system with some constraints.
 pub fn of_lagrangian(constraints: usize) -> Vec<(String, Quantity, Type, Reach)> {
     let mut all = vec![("energy".to_string(), Quantity::Energy, Type::Scalar, Reach::Phase)];
     let reaction =

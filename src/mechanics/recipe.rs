@@ -1,4 +1,4 @@
-//! How the value of a free parameter is made from random draws.
+//! Construction of free parameter values from random draws.
 
 use nalgebra::Matrix3;
 
@@ -9,14 +9,14 @@ use crate::scalar::Scalar;
 /// An open interval with exact ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Range {
-    /// The lower end.
+    /// Lower end.
     pub low: Rational,
-    /// The upper end, above the lower one.
+    /// Upper end, above the lower one.
     pub high: Rational,
 }
 
 impl Range {
-    /// The interval between two fractions `(numerator, denominator)`.
+    /// Makes the interval between two fractions `(numerator, denominator)`.
     pub fn between(low: (i64, i64), high: (i64, i64)) -> Self {
         Self { low: Rational::new(low.0, low.1), high: Rational::new(high.0, high.1) }
     }
@@ -27,21 +27,21 @@ impl Range {
     }
 }
 
-/// One random number.
+/// The distribution of one random number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Draw {
-    /// From the inside of a range.
+    /// A number inside a range.
     Within(Range),
-    /// One of a list.
+    /// A number of a list.
     OneOf(Vec<Rational>),
-    /// From the inside of a range that stands for more: nobody asked for this one.
+    /// A number inside a range that represents a whole line, because no range was declared.
     Of(Line, Range),
-    /// 1 or −1.
+    /// A sign, 1 or −1.
     Sign,
 }
 
 impl Draw {
-    /// The only number there is, if there is no other.
+    /// Returns the value of a draw that has no other.
     pub fn only(&self) -> Option<Rational> {
         match self {
             Draw::OneOf(values) => match values.as_slice() {
@@ -53,7 +53,7 @@ impl Draw {
     }
 }
 
-/// What a range stands for.
+/// The set of numbers that a range represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
     /// All numbers.
@@ -62,26 +62,26 @@ pub enum Line {
     Positive,
 }
 
-/// How a parameter's components come from draws.
+/// The construction of a parameter's components from draws.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Recipe {
-    /// A number.
+    /// A scalar.
     Scalar(Draw),
-    /// A vector of some length with independent components.
+    /// A vector of given length with independent components.
     Vector(usize, Draw),
-    /// A matrix of some size with independent entries.
+    /// A matrix of given size with independent entries.
     Matrix(usize, usize, Draw),
     /// A symmetric matrix with independent entries on and above the diagonal.
     Symmetric(usize, Draw),
     /// A skew matrix with independent entries above the diagonal.
     Skew(usize, Draw),
-    /// A matrix with independent entries on the diagonal.
+    /// A diagonal matrix with independent entries.
     Diagonal(usize, Draw),
-    /// μE
+    /// A spherical tensor μE.
     Spherical(usize, Draw),
-    /// Principal moments that keep the triangle inequalities.
+    /// Principal moments that satisfy the triangle inequalities.
     Inertia(Range),
-    /// The same with I₁ = I₂.
+    /// Principal moments that satisfy the triangle inequalities, with I₁ = I₂.
     AxisymmetricInertia(Range),
     /// An inertia tensor in general position: principal moments turned by a rotation.
     FullInertia(Range),
@@ -90,7 +90,7 @@ pub enum Recipe {
 }
 
 impl Recipe {
-    /// What kind of value is made.
+    /// Returns the type of the value.
     pub fn kind(&self) -> Type {
         match self {
             Recipe::Scalar(_) => Type::Scalar,
@@ -104,7 +104,7 @@ impl Recipe {
         }
     }
 
-    /// The random numbers that are needed, in order.
+    /// Returns the draws that are needed, in order.
     pub fn draws(&self) -> Vec<Draw> {
         // Moments are sums of two of three positive numbers: I₁ = p₂ + p₃ and so on.
         let halves = |range: &Range, count| vec![Draw::Within(range.halved()); count];
@@ -123,7 +123,7 @@ impl Recipe {
         }
     }
 
-    /// The value made from those numbers.
+    /// Makes the value from the drawn numbers.
     pub fn make<T: Scalar>(&self, draws: &[T]) -> Value<T> {
         let principal = |p: [T; 3]| diagonal([p[1] + p[2], p[0] + p[2], p[0] + p[1]]);
         match (self, draws) {
@@ -176,7 +176,7 @@ fn diagonal<T: Scalar>(entries: [T; 3]) -> Matrix3<T> {
     Matrix3::from_diagonal(&entries.into())
 }
 
-/// The rotation of the quaternion (1, a, b, c), rational in its components.
+/// Returns the rotation of the quaternion (1, a, b, c), rational in its components.
 fn rotation<T: Scalar>(quaternion: &[T]) -> Matrix3<T> {
     let (a, b, c) = (quaternion[0], quaternion[1], quaternion[2]);
     let (one, two) = (T::one(), T::from(2.0));

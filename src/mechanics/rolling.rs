@@ -1,7 +1,8 @@
-//! The equations of rubber rolling over plain numbers, wherever those come from.
+//! Equations of rubber rolling for given numerical data of the body and its support.
 //!
-//! Body frame; γ the normal from the support towards the body, r from the mass centre to the point
-//! of contact, k the signed curvature of the support (0 for the plane), Γ = E - k ∂r/∂γ:
+//! All vectors are in the body frame: γ is the normal from the support towards the body, r the
+//! vector from the mass centre to the point of contact, k the signed curvature of the support (0
+//! for the plane), Γ = E - k ∂r/∂γ:
 //!
 //! ```text
 //! Ĩω' = K + λγ,   K = (Ĩω + S)×ω - m r×(ω×r') + M_P,   Ĩ = I + m r²E - m r⊗r
@@ -11,7 +12,7 @@
 //!
 //! Borisov, Mamaev, Bizyaev, Rus. J. Nonlin. Dyn. 9 (2013) 141-202: (1.4), (1.6), (1.7) on the
 //! plane, (1.12), (1.13) on the sphere. The tensor in the gyroscopic term is Ĩ; with the central I
-//! in its place γ², (ω,γ) and the energy would still be conserved, and every measure lost.
+//! instead, γ², (ω,γ) and the energy would still be conserved, and every measure lost.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,38 +20,38 @@ use super::across::AcrossNormal;
 use super::linear::{adjugate, determinant_with};
 use crate::scalar::Scalar;
 
-/// A body on its support at one state.
+/// Data of a body on its support in one state.
 pub struct Pose<T> {
-    /// ω
+    /// Angular velocity ω.
     pub omega: Vector3<T>,
-    /// γ
+    /// Normal γ.
     pub gamma: Vector3<T>,
-    /// m
+    /// Mass m.
     pub mass: T,
-    /// k, absent on the plane.
+    /// Curvature k of the support, absent on the plane.
     pub curvature: Option<T>,
-    /// r
+    /// Contact vector r.
     pub r: Vector3<T>,
-    /// ∂r/∂γ
+    /// Derivative ∂r/∂γ.
     pub slope: Matrix3<T>,
-    /// Γ across γ; absent on the plane, where it is the identity.
+    /// Operator Γ across γ; absent on the plane, where it is the identity.
     pub gamma_across: Option<AcrossNormal<T>>,
-    /// Ĩ
+    /// Inertia tensor Ĩ at the point of contact.
     pub inertia: Matrix3<T>,
 }
 
-/// What the equations compute on their way.
+/// Intermediate results of the equations of motion.
 pub struct Motion<T> {
-    /// Where the body is.
+    /// Data of the body in this state.
     pub pose: Pose<T>,
-    /// γ'
+    /// Rate γ'.
     pub normal_rate: Vector3<T>,
-    /// r'
+    /// Rate r'.
     pub contact_rate: Vector3<T>,
 }
 
 impl<T: Scalar> Motion<T> {
-    /// γ' and r' that belong to a pose.
+    /// Computes γ' and r' for given data.
     pub fn of(pose: Pose<T>) -> Self {
         let free_rate = pose.gamma.cross(&pose.omega);
         let normal_rate = match &pose.gamma_across {
@@ -61,7 +62,7 @@ impl<T: Scalar> Motion<T> {
         Self { pose, normal_rate, contact_rate }
     }
 
-    /// K, with the angular momentum S of a rotor and with moments of forces.
+    /// Computes K, with the angular momentum S of a rotor and with moments of forces.
     pub fn torque(
         &self,
         gyrostat: Option<Vector3<T>>,
@@ -80,7 +81,7 @@ impl<T: Scalar> Motion<T> {
         torque
     }
 
-    /// ω' and λ for K.
+    /// Computes ω' and λ from K.
     pub fn acceleration(&self, torque: Vector3<T>) -> (Vector3<T>, T) {
         let Pose { omega, gamma, curvature, inertia, .. } = &self.pose;
         let adjugate = adjugate(inertia);
@@ -95,7 +96,7 @@ impl<T: Scalar> Motion<T> {
         ((adjugate * total).map(|x| x / determinant), multiplier)
     }
 
-    /// M_P = γ × Γ⁻ᵀ ∂U/∂γ for the slope ∂U/∂γ.
+    /// Computes M_P = γ × Γ⁻ᵀ ∂U/∂γ from the slope ∂U/∂γ.
     pub fn moment_of_potential(&self, slope: &Vector3<T>) -> Vector3<T> {
         let force = match &self.pose.gamma_across {
             None => *slope,
@@ -104,7 +105,7 @@ impl<T: Scalar> Motion<T> {
         self.pose.gamma.cross(&force)
     }
 
-    /// ½(ω,Ĩω)
+    /// Kinetic energy ½(ω,Ĩω).
     pub fn kinetic_energy(&self) -> T {
         let Pose { omega, inertia, .. } = &self.pose;
         omega.dot(&(inertia * omega)) / T::from(2.0)

@@ -1,6 +1,6 @@
 //! Rubber rolling of a rigid body on a plane or on a sphere: no slipping, no spinning.
 //!
-//! The numbers of a case are put into the equations of [`rolling`](super::rolling).
+//! The values of a case are substituted into the equations of [`rolling`](super::rolling).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -13,51 +13,51 @@ use super::rolling::{Motion, Pose};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
-/// The place of ω among the state variables.
+/// Index of ω among the state variables.
 pub const OMEGA: usize = 0;
-/// The place of γ among the state variables.
+/// Index of γ among the state variables.
 pub const NORMAL: usize = 1;
 
 /// A body rolling on a plane or sphere.
 #[derive(Clone, Debug)]
 pub struct Rubber {
-    /// m
+    /// Mass m.
     pub mass: Formula,
-    /// The central inertia tensor I.
+    /// Central inertia tensor I.
     pub inertia: Formula,
-    /// The surface of the body.
+    /// Surface of the body.
     pub shape: Shape,
-    /// The signed curvature k of the support; `None` for the plane.
+    /// Signed curvature k of the support; `None` for the plane.
     pub curvature: Option<Formula>,
-    /// The constant angular momentum S of a rotor.
+    /// Constant angular momentum S of a rotor.
     pub gyrostat: Option<Formula>,
-    /// U(γ)
+    /// Potential U(γ).
     pub potential: Option<Potential>,
-    /// A moment of forces that have no U(γ).
+    /// Moment of forces that have no potential U(γ).
     pub moment: Option<Formula>,
 }
 
 /// A potential U(γ), or U(r) of a ball on a surface.
 #[derive(Clone, Debug)]
 pub enum Potential {
-    /// As typed.
+    /// A potential given by a formula.
     Formula(Formula),
-    /// A polynomial with free coefficients: reaches every jet a residual can contain.
+    /// A polynomial with free coefficients, which attains every jet that a residual can contain.
     Arbitrary(Polynomial),
 }
 
-/// γ
+/// Returns the normal γ.
 pub fn normal<T: Scalar>(at: &Configuration<'_, T>) -> Vector3<T> {
     vector(at.variable(NORMAL))
 }
 
-/// ω
+/// Returns the angular velocity ω.
 pub fn angular_velocity<T: Scalar>(at: &Configuration<'_, T>) -> Vector3<T> {
     vector(at.variable(OMEGA))
 }
 
 impl Rubber {
-    /// (ω', γ')
+    /// Returns the rates (ω', γ').
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let (acceleration, _) = self.acceleration(phase);
         let rate = self.motion(phase).normal_rate;
@@ -81,17 +81,17 @@ impl Rubber {
         })
     }
 
-    /// The curvature k of the support, absent on the plane.
+    /// Returns the curvature k of the support, absent on the plane.
     pub(super) fn curvature_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         self.curvature.as_ref().map(|k| scalar(at.evaluate(k)))
     }
 
-    /// Γ = E - k ∂r/∂γ
+    /// Computes Γ = E - k ∂r/∂γ.
     pub(super) fn gamma_matrix<T: Scalar>(&self, slope: &Matrix3<T>, k: T) -> Matrix3<T> {
         isotropic(T::one()) - slope * k
     }
 
-    /// Γ across γ, absent on the plane.
+    /// Returns Γ across γ, absent on the plane.
     pub(super) fn gamma_across<T: Scalar>(
         &self,
         at: &Configuration<'_, T>,
@@ -113,7 +113,7 @@ impl Rubber {
         matrix(at.evaluate(&self.inertia)) + point_mass(mass, r)
     }
 
-    /// K
+    /// Computes K.
     pub(super) fn torque<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vector3<T> {
         let at = &phase.configuration;
         let motion = self.motion(phase);
@@ -126,12 +126,12 @@ impl Rubber {
         motion.torque(gyrostat, of_potential.into_iter().chain(further))
     }
 
-    /// ω' and λ.
+    /// Computes ω' and λ.
     pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
         self.motion(phase).acceleration(self.torque(phase))
     }
 
-    /// ½(ω,Ĩω) + U
+    /// Energy ½(ω,Ĩω) + U.
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let at = &phase.configuration;
         let kinetic = self.motion(phase).kinetic_energy();
@@ -143,7 +143,7 @@ impl Rubber {
 }
 
 impl Potential {
-    /// U at a point of configuration space.
+    /// Evaluates U at a point of configuration space.
     pub fn value<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         match self {
             Potential::Formula(formula) => scalar(at.evaluate(formula)),

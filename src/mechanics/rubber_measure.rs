@@ -1,4 +1,4 @@
-//! When a rubber body has an invariant measure: the divergence as a covector on the sphere.
+//! Existence of an invariant measure of a rubber body: the divergence as a covector on the sphere.
 //!
 //! With a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ), ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, 1/K = R₁R₂ and s = 1 - k²/K, on |γ| = 1 and modulo γ
 //!
@@ -20,7 +20,7 @@ use super::rubber::{NORMAL, Rubber, normal};
 use crate::scalar::Scalar;
 
 impl Rubber {
-    /// w = (s/D_T) Γᵀa, the covector whose rotation about γ decides; w = a on the plane.
+    /// Computes w = (s/D_T) Γᵀa, whose rotation about γ is the criterion; w = a on the plane.
     pub fn criterion_covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let unit = self.inertial_normal(at);
         let Some(k) = self.curvature_at(at) else { return unit };
@@ -32,7 +32,8 @@ impl Rubber {
         turned * (twist / big_gamma.determinant())
     }
 
-    /// (γ, rot w): zero on the whole sphere exactly when a density ρ(γ) exists; (2.5), (2.21).
+    /// Computes (γ, rot w), zero on the whole sphere exactly when a density ρ(γ) exists; (2.5),
+    /// (2.21).
     pub fn criterion<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
         let slopes = [0, 1, 2]
@@ -43,14 +44,14 @@ impl Rubber {
             .sum()
     }
 
-    /// (γ, rot r)
+    /// Computes (γ, rot r).
     pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let (gamma, (_, slope)) = (normal(at), self.shape.contact(at));
         let cyclic = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].into_iter();
         cyclic.map(|(i, j, k)| gamma[i] * (slope[(k, j)] - slope[(j, k)])).sum()
     }
 
-    /// a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ)
+    /// Computes a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ).
     pub fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
         let (r, _) = self.shape.contact(at);
@@ -58,8 +59,8 @@ impl Rubber {
         along.map(|x| x / gamma.dot(&along))
     }
 
-    /// The tangential χ with div v = (χ,ω) on the level, for a body (∂r/∂γ symmetric across γ); γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where
-    /// ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
+    /// Computes the tangential χ with div v = (χ,ω) on the level, for a body (∂r/∂γ symmetric
+    /// across γ); γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
     pub fn chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
         let drift = Vector3::from_fn(|j, _| {
@@ -74,7 +75,7 @@ impl Rubber {
         turned.cross(&gamma)
     }
 
-    /// ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T
+    /// Computes the reference density ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
     pub fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
         let (r, slope) = self.shape.contact(at);
@@ -85,7 +86,7 @@ impl Rubber {
         }
     }
 
-    /// R₁ + R₂ and R₁R₂, the principal radii of the body at the contact.
+    /// Computes R₁ + R₂ and R₁R₂ for the principal radii of the body at the contact.
     pub fn radii<T: Scalar>(&self, at: &Configuration<'_, T>) -> (T, T) {
         let gamma = normal(at);
         let (_, slope) = self.shape.contact(at);

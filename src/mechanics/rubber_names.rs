@@ -1,4 +1,4 @@
-//! What the names of a rubber body mean.
+//! Evaluation of the names that a rubber body defines.
 
 use nalgebra::Vector3;
 
@@ -12,7 +12,7 @@ use crate::formula::Value;
 use crate::scalar::Scalar;
 
 impl Rubber {
-    /// A quantity that a formula names.
+    /// Evaluates a quantity named in a formula.
     pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let at = &phase.configuration;
         match quantity {
@@ -47,7 +47,7 @@ impl Rubber {
         }
     }
 
-    /// A quantity that does not depend on velocities and needs no derivative.
+    /// Evaluates a quantity that does not depend on velocities and needs no derivative.
     pub fn configuration_quantity<T: Scalar>(
         &self,
         quantity: Quantity,
@@ -83,7 +83,8 @@ impl Rubber {
         }
     }
 
-    /// f1, f2, g1, g2 of section 3.1 and their derivatives by z, from the profile p(z).
+    /// Computes f1, f2, g1, g2 of section 3.1 and their derivatives with respect to z, from the
+    /// profile p(z).
     fn profile_quantity<T: Scalar>(&self, quantity: Quantity, at: &Configuration<'_, T>) -> T {
         let z = at.axis_cosine();
         let [p, p1, p2] = self.shape.profile_jet(at, z);

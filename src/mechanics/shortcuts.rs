@@ -1,9 +1,9 @@
-//! Short formulas for values that the definitions reach by longer ways.
+//! Closed formulas for values that the definitions reach by longer computations.
 //!
-//! They are recorded beside a residual that is to be measured, and take the place of what has the
-//! same value there ([`Graph::merged`](crate::graph::Graph::merged)); where one does not hold, nothing
-//! happens. For a rubber body, with D = ∂r/∂γ, f = K + λγ = Ĩω', b = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ),
-//! P = Ĩ⁻¹ - b⊗Ĩ⁻¹γ (so that ω' = PK on the plane, Pγ = 0, PĨ = E - b⊗γ), and J = γ×:
+//! They are recorded together with a residual that is to be measured, and replace nodes of the same
+//! value ([`Graph::merged`](crate::graph::Graph::merged)); a formula that does not hold has no
+//! effect. For a rubber body, with D = ∂r/∂γ, f = K + λγ = Ĩω', b = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ), P = Ĩ⁻¹ - b⊗Ĩ⁻¹γ
+//! (so that ω' = PK on the plane, Pγ = 0, PĨ = E - b⊗γ), and J = γ×:
 //!
 //! ```text
 //! (Ĩω)'  = m(2(r,r')ω - (r,ω)r' - (r',ω)r) + f
@@ -15,7 +15,7 @@
 //! ```
 //!
 //! div v: ∂/∂ω of r×(ω×r') = (r,r')ω - (r,ω)r'; [Ĩω]× and [S]× have no trace with the symmetric P.
-//! rot b: b is the least of ½(b,Ĩb) on (γ,b) = 1, so b' = P(δγ/(γ,Ĩ⁻¹γ) - Ĩ'b) - (b,δγ)b.
+//! rot b: b minimises ½(b,Ĩb) on (γ,b) = 1, so b' = P(δγ/(γ,Ĩ⁻¹γ) - Ĩ'b) - (b,δγ)b.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -26,7 +26,7 @@ use super::rubber::Rubber;
 use crate::scalar::Scalar;
 
 impl Rubber {
-    /// Values that claims about a body are made of.
+    /// Computes values that occur in claims about a body.
     pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let motion = self.motion(phase);
         let Pose { omega, gamma, mass, r, .. } = &motion.pose;
@@ -45,22 +45,23 @@ impl Rubber {
         values
     }
 
-    /// div v, where it is known by a formula: on the plane, with no moment beside a potential.
+    /// Computes div v where a closed formula is known: on the plane, without a moment besides a
+    /// potential.
     pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         let known = self.curvature.is_none() && self.moment.is_none();
         known.then(|| OnPlane::of(self.motion(phase)).divergence())
     }
 }
 
-/// What the measure on the plane is made of.
+/// Terms of the measure on the plane.
 struct OnPlane<T> {
-    /// (b,γ')
+    /// Term (b,γ').
     along_rate: T,
-    /// mX
+    /// Term mX.
     spread: T,
-    /// mY
+    /// Term mY.
     shear: T,
-    /// (γ, rot b)
+    /// Rotation (γ, rot b).
     rotation: T,
 }
 
@@ -93,14 +94,14 @@ impl<T: Scalar> OnPlane<T> {
         -(self.along_rate + self.spread + self.shear)
     }
 
-    /// v(ln ρ₀)
+    /// Computes v(ln ρ₀).
     fn logarithmic_rate(&self) -> T {
         let half = self.along_rate + self.spread;
         half + half
     }
 }
 
-/// tr MJ with Ju = γ×u
+/// Computes tr MJ with Ju = γ×u.
 fn turned_trace<T: Scalar>(matrix: &Matrix3<T>, gamma: &Vector3<T>) -> T {
     let part = |i: usize, j: usize, k: usize| gamma[i] * (matrix[(j, k)] - matrix[(k, j)]);
     part(0, 1, 2) + part(1, 2, 0) + part(2, 0, 1)

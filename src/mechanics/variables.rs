@@ -1,4 +1,4 @@
-//! New variables y = φ(x) with a bracket: what a Hamiltonian form is written in.
+//! New variables y = φ(x) with a bracket, in which Hamiltonian forms are written.
 
 use super::calculus::Jet;
 use super::model::{Model, Variable};
@@ -9,29 +9,29 @@ use crate::scalar::Scalar;
 /// New variables as functions of the state, and a bracket for them.
 #[derive(Clone, Debug)]
 pub struct Variables {
-    /// The names that formulas in the new variables use; its parameters are the case's.
+    /// Model of the new variables' names; its parameters are the case's.
     pub model: Model,
-    /// One formula a new variable, in the names of the case.
+    /// One formula for each new variable, in the names of the case.
     pub images: Vec<Formula>,
-    /// The blocks of the Poisson tensor, by pairs of variables; 0 where none is given.
+    /// Blocks of the Poisson tensor, by pairs of variables; 0 where none is given.
     pub blocks: Vec<Vec<Option<Block>>>,
 }
 
 /// A block of a Poisson tensor.
 #[derive(Clone, Debug)]
 pub enum Block {
-    /// As given.
+    /// A given block.
     Given(Formula),
-    /// The negative transpose of what is given for the opposite pair.
+    /// The negative transpose of the block given for the opposite pair.
     Opposite(Formula),
-    /// The unit matrix: a canonical pair.
+    /// The unit matrix of a canonical pair.
     Unit,
-    /// The negative unit matrix, of the opposite pair.
+    /// The negative unit matrix, for the opposite of a canonical pair.
     OppositeUnit,
 }
 
 impl Block {
-    /// The formula of a block that is typed.
+    /// Returns the formula of a given block.
     pub(super) fn typed(&self) -> Option<&Formula> {
         match self {
             Block::Given(formula) => Some(formula),
@@ -41,44 +41,44 @@ impl Block {
 }
 
 impl Variables {
-    /// Is a bracket given?
+    /// Whether a bracket is given.
     pub fn has_bracket(&self) -> bool {
         self.blocks.iter().flatten().any(Option::is_some)
     }
 
-    /// The blocks of the bracket that are typed.
+    /// Returns the given blocks of the bracket.
     pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
         self.blocks.iter().flatten().flatten().filter_map(Block::typed)
     }
 
-    /// φ(x), component by component.
+    /// Evaluates φ(x), component by component.
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
     }
 
-    /// The point φ(x), where formulas in the new variables are evaluated.
+    /// Makes the point φ(x), at which formulas in the new variables are evaluated.
     pub fn point<T: Scalar>(&self, phase: &Phase<'_, T>) -> Phase<'_, T> {
         phase.in_model(&self.model, &self.image(phase))
     }
 
-    /// L_vφ
+    /// Computes L_vφ.
     pub fn rates<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| jet.rates(image)).collect()
     }
 
-    /// P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the other
-    /// blocks are skew as they are made.
+    /// Computes P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the
+    /// other blocks are skew by construction.
     pub fn symmetric_part<T: Scalar>(&self, matrix: &[Vec<T>]) -> Vec<T> {
         symmetric_part(&self.model.state, matrix)
     }
 
-    /// P at a point of the new variables, by rows.
+    /// Returns P at a point of the new variables, by rows.
     pub fn tensor<T: Scalar>(&self, there: &Phase<'_, T>) -> Vec<Vec<T>> {
         tensor(&self.model.state, &self.blocks, there)
     }
 }
 
-/// P + Pᵀ within the blocks on the diagonal.
+/// Computes P + Pᵀ within the blocks on the diagonal.
 pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -> Vec<T> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -91,7 +91,7 @@ pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -
     parts
 }
 
-/// The tensor that blocks make at a point whose state they are about, by rows.
+/// Makes the tensor of some blocks at a point in their variables, by rows.
 pub(super) fn tensor<T: Scalar>(
     state: &[Variable],
     blocks: &[Vec<Option<Block>>],
@@ -107,7 +107,7 @@ pub(super) fn tensor<T: Scalar>(
                     (0..variable.len()).flat_map(|i| (0..across.len()).map(move |j| (i, j)));
                 places.map(|(i, j)| if i == j { value } else { T::zero() }).collect()
             };
-            // (i, j) of a block that is given for the opposite pair stands at (j, i).
+            // Entry (i, j) of a block that is given for the opposite pair is at (j, i).
             let (values, strides) = match block {
                 None => (vec![T::zero(); variable.len() * across.len()], (across.len(), 1)),
                 Some(Block::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),

@@ -1,11 +1,11 @@
-//! The names of a case and what they stand for.
+//! Names of a case and their meanings.
 
 use rustc_hash::FxHashMap;
 
 use super::quantity::Quantity;
 use crate::formula::{Formula, Scope, Symbol, Type};
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     /// An entry of the model's parameters.
@@ -14,11 +14,11 @@ pub enum Meaning {
     State(usize),
     /// An entry of the model's abbreviations.
     Abbreviation(usize),
-    /// Something the system itself defines.
+    /// A quantity that the system defines.
     Quantity(Quantity),
 }
 
-/// What a quantity may depend on; later ones include earlier ones.
+/// The dependence of a quantity; later levels include earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reach {
     /// Parameters only.
@@ -32,15 +32,15 @@ pub enum Reach {
 /// A name with its meaning.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// The canonical name.
+    /// Canonical name.
     pub name: String,
-    /// What it stands for.
+    /// Meaning of the name.
     pub meaning: Meaning,
-    /// Scalar, vector or matrix.
+    /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
-    /// What it depends on.
+    /// Dependence of the value.
     pub reach: Reach,
-    /// The whole number that it is, if the file fixes one.
+    /// Integer value, if the file fixes one.
     pub whole: Option<i64>,
 }
 
@@ -58,54 +58,55 @@ impl Vocabulary {
         self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
     }
 
-    /// Notes that a name stands for a whole number that the file fixes.
+    /// Notes the integer value that the file fixes for a name.
     pub fn set_whole(&mut self, name: &str, whole: i64) {
         if let Some(index) = self.by_name.get(name) {
             self.entries[*index as usize].whole = Some(whole);
         }
     }
 
-    /// Adds an entry that no name finds; gives its symbol.
+    /// Adds an entry without making it accessible by name; returns its symbol.
     pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) -> Symbol {
         self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
         Symbol(self.entries.len() as u32 - 1)
     }
 
-    /// Lets a name find an entry.
+    /// Makes an entry accessible by a name.
     pub fn bind(&mut self, name: &str, symbol: Symbol) {
         self.by_name.insert(name.to_string(), symbol.0);
     }
 
-    /// The same entries, of which only those are found by name that depend on parameters alone.
+    /// Returns the same entries, with only those accessible by name that depend on parameters
+    /// alone.
     ///
     /// Symbols keep their meaning, so that abbreviations can still be evaluated.
     pub fn only_parameters(&self) -> Self {
         self.only(|entry| entry.reach == Reach::Parameters)
     }
 
-    /// The same entries, of which only some are found by name.
+    /// Returns the same entries, with only some of them accessible by name.
     pub fn only(&self, keep: impl Fn(&Entry) -> bool) -> Self {
         let mut kept = self.clone();
         kept.by_name.retain(|_, index| keep(&self.entries[*index as usize]));
         kept
     }
 
-    /// The entry behind a symbol.
+    /// Returns the entry of a symbol.
     pub fn entry(&self, symbol: Symbol) -> &Entry {
         &self.entries[symbol.0 as usize]
     }
 
-    /// The entry of a name.
+    /// Returns the entry of a name.
     pub fn find(&self, name: &str) -> Option<&Entry> {
         self.by_name.get(name).map(|index| &self.entries[*index as usize])
     }
 
-    /// All entries with their symbols.
+    /// Iterates over all entries with their symbols.
     pub fn iter(&self) -> impl Iterator<Item = (Symbol, &Entry)> {
         self.entries.iter().enumerate().map(|(index, entry)| (Symbol(index as u32), entry))
     }
 
-    /// A formula with the abbreviations it uses, and those that they use.
+    /// Returns a formula with the abbreviations it uses, directly or through others.
     pub fn with_abbreviations<'f>(
         &self,
         formula: &'f Formula,
@@ -127,13 +128,13 @@ impl Vocabulary {
         all
     }
 
-    /// What a formula depends on, by itself or through abbreviations.
+    /// Returns the names that a formula depends on, directly or through abbreviations.
     pub fn uses(&self, formula: &Formula, abbreviations: &[Formula]) -> Vec<&Entry> {
         let formulas = self.with_abbreviations(formula, abbreviations).into_iter();
         formulas.flat_map(|f| f.symbols().map(|symbol| self.entry(symbol))).collect()
     }
 
-    /// The farthest that any name in `formula` reaches, with that name.
+    /// Returns the entry with the largest dependence among the names in `formula`.
     pub fn reach(&self, formula: &Formula) -> Option<&Entry> {
         formula.symbols().map(|symbol| self.entry(symbol)).max_by_key(|entry| entry.reach)
     }
