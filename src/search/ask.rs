@@ -1,4 +1,4 @@
-//! Finds are claims like any other: they are asked about the case, and judged.
+//! Judgement of found formulas as claims about the case.
 
 use super::{Effort, SearchError};
 use crate::case::{Case, Expect};
@@ -6,12 +6,12 @@ use crate::claim::{Integral, Kind};
 use crate::formula::Type;
 use crate::verdict::{ClaimReport, Evidence, Verdict, judge};
 
-/// A formula as a TOML string.
+/// Quotes a formula as a TOML string.
 pub fn quoted(formula: &str) -> String {
     format!("\"{}\"", formula.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// The reports on statements about a case, each the body of a claim.
+/// Judges statements about a case, each the body of a claim, and returns the reports.
 pub fn judged(
     case: &Case,
     statements: &[String],
@@ -21,13 +21,13 @@ pub fn judged(
     Ok(judge(&case.ask(&text)?, &effort.options)?.claims)
 }
 
-/// Does a claim hold?
+/// Whether a claim was proved or confirmed.
 pub fn holds(report: &ClaimReport) -> bool {
     matches!(report.verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
-/// The grounds on which a formula is no function of others, the energy and the level functions;
-/// nothing if it is.
+/// Returns the grounds on which a formula is not a function of others, the energy and the level
+/// functions; `None` if it is.
 pub fn independent(
     case: &Case,
     known: &[String],
@@ -42,17 +42,17 @@ pub fn independent(
     Ok(reports.into_iter().find(proved).map(|report| report.evidence))
 }
 
-/// An integral that a case claims.
+/// A component of an integral that a case claims.
 #[derive(Clone, Debug)]
 pub struct Claimed {
-    /// The name of the claim.
+    /// Name of the claim.
     pub name: String,
-    /// A scalar: the integral, or a component of it.
+    /// Scalar formula of the integral, or of a component of it.
     pub formula: String,
 }
 
-/// The integrals that a case claims and that hold, component by component, less functions of the
-/// energy.
+/// Lists the integrals that a case claims and that hold, component by component, without functions
+/// of the energy.
 pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError> {
     if effort.blind {
         return Ok(Vec::new());
@@ -75,7 +75,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
     Ok(found)
 }
 
-/// The components of a formula as formulas of their own.
+/// Splits a formula into its components as separate formulas.
 fn components(text: &str, kind: Type) -> Vec<String> {
     match kind {
         Type::Scalar => vec![text.to_string()],

@@ -1,5 +1,5 @@
-//! Whether theorems can be trusted: what is counted modulo primes must be on the branches of roots and
-//! moduli on which the states are.
+//! Validity of theorems obtained modulo primes: roots and moduli must be on the same branches there
+//! as at real states.
 
 use super::ansatz::Hamiltonians;
 use super::terms::recorded;
@@ -10,7 +10,7 @@ use crate::formula::Formula;
 use crate::proof::Prover;
 use crate::verdict::Sampler;
 
-/// Withdraws all theorems where the formulas of a case contain moduli, or roots that depend on each
+/// Withdraws all theorems if the formulas of a case contain moduli, or roots that depend on each
 /// other: modulo a prime these have another sign at half of all points.
 pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let counts = report.counts.len() + report.multipliers.len();
@@ -29,7 +29,7 @@ pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
     Ok(())
 }
 
-/// Are all formulas that enter theorems the same modulo primes as at real states?
+/// Whether all formulas that enter theorems agree modulo primes with their values at real states.
 fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let sampler = Sampler::new(case, &Place::level(&case.model), effort.options.seed)?;
     if sampler.is_numerical() {

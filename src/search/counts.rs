@@ -1,4 +1,4 @@
-//! Integrals counted degree by degree, and the theorems that follow.
+//! Numbers of integrals, degree by degree, and the theorems that follow.
 
 use std::ops::RangeInclusive;
 
@@ -12,43 +12,43 @@ use crate::case::Case;
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
 
-/// Combinations of listed values that are counted one by one.
+/// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
 
-/// Elementary steps of an elimination a second, at the least.
+/// Lower bound on the elementary steps of an elimination per second.
 const STEPS: f64 = 1e9;
 
-/// The number of integrals of a degree.
+/// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CountReport {
-    /// The degree in the velocities.
+    /// Degree in the velocities.
     pub degree: u32,
-    /// All degrees up to it together?
+    /// Whether all degrees up to it are counted together.
     pub mixed: bool,
-    /// Are potential and gyrostat left out?
+    /// Whether potential and gyrostat are left out.
     pub free: bool,
-    /// The number of independent ones, an upper bound for generic parameters.
+    /// Number of independent integrals, an upper bound for generic parameters.
     pub dimension: usize,
-    /// How many of them are products of those that are known.
+    /// Number of products of known integrals among them.
     pub known: usize,
-    /// Unknowns of the linear system.
+    /// Number of unknowns of the linear system.
     pub unknowns: usize,
-    /// Its equations.
+    /// Number of equations of the linear system.
     pub equations: usize,
 }
 
-/// How large the systems of a count get, and how long it may take.
+/// Estimated size and duration of a count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Unknowns of the largest system.
+    /// Number of unknowns of the largest system.
     pub unknowns: u64,
-    /// A bound for the seconds of all.
+    /// Bound on the total time in seconds.
     pub seconds: f64,
-    /// A bound for the memory of the largest.
+    /// Bound on the memory of the largest system.
     pub megabytes: u64,
 }
 
-/// What counting integrals as far as the effort goes may take; nothing if they cannot be counted.
+/// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
 pub fn plan(case: &Case, effort: &Effort) -> Option<Plan> {
     let local = Local::of(case, &[]).ok()?;
     let mixed = case.model.system.energy_is_inhomogeneous();
@@ -65,8 +65,8 @@ fn megabytes(unknowns: u64) -> u64 {
     unknowns * unknowns * 8 / 1_000_000
 }
 
-/// Counts integrals degree by degree, as far as the effort goes; first those of the free motion, as
-/// the leading form of an integral is one of them.
+/// Counts integrals degree by degree, within the effort; first those of the free motion, since the
+/// leading form of an integral is one of them.
 pub fn count(
     case: &Case,
     effort: &Effort,
@@ -80,7 +80,7 @@ pub fn count(
         motion.series(undecided.clone(), effort, report, progress)?;
         let excess = report.counts.iter().find(|count| count.dimension > count.known);
         match excess {
-            // Each leading form is a power of the energy: nothing is left to count.
+            // Each leading form is a power of the energy: nothing remains to be counted.
             None if !report.counts.is_empty() => return Ok(()),
             None => {}
             Some(excess) => undecided = excess.degree..=effort.degree,
@@ -89,7 +89,7 @@ pub fn count(
     Motion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
 }
 
-/// The same body without potential and gyrostat, where it is known what they are.
+/// Makes the same body without potential and gyrostat, if these are known.
 pub fn free_motion(case: &Case) -> Option<Case> {
     let system = case.model.system.without_forces()?;
     let mut free = case.clone();
@@ -100,11 +100,11 @@ pub fn free_motion(case: &Case) -> Option<Case> {
 /// The motion whose integrals are counted.
 struct Motion<'c> {
     case: &'c Case,
-    /// All degrees up to one together?
+    /// Whether all degrees up to the given one are counted together.
     mixed: bool,
-    /// Are potential and gyrostat left out?
+    /// Whether potential and gyrostat are left out.
     free: bool,
-    /// Its energy, which is known.
+    /// Energy of the motion, a known integral.
     energy: Generators,
 }
 
@@ -113,7 +113,7 @@ impl<'c> Motion<'c> {
         Ok(Self { case, mixed, free, energy: Generators::energy(case, effort)? })
     }
 
-    /// Counts degree by degree; why that ends early is a remark.
+    /// Counts degree by degree; a remark gives the reason for an early end.
     fn series(
         &self,
         degrees: RangeInclusive<u32>,
@@ -137,7 +137,8 @@ impl<'c> Motion<'c> {
                 return Ok(());
             }
             match self.of_degree(&locals, degree, effort) {
-                // A bound below what there is would be a defect of the tool: nothing is concluded.
+                // A bound below the number of known integrals would be a defect of the program:
+                // nothing is concluded.
                 Ok(count) if count.dimension < count.known => {
                     report.remark(format!(
                         "degree {degree}: fewer integrals are counted than are known"
@@ -173,8 +174,8 @@ impl<'c> Motion<'c> {
     }
 }
 
-/// The equations of motion for each combination of the values of lists; nothing, and a remark, where
-/// there are too many, or nothing can be counted.
+/// Records the equations of motion for each combination of listed values; `None`, with a remark, if
+/// there are too many combinations or nothing can be counted.
 pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, SearchError> {
     let mut locals = Vec::new();
     for fixed in listed(&case.model.parameter_draws()) {
@@ -194,7 +195,7 @@ pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, Se
     Ok(Some(locals))
 }
 
-/// The largest count over the values of the lists: a theorem is about all of them.
+/// Returns the largest count over the listed values: a theorem is about all of them.
 pub fn largest(
     locals: &[Local],
     asked: Asked,
@@ -207,7 +208,7 @@ pub fn largest(
     counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
 }
 
-/// The combinations of the values of parameters that have a list, if they are few.
+/// Lists the combinations of the values of parameters that have a list, if they are few.
 fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
     let mut combinations = vec![Vec::new()];
     for draw in draws {
@@ -226,7 +227,7 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
     combinations
 }
 
-/// Unknowns, and a bound for the seconds.
+/// Estimates the number of unknowns and bounds the time in seconds.
 fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
     let (positions, velocities) =
         (local.coordinates.positions as u32, local.coordinates.velocities as u32);
@@ -240,7 +241,7 @@ fn binomial(n: u32, k: u32) -> u64 {
     (1..=u64::from(k)).fold(1, |product, i| product * (u64::from(n - k) + i) / i)
 }
 
-/// States what the counts exclude, now that it is known what there is.
+/// States the theorems of absence that follow from the counts and the known integrals.
 pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     if report.counts.is_empty() {
         return Ok(());

@@ -1,5 +1,5 @@
-//! Densities that are products of powers of factors which the geometry offers, and integrals that
-//! are such products with a factor linear in the velocities.
+//! Densities that are products of powers of factors offered by the geometry, and integrals that are
+//! such products with a factor linear in the velocities.
 //!
 //! v(ln ρ) + div v is linear in the exponents of ρ = Π f^α, and so is v(ln F) for F = P Π f^α.
 
@@ -14,16 +14,16 @@ use crate::claim::Place;
 use crate::graph::{Expr, Graph};
 use crate::number::rational::Rational;
 
-/// The factors, the exponents and their rates along the motion.
+/// Factors, exponents, and their rates along the motion.
 struct Logarithms {
     factors: Vec<Term>,
     exponents: Vec<Term>,
     graph: Graph,
-    /// v(ln f) times each exponent, factor by factor.
+    /// Products of v(ln f) with each exponent, factor by factor.
     rates: Vec<Vec<Expr>>,
 }
 
-/// Looks for densities and for integrals of this form.
+/// Searches for densities and integrals of this form.
 pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let model = &case.model;
     let factors = read(library::factors(model), &model.vocabulary);
@@ -62,7 +62,7 @@ pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
 }
 
 impl Logarithms {
-    /// The factors with exponents, so that the target and their rates add up to 0.
+    /// Finds exponents of the factors for which the target and their rates add up to 0.
     fn solve(
         &self,
         case: &Case,
@@ -80,7 +80,7 @@ impl Logarithms {
             Err(SearchError::NoPoints) => return Ok(None),
             other => other?,
         };
-        // The target stands last: where it depends on the others, one vector has 1 there.
+        // The target is the last column: if it depends on the others, one vector has 1 there.
         let one = Rational::from(1);
         let vectors = relations.rational().0;
         let Some(vector) = vectors.iter().find(|vector| vector.last() == Some(&one)) else {

@@ -1,21 +1,21 @@
-//! Row echelon form modulo a prime, one row at a time.
+//! Row echelon form modulo a prime, built row by row.
 
 use crate::number::prime::Modulus;
 
-/// Rows that are independent of each other, each with a pivot of its own.
+/// A set of independent rows with distinct pivots.
 pub struct Echelon {
     modulus: Modulus,
-    /// By pivot column: the row, 1 at its pivot and 0 before it.
+    /// Row by pivot column, with 1 at its pivot and 0 before it.
     rows: Vec<Option<Vec<u64>>>,
 }
 
 impl Echelon {
-    /// No rows yet.
+    /// Makes an echelon form without rows.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
         Self { modulus, rows: vec![None; columns] }
     }
 
-    /// Adds a row; `false` if it depends on those before it.
+    /// Adds a row; returns `false` if it depends on those before it.
     pub fn push(&mut self, mut row: Vec<u64>) -> bool {
         let m = self.modulus;
         for column in 0..row.len() {
@@ -42,18 +42,18 @@ impl Echelon {
         false
     }
 
-    /// How many columns there are.
+    /// Number of columns.
     pub fn columns(&self) -> usize {
         self.rows.len()
     }
 
-    /// Has some row its pivot in this column?
+    /// Whether some row has its pivot in this column.
     pub fn has_pivot(&self, column: usize) -> bool {
         self.rows[column].is_some()
     }
 
-    /// A basis of the vectors that all rows annul: for each free column the one with 1 there and 0 at
-    /// the other free columns.
+    /// Returns a basis of the null space of all rows: for each free column the vector with 1 there
+    /// and 0 at the other free columns.
     pub fn null_space(&self) -> Vec<Vec<u64>> {
         let m = self.modulus;
         let columns = self.rows.len();

@@ -1,5 +1,5 @@
-//! The rates of positions and velocities as polynomials in the velocities, their coefficients Taylor
-//! series in the positions.
+//! Expansion of the rates of positions and velocities as polynomials in the velocities whose
+//! coefficients are Taylor series in the positions.
 
 use super::SearchError;
 use super::echelon::Echelon;
@@ -9,22 +9,22 @@ use crate::graph::{Evaluator, Tape};
 use crate::number::prime::Modulus;
 use crate::proof::Chance;
 
-/// Velocity exponents with a series each.
+/// Exponents of the velocities, each with a coefficient series.
 pub type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
 
-/// The rates at a point of the velocities, if they have a value.
+/// A map from velocities to the rates, `None` where these are undefined.
 type Rates<'a> = dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>> + 'a;
 
-/// The field's Taylor series: polynomials in the velocities with series as coefficients.
+/// Taylor series of the field: polynomials in the velocities with series as coefficients.
 pub struct Expansion {
-    /// For each position: velocity exponents and coefficient of its rate.
+    /// Rates of the positions.
     pub positions: Vec<Polynomial>,
-    /// The same for each velocity.
+    /// Rates of the velocities.
     pub velocities: Vec<Polynomial>,
 }
 
 impl Expansion {
-    /// div v in these coordinates, known to one order less than the rates.
+    /// Computes div v in these coordinates, to one order less than the rates.
     pub fn divergence(&self, series: &Series) -> Polynomial {
         let along = self.positions.iter().enumerate().flat_map(|(i, rate)| {
             rate.iter().map(move |(power, value)| (power.clone(), series.derivative(i, value)))
@@ -40,33 +40,33 @@ impl Expansion {
     }
 }
 
-/// The field's Taylor series up to an order, at points of the configuration.
+/// Expansion of the field up to an order, at points of the configuration.
 pub struct Taylor<'l> {
-    /// Of what.
+    /// Equations of motion in local coordinates.
     pub local: &'l Local,
-    /// Modulo which prime.
+    /// Prime modulus.
     pub modulus: Modulus,
-    /// Up to which order.
+    /// Order of the expansion.
     pub order: u32,
-    /// In which domain.
+    /// Domain of the series.
     pub series: Series,
     tape: Tape,
 }
 
 impl<'l> Taylor<'l> {
-    /// Series modulo a prime.
+    /// Prepares series modulo a prime.
     pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
         let series = Series::new(modulus, local.coordinates.positions, order);
         let tape = Tape::new(&local.graph, &local.rates);
         Self { local, modulus, order, series, tape }
     }
 
-    /// Random positions.
+    /// Draws random positions.
     pub fn positions(&self, chance: &mut Chance) -> Vec<u64> {
         (0..self.local.coordinates.positions).map(|_| chance.element(&self.modulus)).collect()
     }
 
-    /// The series about a point; nothing where the field has none.
+    /// Expands the field about a point; `None` where it is undefined.
     pub fn at(
         &mut self,
         parameters: &[u64],
@@ -104,7 +104,7 @@ impl<'l> Taylor<'l> {
     }
 }
 
-/// Do the rates of the positions take all directions? Then Σ w_i X_i C = 0 determines the
+/// Whether the rates of the positions span all directions. Then Σ w_i X_i C = 0 determines the
 /// coefficients of degree n by their n-jets, as for Killing tensors.
 fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
     let mut echelon = Echelon::new(velocities, modulus);
@@ -117,7 +117,7 @@ fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
     })
 }
 
-/// Polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.
+/// Finds polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.
 fn quadratic(velocities: usize, m: &Modulus, rates_at: &mut Rates<'_>) -> Option<Vec<Polynomial>> {
     let unit = |entries: &[(usize, u64)]| -> Vec<u64> {
         let mut point = vec![0; velocities];
@@ -165,7 +165,7 @@ fn quadratic(velocities: usize, m: &Modulus, rates_at: &mut Rates<'_>) -> Option
     Some(polynomials)
 }
 
-/// Are these the values of the polynomials at a further point?
+/// Whether the polynomials have the given values at a further point.
 fn agrees(polynomials: &[Polynomial], point: &[u64], values: &[Vec<u64>], m: &Modulus) -> bool {
     polynomials.iter().zip(values).all(|(polynomial, value)| {
         let mut sum = vec![0; value.len()];

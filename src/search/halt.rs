@@ -1,4 +1,4 @@
-//! When a search stops before its end.
+//! Early end of a search.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use super::SearchError;
 
-/// A search stops after some time, or when it is told to; what was reached until then is reported.
+/// A limit on the duration of a search, by time or by a signal; results reached until then are
+/// reported.
 #[derive(Clone, Debug, Default)]
 pub struct Halt {
     deadline: Option<Instant>,
@@ -14,18 +15,18 @@ pub struct Halt {
 }
 
 impl Halt {
-    /// Stops after this time, which begins now.
+    /// Makes a limit of this duration from now.
     pub fn within(time: Duration) -> Self {
-        // A time beyond what the clock can hold is no limit.
+        // A duration beyond the range of the clock is no limit.
         Self { deadline: Instant::now().checked_add(time), ..Self::default() }
     }
 
-    /// What to set to make it stop, from a signal handler or another thread.
+    /// Returns the flag that stops the search, to be set from a signal handler or another thread.
     pub fn switch(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.told)
     }
 
-    /// Fails once it is time to stop.
+    /// Fails once the search is to stop.
     pub fn check(&self) -> Result<(), SearchError> {
         let is_late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
         match is_late || self.told.load(Ordering::Relaxed) {

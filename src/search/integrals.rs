@@ -1,4 +1,4 @@
-//! Integrals that are sums of terms which the system offers.
+//! Search for integrals that are sums of terms offered by the system.
 
 use num_dual::Dual;
 
@@ -15,7 +15,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 use crate::verdict::{ClaimReport, Independence};
 
-/// Looks for integrals; what is found and proved goes into the report.
+/// Searches for integrals; proved ones go into the report.
 pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let candidates = over_denominators(case, &terms, &Rational::from(0), effort, report)?;
@@ -30,7 +30,7 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
             new && holds(found)
         })
         .collect();
-    // Of functions that depend on each other, the shortest is told.
+    // Of functions that depend on each other, the shortest is reported.
     proved.sort_by_key(|(formula, _)| formula.chars().count());
     for (formula, found) in proved {
         effort.halt.check()?;
@@ -39,7 +39,7 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
     Ok(())
 }
 
-/// Adds an integral to the report, unless it depends on those that are there.
+/// Adds an integral to the report, unless it depends on those already there.
 pub fn tell(
     case: &Case,
     formula: &str,
@@ -63,7 +63,8 @@ pub fn tell(
     Ok(())
 }
 
-/// The terms that the user gives and the system offers, less those that depend on others.
+/// Lists the terms given by the user and offered by the system, without those that depend on
+/// others.
 pub fn terms(case: &Case, effort: &Effort, report: &mut Report) -> Result<Vec<Term>, SearchError> {
     let model = &case.model;
     let vocabulary = &model.vocabulary;
@@ -77,8 +78,8 @@ pub fn terms(case: &Case, effort: &Effort, report: &mut Report) -> Result<Vec<Te
     distinct(case, [own, offered].concat(), effort, report)
 }
 
-/// Sums P of terms, over the denominators that can occur, with L_vP + α div v P = 0 at random points;
-/// α, the weight, is 0 for integrals.
+/// Finds sums P of terms, over the possible denominators, with L_vP + α div v P = 0 at random
+/// points; α, the weight, is 0 for integrals.
 pub fn over_denominators(
     case: &Case,
     terms: &[Term],
@@ -123,7 +124,7 @@ pub fn over_denominators(
     Ok(candidates)
 }
 
-/// The terms that do not depend on those before them on the level.
+/// Keeps the terms that do not depend on earlier ones on the level.
 fn distinct(
     case: &Case,
     terms: Vec<Term>,

@@ -1,11 +1,12 @@
-//! How many integrals polynomial in the velocities there are, with arbitrary smooth coefficients in
-//! the positions: counted from Taylor coefficients at one random point, without any ansatz.
+//! Counts of integrals that are polynomial in the velocities, with arbitrary smooth coefficients in
+//! the positions, from Taylor coefficients at one random point and without any ansatz.
 //!
 //! F = Σ C_a(q) w^a is an integral when the coefficients of every w^c in L_vF vanish: linear
-//! equations of first order for the C_a. Their Taylor coefficients up to order N, modulo a prime,
-//! at a random point and for random parameters: the dimension of what is left of the coefficients up
-//! to order n bounds the number of integrals of degree n from above. A rank modulo p is never above
-//! the rank in characteristic 0, so that an empty answer is a theorem about generic parameters.
+//! equations of first order for the C_a. They are expanded in Taylor coefficients up to order N,
+//! modulo a prime, at a random point and for random parameters. The number of coefficients up to
+//! order n that they leave free bounds the number of integrals of degree n from above. A rank
+//! modulo p is never above the rank in characteristic 0, so that an empty answer is a theorem about
+//! generic parameters.
 
 use rustc_hash::FxHashMap;
 
@@ -18,35 +19,35 @@ use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
 use crate::proof::Chance;
 
-/// Points that are drawn until the field has a Taylor series at one.
+/// Largest number of points drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
 
-/// A power of the velocities and the number of a monomial of the positions.
+/// Exponents of the velocities, and the index of a monomial in the positions.
 pub type RowKey = (Vec<u32>, usize);
 
 /// Columns and values of a sparse row.
 type Entries = Vec<(usize, u64)>;
 
-/// Which polynomials in the velocities are counted.
+/// The space of polynomials in the velocities to be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// The degree in the velocities.
+    /// Degree in the velocities.
     pub degree: u32,
-    /// All degrees up to it together, as a gyrostat or a potential asks for?
+    /// Whether all degrees up to it are counted together, as needed with a gyrostat or a potential.
     pub mixed: bool,
 }
 
-/// How many there are, as an upper bound for generic parameters.
+/// A dimension as an upper bound for generic parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
-    /// The dimension.
+    /// Dimension of the space.
     pub dimension: usize,
-    /// Unknowns and equations.
+    /// Numbers of unknowns and equations.
     pub size: (usize, usize),
 }
 
-/// Counts the polynomials P with L_vP + α div v P = 0, of which `least` are known to be there;
-/// integrals for α = 0. The order of the Taylor coefficients rises until the count stands still.
+/// Counts the polynomials P with L_vP + α div v P = 0, of which at least `least` are known;
+/// integrals for α = 0. The order of the Taylor coefficients rises until the count is stable.
 pub fn count(
     local: &Local,
     asked: Asked,
@@ -92,17 +93,17 @@ fn count_to_order(
 
 /// Linear equations for the Taylor coefficients of the C_a.
 pub struct Equations {
-    /// Whose coefficient of which order each column is, from high order to low: what is left free at
-    /// the end is of low order.
+    /// Order of the coefficient of each column, from high to low, so that the free columns are of
+    /// low order.
     columns: Vec<u32>,
     degree: u32,
-    /// By the power of the velocities and the monomial of the positions whose coefficient it is.
+    /// Rows, each with the velocity exponents and the position monomial of its coefficient.
     rows: Vec<(RowKey, Entries)>,
     modulus: Modulus,
 }
 
 impl Equations {
-    /// The rows, dense, with what they belong to.
+    /// Iterates over the rows in dense form, with their keys.
     pub fn rows(&self) -> impl Iterator<Item = (&RowKey, Vec<u64>)> {
         self.rows.iter().map(|(key, entries)| {
             let mut row = vec![0; self.columns.len()];
@@ -113,7 +114,7 @@ impl Equations {
         })
     }
 
-    /// All equations in echelon form, and what the independent rows belong to.
+    /// Brings all equations into echelon form; returns it with the keys of the independent rows.
     pub fn solved(&self, halt: &Halt) -> Result<(Echelon, Vec<RowKey>), SearchError> {
         let mut echelon = Echelon::new(self.columns.len(), self.modulus);
         let mut keys = Vec::new();
@@ -126,14 +127,14 @@ impl Equations {
         Ok((echelon, keys))
     }
 
-    /// How many integrals the equations leave, as they are determined by coefficients of low order.
+    /// Number of integrals that the equations leave, as determined by coefficients of low order.
     pub fn dimension(&self, echelon: &Echelon) -> usize {
         let free =
             |column: &usize| self.columns[*column] <= self.degree && !echelon.has_pivot(*column);
         (0..self.columns.len()).filter(free).count()
     }
 
-    /// The equations at a point for L_vP + α div v P = 0, α the weight.
+    /// Sets up the equations for L_vP + α div v P = 0 at a point, where α is the weight.
     pub fn of(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked, weight: u64) -> Self {
         let (modulus, order) = (taylor.modulus, taylor.order);
         let Asked { degree, mixed } = asked;
@@ -150,7 +151,7 @@ impl Equations {
         let total = |monomial: &[u32]| monomial.iter().sum::<u32>();
         let place: FxHashMap<&[u32], usize> =
             monomials.iter().enumerate().map(|(k, monomial)| (monomial.as_slice(), k)).collect();
-        // Columns from high order to low: what is left free at the end is of low order.
+        // Columns from high order to low, so that the free ones are of low order.
         let mut columns: Vec<(usize, usize)> =
             (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
         columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));

@@ -1,7 +1,7 @@
-//! What an integral or a density may be made of: terms in the names of a case.
+//! Library of terms for integrals and densities, in the names of a case.
 //!
-//! Constants in front of the terms are unknown rational numbers, the same for all values of the
-//! parameters; so parameters stand in the terms themselves.
+//! Coefficients of the terms are unknown rational numbers, the same for all values of the
+//! parameters; the terms themselves therefore contain parameters.
 
 use crate::formula::Type;
 use crate::mechanics::{Meaning, Model, System};
@@ -14,7 +14,7 @@ fn has(model: &Model, name: &str, kind: Type) -> bool {
     model.vocabulary.find(name).is_some_and(|entry| entry.kind == kind && own(entry.meaning))
 }
 
-/// The names of scalar parameters that the formula of a potential uses.
+/// Names the scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Texts {
     use crate::mechanics::Potential;
     let potential = match &model.system {
@@ -33,28 +33,28 @@ fn potential_parameters(model: &Model) -> Texts {
         .collect()
 }
 
-/// Joins factors; `1` is left out.
+/// Joins factors, omitting `1`.
 fn product(factors: &[&str]) -> String {
     let kept: Vec<&str> = factors.iter().copied().filter(|factor| *factor != "1").collect();
     if kept.is_empty() { "1".to_string() } else { kept.join("*") }
 }
 
-/// The pieces that a system offers.
+/// Building blocks offered by a system.
 struct Pieces {
     /// Vectors linear in the velocities.
     linear: Texts,
     /// Scalars linear in the velocities.
     forms: Texts,
-    /// The vector that is constant in space, if there is one: (a,γ) is a form for each vector a.
+    /// Vector that is constant in space, if there is one: (a,γ) is a form for each vector a.
     normal: Option<&'static str>,
     /// Functions of the configuration and the parameters.
     weights: Texts,
-    /// Terms free of the velocities, that a potential may ask for.
+    /// Terms without velocities that a potential may require.
     free: Texts,
 }
 
-/// What potentials that separate in the sphero-conical coordinates of a tensor A add: polynomials of
-/// degree 2 and 4, and p/γ_k².
+/// Terms for potentials that separate in the sphero-conical coordinates of a tensor A: polynomials
+/// of degree 2 and 4, and p/γ_k².
 fn separable(parameter: &str, a: &str) -> Texts {
     let mut terms = vec![
         format!("{parameter}*(γ,adj({a})*γ)"),
@@ -176,7 +176,8 @@ fn pieces(model: &Model) -> Pieces {
     pieces
 }
 
-/// Terms of degree 1 and 2 in the velocities, simple ones first, with what a potential adds.
+/// Lists terms of degree 1 and 2 in the velocities, simple ones first, together with those that a
+/// potential adds.
 pub fn integrals(model: &Model) -> Texts {
     let pieces = pieces(model);
     let mut forms = pieces.forms.clone();
@@ -209,7 +210,7 @@ pub fn integrals(model: &Model) -> Texts {
     terms
 }
 
-/// What integrals may be divided by.
+/// Lists possible denominators of integrals.
 pub fn denominators(model: &Model) -> Texts {
     let mut found = vec!["1".to_string()];
     let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
@@ -223,7 +224,7 @@ pub fn denominators(model: &Model) -> Texts {
     found
 }
 
-/// Factors of which a density, or an integral, may be a product of powers, simple ones first.
+/// Lists factors whose powers may form a density or an integral, simple ones first.
 pub fn factors(model: &Model) -> Texts {
     let matrix = |name: &str| has(model, name, Type::MATRIX);
     let scalar = |name: &str| has(model, name, Type::Scalar);
@@ -275,11 +276,11 @@ pub fn factors(model: &Model) -> Texts {
     factors
 }
 
-/// Abbreviations that the terms use, in order.
+/// Lists the abbreviations that the terms use, in order.
 ///
-/// X₀ and Y₀ are the factors of det Ĩ (γ,Ĩ⁻¹γ) (r,γ)² for an ellipsoid on (3.8): X and Y of §3.3 with
-/// β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that I₁ = I₂ is
-/// no exception: for I = μE they are the factors of (3.7).
+/// X₀ and Y₀ are the factors of det Ĩ (γ,Ĩ⁻¹γ) (r,γ)² for an ellipsoid on (3.8): X and Y of §3.3
+/// with β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that I₁
+/// = I₂ is not an exception: for I = μE they are the factors of (3.7).
 pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
     if !matches!(model.system, System::Rubber(_)) || !has(model, "B", Type::MATRIX) {
         return Vec::new();
@@ -294,7 +295,7 @@ pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
     ]
 }
 
-/// What exponents may be multiples of.
+/// Lists the numbers of which exponents may be multiples.
 pub fn exponents(model: &Model) -> Texts {
     let mut found = vec!["1".to_string()];
     if has(model, "κ", Type::Scalar) {
@@ -308,7 +309,7 @@ pub fn exponents(model: &Model) -> Texts {
     found
 }
 
-/// Factors linear in the velocities, for integrals that are products of powers.
+/// Lists factors linear in the velocities, for integrals that are products of powers.
 pub fn linear_factors(model: &Model) -> Texts {
     pieces(model).forms
 }

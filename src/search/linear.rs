@@ -15,14 +15,16 @@ use crate::number::{Domain, Enclosing};
 use crate::proof::{Chance, reconstruct};
 use crate::verdict::Sampler;
 
-/// Rows beyond the number of columns: each false relation survives one with probability 1/p.
+/// Number of rows beyond the number of columns: each false relation survives one with probability
+/// 1/p.
 const SPARE: usize = 8;
-/// Lanes of the evaluation.
+/// Number of lanes of the evaluation.
 const LANES: usize = 8;
-/// Blocks at which a function may be undefined before it is given up; roots exist at half of them.
+/// Number of blocks without a value after which a function is given up; roots exist at half of the
+/// points.
 const TRIALS: usize = 16;
 
-/// Functions on the level, evaluated at random states for random parameters modulo a prime.
+/// Functions on the level, evaluated at random states and parameters modulo a prime.
 pub struct Functions {
     graph: Graph,
     outputs: Vec<Vec<Expr>>,
@@ -32,7 +34,7 @@ pub struct Functions {
 }
 
 impl Functions {
-    /// Functions recorded in `graph`, each of some components, at states of the level.
+    /// Prepares functions recorded in `graph`, each with some components, at states of the level.
     pub fn new(
         case: &Case,
         graph: &Graph,
@@ -50,7 +52,7 @@ impl Functions {
         Ok(Self { graph, outputs, draws: sampler.recipes().to_vec(), modulus, chance })
     }
 
-    /// The functions that have a value somewhere.
+    /// Returns the functions that have a value somewhere.
     pub fn defined(&mut self) -> Vec<usize> {
         let mut has_value = vec![false; self.outputs.len()];
         self.visit(TRIALS, &mut |row| {
@@ -62,19 +64,19 @@ impl Functions {
         (0..has_value.len()).filter(|column| has_value[*column]).collect()
     }
 
-    /// Leaves only some of the functions.
+    /// Keeps only some of the functions.
     pub fn restrict(&mut self, columns: &[usize]) {
         self.outputs = columns.iter().map(|j| self.outputs[*j].clone()).collect();
     }
 
-    /// How many functions there are.
+    /// Number of functions.
     #[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
     pub fn count(&self) -> usize {
         self.outputs.len()
     }
 
-    /// The functions at states and parameters in f64, a row for each component; what rounding does not
-    /// tell from 0 is 0.
+    /// Evaluates the functions at states and parameters in f64, one row for each component; values
+    /// within rounding errors of 0 become 0.
     #[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
     pub fn floats(&self, states: usize, seed: u64) -> Vec<Vec<f64>> {
         let height = self.outputs.first().map_or(0, Vec::len);
@@ -106,7 +108,7 @@ impl Functions {
         rows
     }
 
-    /// A basis of the relations among the columns, by echelon form.
+    /// Finds a basis of the relations among the columns, by echelon form.
     pub fn relations(&mut self) -> Result<Relations, SearchError> {
         let columns = self.outputs.len();
         let mut echelon = Echelon::new(columns, self.modulus);
@@ -123,7 +125,8 @@ impl Functions {
         }
     }
 
-    /// Shows the functions at random points, component by component, until `look` has seen enough.
+    /// Passes the functions at random points, component by component, to `look` until it returns
+    /// `false`.
     fn visit(&mut self, blocks: usize, look: &mut dyn FnMut(Vec<u64>) -> bool) {
         let height = self.outputs.first().map_or(0, Vec::len);
         let tape = Tape::new(&self.graph, &self.outputs.concat());
@@ -156,19 +159,19 @@ impl Functions {
     }
 }
 
-/// The relations between some functions.
+/// Relations between functions.
 pub struct Relations {
     echelon: Echelon,
     modulus: Modulus,
 }
 
 impl Relations {
-    /// The columns that do not depend on those before them.
+    /// Returns the columns that do not depend on those before them.
     pub fn independent(&self) -> Vec<usize> {
         (0..self.echelon.columns()).filter(|column| self.echelon.has_pivot(*column)).collect()
     }
 
-    /// A basis of the relations with rational coefficients; others are left out and counted.
+    /// Returns a basis of the relations with rational coefficients; others are omitted and counted.
     pub fn rational(&self) -> (Vec<Vec<Rational>>, usize) {
         let mut irrational = 0;
         let vectors = self.echelon.null_space().into_iter().filter_map(|vector| {

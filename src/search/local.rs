@@ -1,4 +1,4 @@
-//! The equations of motion in local coordinates of the level: positions and velocities apart.
+//! Equations of motion in local coordinates of the level, split into positions and velocities.
 
 use num_dual::{Dual, DualNum};
 
@@ -12,28 +12,28 @@ use crate::number::rational::Rational;
 use crate::proof::Chance;
 use crate::scalar::Scalar;
 
-/// Coordinates of the level: how many are positions, how many velocities, and where they go.
+/// Local coordinates of the level, positions followed by velocities.
 #[derive(Clone, Debug)]
 pub struct Coordinates {
     kind: Kind,
-    /// How many positions there are.
+    /// Number of positions.
     pub positions: usize,
-    /// How many velocities.
+    /// Number of velocities.
     pub velocities: usize,
 }
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// γ by stereographic projection of (u,v), ω = w₁γ_u + w₂γ_v.
+    /// Coordinates (u,v) of γ by stereographic projection, with ω = w₁γ_u + w₂γ_v.
     Rolling,
-    /// γ by stereographic projection, M free.
+    /// Stereographic projection of γ, with M free.
     Sphere,
     /// Components of the state: positions, then velocities.
     Components(Vec<usize>),
 }
 
 impl Coordinates {
-    /// Coordinates of the level of a case, where positions and velocities are known.
+    /// Finds coordinates of the level of a case, if positions and velocities are known.
     pub fn of(case: &Case) -> Result<Self, SearchError> {
         let model = &case.model;
         if !model.extension.is_empty() {
@@ -70,7 +70,7 @@ impl Coordinates {
         }
     }
 
-    /// The state at a point of these coordinates.
+    /// Returns the state at a point of these coordinates.
     pub fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
         let (one, two) = (T::one(), T::from(2.0));
         let normal = |u: T, v: T| {
@@ -103,27 +103,27 @@ impl Coordinates {
         }
     }
 
-    /// How many coordinates there are.
+    /// Number of coordinates.
     pub fn count(&self) -> usize {
         self.positions + self.velocities
     }
 }
 
-/// The rates of the coordinates as a graph; its inputs are the draws of the parameters, then the
+/// Rates of the coordinates as a graph; its inputs are the draws of the parameters, followed by the
 /// coordinates.
 pub struct Local {
     /// Positions and velocities.
     pub coordinates: Coordinates,
     /// The recorded rates.
     pub graph: Graph,
-    /// One rate a coordinate.
+    /// One rate for each coordinate.
     pub rates: Vec<Expr>,
-    /// What the parameters are made from.
+    /// Draws from which the parameters are made.
     pub draws: Vec<Draw>,
 }
 
 impl Local {
-    /// Records the rates of a case; `fixed` holds a value for each draw that has one.
+    /// Records the rates of a case; `fixed` holds a value for each fixed draw.
     pub fn of(case: &Case, fixed: &[Option<Rational>]) -> Result<Self, SearchError> {
         let coordinates = Coordinates::of(case)?;
         let model = &case.model;
@@ -155,7 +155,7 @@ impl Local {
                 columns.iter().map(|a| columns.iter().map(|b| dot(a, b)).collect()).collect();
             solve_positive(gram, columns.iter().map(|a| dot(a, &field)).collect())
         })?;
-        // An ∫ is a function of the positions whose series is not known: its value is a free input.
+        // An ∫ is a function of the positions with an unknown series: its value is a free input.
         if graph.inputs() > count + coordinates.count() {
             return Err(SearchError::Unsplit("the field contains ∫"));
         }
@@ -164,13 +164,13 @@ impl Local {
 }
 
 impl Local {
-    /// Random draws of the parameters; of a list the first is taken.
+    /// Draws the parameters at random; of a list the first value is taken.
     pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
         random(&self.draws, modulus, chance)
     }
 }
 
-/// Random values for draws of parameters; of a list the first is taken.
+/// Draws random values of parameters; of a list the first value is taken.
 pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
     let value = |draw: &Draw| match draw {
         Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)).unwrap_or(0),
@@ -180,7 +180,7 @@ pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64
     draws.iter().map(value).collect()
 }
 
-/// 1 or -1
+/// Draws 1 or -1.
 pub fn sign(m: &Modulus, chance: &mut Chance) -> u64 {
     if chance.coin() { m.one() } else { m.sub(0, m.one()) }
 }

@@ -1,4 +1,5 @@
-//! Invariants that nobody typed: counted, found, proved; or excluded by a theorem.
+//! Search for invariants that the case does not state: counted, found and proved, or excluded by a
+//! theorem.
 //!
 //! ```text
 //! count      how many integrals polynomial in the velocities there are, with any coefficients
@@ -43,37 +44,37 @@ pub use halt::Halt;
 pub use multipliers::MultiplierReport;
 pub use second_opinion::SecondOpinion;
 
-/// Why a search cannot be made.
+/// The reason why a search is impossible.
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError {
-    /// Positions and velocities are not known apart, or the field has no series in them.
+    /// Positions and velocities cannot be separated, or the field has no series in them.
     #[error("integrals cannot be counted: {0}")]
     Unsplit(&'static str),
-    /// The rates are no polynomials of degree 2 in the velocities.
+    /// The rates are not polynomials of degree 2 in the velocities.
     #[error("integrals cannot be counted: the rates are not quadratic in the velocities")]
     NotQuadratic,
-    /// The equations for the coefficients are not of finite type as for Killing tensors.
+    /// The equations for the coefficients are not of finite type, unlike those for Killing tensors.
     #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
     NotSpanned,
-    /// The field has functions that no prime field has, or no value anywhere.
+    /// The field has functions that prime fields lack, or is defined nowhere.
     #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
     NoSeries,
-    /// A minor is no fraction of low degree in a parameter.
+    /// A minor is not a fraction of low degree in a parameter.
     #[error("the equations are no fractions of low degree in the parameter")]
     NoFraction,
-    /// A term of the user's cannot be read.
+    /// A term given by the user cannot be read.
     #[error("the term `{0}` is no scalar in the names of the case")]
     NoTerm(String),
-    /// The case has no such claim.
+    /// The case has no claim of this name.
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
-    /// The count did not come to rest.
+    /// The count did not become stable.
     #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
     Unsettled(u32),
-    /// It was time to stop: no fault, and told in the report.
+    /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
     Stopped,
-    /// States cannot be made inside a prime field.
+    /// States cannot be parametrised in a prime field.
     #[error("the level set has no parametrisation")]
     NoChart,
     /// No point at which all terms have a value was found.
@@ -82,7 +83,7 @@ pub enum SearchError {
     /// Recording failed.
     #[error(transparent)]
     Fault(#[from] Fault),
-    /// A find cannot be asked about the case.
+    /// The candidate is not a valid claim for this case.
     #[error("a find cannot be read in the names of the case: {0}")]
     Unreadable(#[from] CaseError),
     /// Judging failed.
@@ -91,13 +92,13 @@ pub enum SearchError {
 }
 
 impl SearchError {
-    /// Does it say that something cannot be counted, and nothing about the rest of a search?
+    /// Whether the error concerns counts only, and not the rest of a search.
     fn is_of_count(&self) -> bool {
         use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
         matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
     }
 
-    /// What to do about it.
+    /// Suggests a remedy.
     pub fn help(&self) -> &'static str {
         match self {
             SearchError::Judge(error) => error.help(),
@@ -109,31 +110,31 @@ impl SearchError {
     }
 }
 
-/// What to look for, and how far.
+/// Scope and limits of a search.
 #[derive(Clone, Debug)]
 pub struct Effort {
-    /// Integrals are counted up to this degree in the velocities.
+    /// Highest degree in the velocities of integrals to be counted.
     pub degree: u32,
-    /// Ignore what the case claims.
+    /// Whether the claims of the case are ignored.
     pub blind: bool,
-    /// Terms of integrals beside those that the system offers.
+    /// Terms of integrals in addition to those offered by the system.
     pub terms: Vec<String>,
-    /// Look for conditions on the parameters too.
+    /// Search for conditions on the parameters, if any.
     pub conditions: Option<Wanted>,
-    /// A count that may take longer is left out.
+    /// Time in seconds above which a count is left out.
     pub seconds: f64,
-    /// What is looked for in a global ansatz.
+    /// Scope of the polynomial ansatz.
     pub ansatz: Ansatz,
-    /// Look for brackets, with these Hamiltonians.
+    /// Hamiltonians for which brackets are searched, if any.
     pub poisson: Option<Hamiltonians>,
-    /// When to stop before the end.
+    /// Condition for an early end.
     pub halt: Halt,
-    /// How finds are judged.
+    /// Options for judging candidates.
     pub options: Options,
 }
 
 impl Default for Effort {
-    /// Integrals up to degree 4, a minute for each count, and no end before that.
+    /// Integrals up to degree 4, a minute for each count, and no early end.
     fn default() -> Self {
         Self {
             degree: 4,
@@ -149,33 +150,34 @@ impl Default for Effort {
     }
 }
 
-/// Something that was found.
+/// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
-    /// `integral`, `density`, `symmetry-field` or `bracket`.
+    /// Kind of the invariant: `integral`, `density`, `symmetry-field` or `bracket`.
     pub kind: &'static str,
-    /// In the names of the case.
+    /// Formula in the names of the case.
     pub formula: String,
-    /// Abbreviations in it that are not the case's, in order.
+    /// Abbreviations used in the formula that the case does not define, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// What it holds with: a `potential` or `gyrostat` that the case has not; a bracket with its
-    /// `Hamiltonian`, and each `Casimir` that is known.
+    /// Additional data under which it holds: a `potential` or `gyrostat` that the case does not
+    /// have; for a bracket its `Hamiltonian` and each known `Casimir`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
-    /// Is it a function of the energy and the level? Such finds are not told, so it never is.
+    /// Whether it is a function of the energy and the level. Such finds are not reported, so this
+    /// is always `false`.
     pub trivial: bool,
-    /// The claim of the case that it follows from.
+    /// Name of the claim of the case that implies it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub known: Option<String>,
-    /// What the ladder says.
+    /// Verdict on the claim.
     pub verdict: Verdict,
-    /// On what grounds.
+    /// Evidence for the verdict.
     pub evidence: Evidence,
 }
 
 impl Found {
-    /// A formula and the grounds for it.
+    /// Makes a find from a formula and its evidence.
     fn new(
         kind: &'static str,
         formula: &str,
@@ -207,49 +209,49 @@ impl Found {
     }
 }
 
-/// What cannot be.
+/// A family of candidates shown to contain no invariant beyond the known ones.
 #[derive(Clone, Debug, Serialize)]
 pub struct Excluded {
-    /// What was asked.
+    /// Family that was examined.
     pub ansatz: String,
-    /// The dimension that was found.
+    /// Dimension of the invariants in the family.
     pub dimension: usize,
-    /// Of these, how many are functions of what is known.
+    /// Number of these that are functions of known invariants.
     pub known: usize,
-    /// Log₂ of the probability of an error; absent where there is none.
+    /// Log₂ of the error probability; absent if there is no error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_log2: Option<f64>,
-    /// The theorem, with its hypotheses.
+    /// Theorem with its hypotheses.
     pub theorem: String,
 }
 
 /// The outcome of a search.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
-    /// The numbers of integrals, degree by degree.
+    /// Numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
-    /// The numbers of polynomials whose powers are densities.
+    /// Numbers of polynomials whose powers are densities.
     pub multipliers: Vec<MultiplierReport>,
-    /// What was found.
+    /// Invariants that were found.
     pub found: Vec<Found>,
-    /// What cannot be.
+    /// Families that contain no further invariants.
     pub excluded: Vec<Excluded>,
-    /// Singular values of the matrices in which integrals were looked for.
+    /// Singular values of the matrices of the search for integrals.
     pub opinions: Vec<SecondOpinion>,
-    /// For which parameters claims hold that fail in general.
+    /// Parameter conditions for claims that fail in general.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<Condition>,
-    /// What could not be done, and why.
+    /// Parts that could not be carried out, with reasons.
     pub remarks: Vec<String>,
-    /// What a search that was stopped did not reach; nothing where it came to its end.
+    /// Parts that a stopped search did not reach; empty for a complete search.
     pub unreached: Vec<String>,
-    /// The integrals that the case claims, which finds are compared with.
+    /// Integrals claimed by the case, with which finds are compared.
     #[serde(skip)]
     claimed: Vec<Claimed>,
 }
 
 impl Report {
-    /// The formulas that were found for the case as it is, of one kind.
+    /// Returns the formulas of one kind found for the case without additional data.
     pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
         let own = move |found: &&Found| found.kind == kind && found.with.is_empty();
         let found = self.found.iter().filter(own);
@@ -262,7 +264,7 @@ impl Report {
         }
     }
 
-    /// Runs a part of a search; one that is stopped is noted by its name.
+    /// Runs a part of a search; a part that is stopped is noted by its name.
     fn stage(
         &mut self,
         name: &str,
@@ -281,8 +283,8 @@ impl Report {
 
 /// Searches a case for integrals, densities and symmetries.
 ///
-/// `progress` is told what comes next, with its size. A search that is stopped reports what it has
-/// reached until then, and what it has not.
+/// `progress` is called with a description of the next part and its size. A search that is stopped
+/// reports the results reached so far, and the parts not reached.
 pub fn search(
     case: &Case,
     effort: &Effort,
@@ -323,7 +325,7 @@ pub fn search(
     Ok(report)
 }
 
-/// The case with the names that the library's terms use.
+/// Extends the case by the names that the library's terms use.
 fn abbreviated(case: &Case) -> Result<Case, SearchError> {
     let names = library::abbreviations(&case.model);
     let definition = |(name, text): &(&str, &str)| format!("{} = {}\n", quoted(name), quoted(text));

@@ -1,10 +1,12 @@
-//! Densities ρ = P^(1/α), P a polynomial in the velocities with any smooth coefficients.
+//! Search for densities ρ = P^(1/α), where P is a polynomial in the velocities with any smooth
+//! coefficients.
 //!
-//! ρ is invariant when L_vP + α div v P = 0: the equations for integrals with a term of order 0 more,
-//! so that they are of finite type like those, and the same Taylor coefficients count them. Without
-//! velocities it is the question for a density of the configuration. If there is one, ρ₀, all others
-//! are ρ₀ times a function of integrals, and nothing is left to ask. Other coordinates multiply ρ by
-//! a function of the positions, which changes no count.
+//! ρ is invariant when L_vP + α div v P = 0. These are the equations for integrals with an
+//! additional term of order 0, so that they are of finite type as well, and the same Taylor
+//! coefficients count their solutions. Without velocities they are the equations for a density of
+//! the configuration. If there is one, ρ₀, all others are ρ₀ times a function of integrals, and no
+//! further search is needed. Other coordinates multiply ρ by a function of the positions, which
+//! changes no count.
 
 use serde::Serialize;
 
@@ -18,34 +20,34 @@ use super::{Effort, Excluded, Found, Report, SearchError};
 use crate::case::Case;
 use crate::number::rational::Rational;
 
-/// The values of α that are tried: P^(m/n) is Q^(1/n) with Q = P^m.
+/// Values of α to try: P^(m/n) is Q^(1/n) with Q = P^m.
 const WEIGHTS: [i64; 8] = [1, -1, 2, -2, 3, -3, 4, -4];
 
-/// Polynomials up to this degree are counted.
+/// Largest degree of polynomials that are counted.
 const MOST: u32 = 4;
 
-/// How many polynomials there are whose powers are densities.
+/// Number of polynomials whose powers are densities.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct MultiplierReport {
-    /// The degree in the velocities.
+    /// Degree in the velocities.
     pub degree: u32,
-    /// α of P^(1/α); absent without velocities, where it does not matter.
+    /// Exponent α of P^(1/α); absent without velocities, where it is irrelevant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alpha: Option<i64>,
-    /// All degrees up to it together?
+    /// Whether all degrees up to it are counted together.
     pub mixed: bool,
-    /// Are potential and gyrostat left out?
+    /// Whether potential and gyrostat are left out.
     pub free: bool,
-    /// The number of independent ones, an upper bound for generic parameters.
+    /// Number of independent polynomials, an upper bound for generic parameters.
     pub dimension: usize,
-    /// Unknowns of the linear system.
+    /// Number of unknowns of the linear system.
     pub unknowns: usize,
-    /// Its equations.
+    /// Number of equations of the linear system.
     pub equations: usize,
 }
 
-/// Counts densities of this form, tells what cannot be, and looks for the first that can; why there
-/// is no count is a remark.
+/// Counts densities of this form, states which are excluded, and searches for the first that is
+/// not; a remark gives the reason if there is no count.
 pub fn multipliers(
     case: &Case,
     effort: &Effort,
@@ -55,7 +57,8 @@ pub fn multipliers(
     progress("densities that depend on the velocities");
     let mixed = case.model.system.energy_is_inhomogeneous();
     let free = free_motion(case).filter(|_| mixed);
-    // The leading form of P belongs to the free motion: without one nothing is left to count.
+    // The leading form of P belongs to the free motion: if that has none, nothing remains to be
+    // counted.
     let motions = free.iter().map(|free| (free, false, true)).chain([(case, mixed, false)]);
     for (motion, mixed, is_free) in motions {
         let Some(locals) = locals(motion, report)? else { return Ok(()) };
@@ -76,14 +79,14 @@ pub fn multipliers(
             Some(MultiplierReport { alpha: Some(alpha), free: false, .. }) => {
                 find(case, alpha, effort, report)?;
             }
-            // Densities of the configuration are looked for as products of factors.
+            // Densities of the configuration are found as products of factors.
             Some(_) => {}
         }
     }
     Ok(())
 }
 
-/// The numbers, degree by degree, until there is one.
+/// Counts degree by degree, until a count is not 0.
 fn series(
     locals: &[Local],
     mixed: bool,
@@ -115,7 +118,7 @@ fn series(
     Ok(counted)
 }
 
-/// Looks for P among the terms that the system offers; what is proved goes into the report.
+/// Searches for P among the terms that the system offers; proved densities go into the report.
 fn find(case: &Case, alpha: i64, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let mut candidates = over_denominators(case, &terms, &Rational::from(alpha), effort, report)?;

@@ -1,4 +1,4 @@
-//! Products of known integrals: how many there are of each degree in the velocities.
+//! Products of known integrals, and their number in each degree in the velocities.
 
 use num_dual::Dual;
 
@@ -14,11 +14,11 @@ use crate::mechanics::Phase;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::proof::Chance;
 
-/// The highest degree that is recognised.
+/// Highest degree that is recognised.
 const MOST: usize = 16;
-/// Points of a line at which slopes are taken.
+/// Number of points of a line at which slopes are taken.
 const POINTS: usize = 2 * MOST + 8;
-/// Lines that are tried, as roots exist on some only.
+/// Number of lines to try, since roots exist on some only.
 const TRIALS: usize = 64;
 
 /// Independent integrals with their degrees in the velocities.
@@ -26,7 +26,7 @@ const TRIALS: usize = 64;
 pub struct Generators(Vec<(String, u32)>);
 
 impl Generators {
-    /// The energy, where it is an integral.
+    /// Collects the energy, if it is an integral.
     pub fn energy(case: &Case, effort: &Effort) -> Result<Self, SearchError> {
         let mut generators = Self::default();
         if case.model.vocabulary.find("energy").is_some() {
@@ -38,7 +38,7 @@ impl Generators {
         Ok(generators)
     }
 
-    /// With all that was found, or is claimed.
+    /// Collects the energy and all integrals found or claimed.
     pub fn all(case: &Case, effort: &Effort, report: &Report) -> Result<Self, SearchError> {
         let mut generators = Self::energy(case, effort)?;
         let mut told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
@@ -53,7 +53,7 @@ impl Generators {
         Ok(generators)
     }
 
-    /// Adds an integral if its degree can be told.
+    /// Adds an integral if its degree can be determined.
     fn add(&mut self, case: &Case, formula: &str, seed: u64) -> Result<(), SearchError> {
         if let Some(degree) = degree(case, formula, seed)?.filter(|degree| *degree > 0) {
             self.0.push((formula.to_string(), degree));
@@ -61,17 +61,18 @@ impl Generators {
         Ok(())
     }
 
-    /// The formulas.
+    /// Iterates over the formulas.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|(name, _)| name.as_str())
     }
 
-    /// The formulas with their degrees in the velocities.
+    /// Iterates over the formulas with their degrees in the velocities.
     pub fn each(&self) -> impl Iterator<Item = (&str, u32)> {
         self.0.iter().map(|(name, degree)| (name.as_str(), *degree))
     }
 
-    /// The products of this degree, or with `mixed` of at most it, as exponents of the formulas.
+    /// Lists the products of this degree, or with `mixed` of at most this degree, as exponents of
+    /// the formulas.
     pub fn exponents(&self, degree: u32, mixed: bool) -> Vec<Vec<u32>> {
         let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
         for (_, own) in &self.0 {
@@ -86,9 +87,9 @@ impl Generators {
         wanted.map(|(_, powers)| powers).collect()
     }
 
-    /// How many products have this degree; with `mixed`, how many at most it, 1 among them.
+    /// Number of products of this degree; with `mixed`, of at most this degree, including 1.
     pub fn products(&self, degree: u32, mixed: bool) -> usize {
-        // ways[d]: products of degree d of the generators so far
+        // Entry d: number of products of degree d of the generators so far.
         let mut ways = vec![0usize; degree as usize + 1];
         ways[0] = 1;
         for (_, own) in &self.0 {
@@ -100,12 +101,12 @@ impl Generators {
     }
 }
 
-/// The degree of a formula in the velocities; nothing if it is no polynomial in them, or no value of
-/// its slope is known modulo a prime.
+/// Finds the degree of a formula in the velocities; `None` if it is not a polynomial in them, or if
+/// its slope has no value modulo a prime.
 ///
-/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which are
-/// linear equations for the coefficients of P. The logarithm's slope is a rational function where F
-/// has factors that no field knows, as exponentials of the positions.
+/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
+/// are linear equations for the coefficients of P. The logarithm's slope is a rational function
+/// where F has factors that fields lack, such as exponentials of the positions.
 fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
     let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
@@ -125,7 +126,7 @@ fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchEr
         let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
         let moved = Phase::new(model, &parameters, &state);
         let slope = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
-        // An ∫ whose variable changes with the velocities has a degree that is not seen here.
+        // An ∫ whose variable depends on the velocities has a degree that this test does not see.
         let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| moved.value(s)));
         let moving: Vec<Expr> = integrals.map(|(_, variable)| variable.eps).collect();
         (slope, moving)
@@ -151,7 +152,8 @@ fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchEr
     Ok(None)
 }
 
-/// The degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if it is one.
+/// Finds the degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if there is
+/// one.
 fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
     let mut echelon = Echelon::new(MOST + 1, *m);
     for (s, slope) in slopes.iter().enumerate() {

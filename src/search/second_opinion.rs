@@ -1,40 +1,41 @@
-//! The same matrix in f64: its singular values show the relations as a gap.
+//! Check of the relations in f64: singular values of the same matrix, with a gap at their number.
 
 use serde::Serialize;
 
 use super::linear::Functions;
 
-/// States beyond the number of terms.
+/// Number of states beyond the number of terms.
 #[cfg_attr(not(feature = "svd"), expect(dead_code, reason = "singular values ask for it"))]
 const SPARE: usize = 32;
 
-/// Singular values on both sides of the gap where the relations modulo a prime say it should be.
+/// Singular values on both sides of the gap expected from the relations modulo a prime.
 #[derive(Clone, Debug, Serialize)]
 pub struct SecondOpinion {
-    /// What the terms are divided by.
+    /// Denominator of the terms.
     pub denominator: String,
-    /// States in f64.
+    /// Number of states in f64.
     pub states: usize,
-    /// Columns of the matrix.
+    /// Number of columns of the matrix.
     pub terms: usize,
-    /// Relations modulo a prime.
+    /// Number of relations modulo a prime.
     pub relations: usize,
-    /// The smallest singular value that should not be 0, over the largest one.
+    /// Smallest singular value that should not be 0, relative to the largest one.
     pub smallest: f64,
-    /// The largest one that should be 0, over the largest one; absent without relations.
+    /// Largest singular value that should be 0, relative to the largest one; absent without
+    /// relations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_zero: Option<f64>,
 }
 
 impl SecondOpinion {
-    /// Do the singular values agree: is there a gap where it should be?
+    /// Whether the singular values have a gap where it is expected.
     pub fn agrees(&self) -> bool {
         self.largest_zero.is_none_or(|zero| zero < 1e-3 * self.smallest)
     }
 }
 
-/// The singular values of the functions, each scaled to length 1 over the states; nothing if they have
-/// too few values there.
+/// Computes the singular values of the functions, each scaled to length 1 over the states; `None`
+/// if they have too few values there.
 #[cfg(feature = "svd")]
 pub fn second_opinion(
     functions: &Functions,
@@ -66,7 +67,7 @@ pub fn second_opinion(
     })
 }
 
-/// Without the feature `svd` there is none.
+/// Returns `None`: without the feature `svd` there are no singular values.
 #[cfg(not(feature = "svd"))]
 pub fn second_opinion(_: &Functions, _: &str, _: usize, _: u64) -> Option<SecondOpinion> {
     None

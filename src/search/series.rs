@@ -1,4 +1,4 @@
-//! Truncated power series modulo a prime: the number domain in which a tape yields Taylor
+//! Truncated power series modulo a prime, the number domain in which a tape computes Taylor
 //! coefficients.
 //!
 //! A series in a few variables is kept up to a total degree, its coefficients in graded order. With
@@ -9,19 +9,19 @@ use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function, Operation};
 
-/// Series in some variables up to some total degree, modulo a prime. A block is one series; an empty
-/// one is undefined.
+/// The domain of series in some variables up to some total degree, modulo a prime. A block is one
+/// series; an empty block is undefined.
 #[derive(Clone, Debug)]
 pub struct Series {
     modulus: Modulus,
-    /// The exponents of each monomial, by rising degree.
+    /// Exponents of each monomial, by increasing degree.
     monomials: Vec<Vec<u32>>,
-    /// For each monomial: the pairs whose product it is.
+    /// Pairs of monomials whose product each monomial is.
     pairs: Vec<Vec<(u32, u32)>>,
     degrees: Vec<u64>,
 }
 
-/// All exponents of `variables` variables with this sum.
+/// Lists all exponents of `variables` variables with sum `total`.
 pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
     match variables {
         0 => {
@@ -45,7 +45,7 @@ pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
 }
 
 impl Series {
-    /// The domain of series up to `degree`.
+    /// Makes the domain of series up to `degree`.
     pub fn new(modulus: Modulus, variables: usize, degree: u32) -> Self {
         let monomials: Vec<Vec<u32>> =
             (0..=degree).flat_map(|total| exponents(variables, total)).collect();
@@ -64,19 +64,19 @@ impl Series {
         Self { modulus, monomials, pairs, degrees }
     }
 
-    /// The monomials, by rising degree.
+    /// Returns the monomials, by increasing degree.
     pub fn monomials(&self) -> &[Vec<u32>] {
         &self.monomials
     }
 
-    /// A constant, in the modulus's form.
+    /// Makes a constant series from a residue.
     pub fn number(&self, value: u64) -> Vec<u64> {
         let mut series = vec![0; self.monomials.len()];
         series[0] = value;
         series
     }
 
-    /// value + x_k
+    /// Makes the series value + x_k.
     pub fn variable(&self, k: usize, value: u64) -> Vec<u64> {
         let mut series = self.number(value);
         if let Some(place) = self
@@ -89,7 +89,7 @@ impl Series {
         series
     }
 
-    /// The derivative by x_k, without its terms of the highest degree.
+    /// Differentiates with respect to x_k, without the terms of the highest degree.
     pub fn derivative(&self, k: usize, series: &[u64]) -> Vec<u64> {
         let m = &self.modulus;
         let place: rustc_hash::FxHashMap<&[u32], usize> =
@@ -103,7 +103,7 @@ impl Series {
         self.monomials.iter().map(of).collect()
     }
 
-    /// A multiple.
+    /// Multiplies by an integer.
     pub fn multiple(&self, factor: u32, series: &[u64]) -> Vec<u64> {
         let factor = self.modulus.integer(u64::from(factor));
         series.iter().map(|x| self.modulus.mul(factor, *x)).collect()
@@ -115,7 +115,7 @@ impl Series {
         self.pairs.iter().map(|pairs| pairs.iter().fold(0, |s, p| m.add(s, term(p)))).collect()
     }
 
-    /// x^q with the given constant term, by a θp = q p θa.
+    /// Computes x^q with the given constant term, by a θp = q p θa.
     fn raised(&self, a: &[u64], exponent: u64, first: u64) -> Option<Vec<u64>> {
         let m = &self.modulus;
         if a[0] == 0 {
@@ -145,7 +145,7 @@ impl Series {
         use crate::number::prime::{Prime, UNDEFINED};
         let image = self.modulus.rational(exponent)?;
         let mut first = [0u64];
-        // The constant term has the power that it has in the field.
+        // The constant term is raised to the power in the field.
         Prime::new([self.modulus]).power(&[a[0]], exponent, &mut first);
         (first[0] != UNDEFINED).then(|| self.raised(a, image, first[0]))?
     }

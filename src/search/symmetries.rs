@@ -1,4 +1,5 @@
-//! Symmetry fields that are linear in the state: u = Σ a_ij x_i ∂/∂x_j + Σ b_j ∂/∂x_j with [u,v] = c v.
+//! Search for symmetry fields that are linear in the state: u = Σ a_ij x_i ∂/∂x_j + Σ b_j ∂/∂x_j
+//! with [u,v] = c v.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -15,10 +16,10 @@ use crate::mechanics::calculus::dot;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// State components beyond which linear fields are too many.
+/// Largest number of state components for which linear fields are tried.
 const MOST: usize = 9;
 
-/// Looks for symmetry fields; what is found and proved goes into the report.
+/// Searches for symmetry fields; proved ones go into the report.
 pub fn symmetries(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let model = &case.model;
     let dimension = model.dimension();
@@ -26,7 +27,7 @@ pub fn symmetries(case: &Case, effort: &Effort, report: &mut Report) -> Result<(
         return Ok(());
     }
     let kept = Place::level(model).kept;
-    // Fields x_i ∂/∂x_j and ∂/∂x_j, as pairs (i, j); then c.
+    // Fields x_i ∂/∂x_j and ∂/∂x_j, as pairs (i, j); followed by c.
     let sources = (0..dimension).map(Some).chain([None]);
     let fields: Vec<(Option<usize>, usize)> =
         sources.flat_map(|i| (0..dimension).map(move |j| (i, j))).collect();
@@ -76,7 +77,7 @@ fn zero() -> Expr {
     Expr::rational(&Rational::from(0))
 }
 
-/// A field as one reads it, and as the body of a claim; the last multiple is the weight.
+/// Writes a field for the reader and as the body of a claim; the last multiple is the weight.
 fn spelled(
     case: &Case,
     fields: &[(Option<usize>, usize)],
@@ -125,7 +126,7 @@ fn spelled(
     (shown, body)
 }
 
-/// Names of the state's components: `ω1`, `x`.
+/// Names the state's components: `ω1`, `x`.
 fn component_names(case: &Case) -> Vec<String> {
     let mut names = Vec::new();
     for variable in &case.model.state {

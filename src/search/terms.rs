@@ -1,4 +1,4 @@
-//! Terms that can be read in the names of a case, and sums and products of them as one writes them.
+//! Terms in the names of a case, and the notation of their sums and products.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -14,13 +14,13 @@ use crate::number::rational::Rational;
 /// A scalar in the names of a case.
 #[derive(Clone, Debug)]
 pub struct Term {
-    /// As it is written.
+    /// Text of the term.
     pub text: String,
-    /// As it is read.
+    /// Parsed formula.
     pub formula: Formula,
 }
 
-/// Those texts that are scalars in these names.
+/// Parses the texts that are scalars in these names.
 pub fn read(texts: Vec<String>, vocabulary: &Vocabulary) -> Vec<Term> {
     let scalar = |formula: &Formula| formula.value_type() == Type::Scalar;
     texts
@@ -32,7 +32,7 @@ pub fn read(texts: Vec<String>, vocabulary: &Vocabulary) -> Vec<Term> {
         .collect()
 }
 
-/// Records something at a point of phase space; the inputs are parameters and state.
+/// Records values at a point of phase space; the inputs are parameters and state.
 pub fn recorded<R>(
     case: &Case,
     make: impl FnOnce(&Jet<'_, Expr>) -> R,
@@ -45,14 +45,14 @@ pub fn recorded<R>(
     })
 }
 
-/// Integers and what they were divided by: a = multiples / denominator.
+/// Clears denominators: a = multiples / denominator.
 fn cleared(coefficients: &[Rational]) -> (Vec<BigInt>, BigInt) {
     let parts: Vec<(BigInt, BigInt)> = coefficients.iter().map(Rational::parts).collect();
     let below = parts.iter().fold(BigInt::from(1), |lcm, (_, below)| lcm.lcm(below));
     (parts.iter().map(|(above, own)| above * (&below / own)).collect(), below)
 }
 
-/// Σ a_j T_j, up to a factor, as one writes it.
+/// Writes Σ a_j T_j, up to a factor.
 pub fn sum(coefficients: &[Rational], terms: &[&str]) -> String {
     let (mut multiples, _) = cleared(coefficients);
     let common = multiples.iter().fold(BigInt::ZERO, |gcd, a| gcd.gcd(a));
@@ -65,12 +65,12 @@ pub fn sum(coefficients: &[Rational], terms: &[&str]) -> String {
     written(&multiples, terms)
 }
 
-/// The same coefficients without denominators.
+/// Clears denominators and drops them.
 pub fn integers(coefficients: &[Rational]) -> Vec<BigInt> {
     cleared(coefficients).0
 }
 
-/// Σ a_j T_j as one writes it; nothing for an empty sum.
+/// Writes Σ a_j T_j; an empty text for an empty sum.
 pub fn written(multiples: &[BigInt], terms: &[&str]) -> String {
     let mut text = String::new();
     for (multiple, term) in multiples.iter().zip(terms).filter(|(a, _)| !a.is_zero()) {
@@ -91,7 +91,7 @@ pub fn written(multiples: &[BigInt], terms: &[&str]) -> String {
     text
 }
 
-/// Π f^α, each α a sum of multiples of the exponents.
+/// Writes the factors of Π f^α, where each α is a combination of the exponents.
 pub fn powers(coefficients: &[Rational], factors: &[Term], exponents: &[&str]) -> Vec<String> {
     let each = coefficients.chunks(exponents.len().max(1));
     let used = factors.iter().zip(each).filter(|(_, own)| !own.iter().all(Rational::is_zero));
@@ -102,7 +102,7 @@ pub fn powers(coefficients: &[Rational], factors: &[Term], exponents: &[&str]) -
     .collect()
 }
 
-/// Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
+/// Writes Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
 pub fn exponent(coefficients: &[Rational], exponents: &[&str]) -> String {
     let (multiples, below) = cleared(coefficients);
     let above = written(&multiples, exponents);

@@ -1,4 +1,4 @@
-//! How a bracket is written: its entries as formulas, and in the case that asks about it.
+//! Notation of a bracket: its entries as formulas, and as part of the case in which it is judged.
 
 use std::cmp::Ordering;
 
@@ -15,7 +15,7 @@ use crate::case::Case;
 use crate::formula::Type;
 
 impl Family<'_> {
-    /// The entries P_ij, i < j, by rows, as one writes them; the last multiple divides all, unless it is 0.
+    /// Writes the entries P_ij, i < j, by rows; the last multiple divides all, unless it is 0.
     pub(super) fn entries(&self, multiples: &[BigInt]) -> Vec<String> {
         let (field, own) = match multiples.split_last() {
             Some((field, own)) => (field.clone(), own),
@@ -56,7 +56,7 @@ impl Family<'_> {
         entries
     }
 
-    /// `{x,y} = x*y`: the entries that are not 0.
+    /// Writes the nonzero entries, such as `{x,y} = x*y`.
     pub(super) fn shown(&self, entries: &[String]) -> String {
         let names = &self.names;
         let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
@@ -67,13 +67,13 @@ impl Family<'_> {
         nonzero.map(one).collect::<Vec<_>>().join(", ")
     }
 
-    /// The case with a bracket in its own state; without entries, one that is 0.
+    /// Adds a bracket in the state variables to the case; without entries, the bracket 0.
     pub(super) fn with_bracket(&self, entries: &[String]) -> Result<Case, SearchError> {
         let state = &self.case.model.state;
         let count = self.names.len();
         let entry = |i: usize, j: usize| -> String {
             let (low, high) = (i.min(j), i.max(j));
-            // Rows above stand before: row k has count − 1 − k entries.
+            // Earlier rows come first: row k has count − 1 − k entries.
             let place =
                 (0..low).map(|k| count - 1 - k).sum::<usize>() + high.saturating_sub(low + 1);
             let text = entries.get(place).map_or("0", String::as_str);

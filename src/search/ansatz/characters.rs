@@ -1,5 +1,5 @@
-//! Sign changes of the state that keep the motion, or reverse it: every integral is a sum of integrals
-//! that they multiply by ±1, so that a linear system falls apart into blocks.
+//! Sign changes of the state that preserve or reverse the motion: every integral is a sum of
+//! integrals that they multiply by ±1, so that a linear system decomposes into blocks.
 
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::proof::Chance;
 use crate::verdict::Sampler;
 
-/// States at which a symmetry is tested.
+/// Number of states at which a symmetry is tested.
 const LANES: usize = 8;
-/// Components beyond which sign changes are too many.
+/// Largest number of components for which sign changes are tried.
 const MOST: usize = 10;
 
-/// A sign change, and what it does to factors.
+/// A sign change of the state and the factors.
 struct Signs {
     changed: Vec<bool>,
     factors: Vec<bool>,
@@ -29,7 +29,7 @@ struct Signs {
 pub struct Characters(Vec<Signs>);
 
 impl Characters {
-    /// Those of the motion on the level that multiply each of the factors by ±1.
+    /// Finds the sign changes of the motion on the level that multiply each of the factors by ±1.
     pub fn of(
         case: &Case,
         variables: &Variables,
@@ -97,7 +97,7 @@ impl Characters {
         Ok(Self(found.collect()))
     }
 
-    /// The columns that belong together, in their order.
+    /// Groups the columns by their signs, in order.
     pub fn blocks(&self, columns: &[Column]) -> Vec<Vec<usize>> {
         let mut blocks: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
         for (index, column) in columns.iter().enumerate() {
@@ -122,8 +122,8 @@ fn negated(m: &Modulus, x: u64) -> u64 {
     if x == UNDEFINED { x } else { m.sub(0, x) }
 }
 
-/// Is y = x (`Some(false)`) or y = -x (`Some(true)`) in all lanes? `Some(None)` where both are 0; the
-/// outer option is empty where they are neither, or nowhere defined.
+/// Whether y = x (`Some(false)`) or y = -x (`Some(true)`) in all lanes; `Some(None)` where both are
+/// 0. The outer option is `None` where they are neither, or defined nowhere.
 fn ratio(m: &Modulus, x: &[u64; LANES], y: &[u64; LANES]) -> Option<Option<bool>> {
     let defined: Vec<(u64, u64)> = x
         .iter()

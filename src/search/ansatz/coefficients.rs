@@ -1,8 +1,8 @@
-//! Coefficients as numbers or as functions of the parameters.
+//! Coefficients as numbers or functions of the parameters.
 //!
-//! A null vector is known modulo a prime for each choice of the parameters. Where all parameters are
-//! numbers, so are the coefficients: rational numbers, by the Chinese remainder theorem from as many
-//! primes as they take. Otherwise each coefficient is a fraction N/D of polynomials in the parameters'
+//! A null vector is known modulo a prime for each choice of the parameters. If all parameters are
+//! numbers, so are the coefficients: rational numbers, by the Chinese remainder theorem from enough
+//! primes. Otherwise each coefficient is a fraction N/D of polynomials in the parameters'
 //! components: N(θ) − c(θ) D(θ) = 0 is linear in the coefficients of N and D.
 
 use num_bigint::BigInt;
@@ -17,36 +17,36 @@ use super::system::{At, System};
 use crate::number::prime::Modulus;
 use crate::proof::reconstruct;
 
-/// Primes after which rational coefficients are given up.
+/// Number of primes after which rational coefficients are given up.
 const PRIMES: u64 = 8;
-/// Coefficients of a numerator and denominator together.
+/// Largest number of coefficients of a numerator and denominator together.
 const MOST: usize = 640;
-/// Samples beyond the number of unknowns.
+/// Number of samples beyond the number of unknowns.
 const SPARE: usize = 8;
-/// Choices of parameters beyond those that are wanted, where some have no value.
+/// Number of choices of parameters beyond those wanted, since some have no value.
 const BARREN: u64 = 64;
 
 /// A polynomial in the coordinates of the parameters, by exponents.
 pub type Polynomial = Vec<(Vec<u32>, BigInt)>;
 
-/// Coefficients of a vector: one polynomial a column, without common factor.
+/// Coefficients of a vector: one polynomial for each column, without common factor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coefficients {
     names: Vec<String>,
-    /// By column.
+    /// Polynomials by column.
     pub polynomials: Vec<Polynomial>,
 }
 
 impl Coefficients {
-    /// The vector on some columns that is 1 at the last of them, for all values of the parameters;
-    /// nothing if its coefficients are no fractions of low degree.
+    /// Finds the vector on some columns that is 1 at the last of them, for all values of the
+    /// parameters; `None` if its coefficients are not fractions of low degree.
     pub fn of(system: &System, columns: &[usize]) -> Option<Self> {
         let mut samples = Samples { system, columns, next: 0, known: Vec::new() };
         let varying = samples.varying()?;
         if varying.is_empty() {
             return numbers(system, columns);
         }
-        // Few coordinates are tried first: often J stands for I, m and R.
+        // Few coordinates are tried first: often J replaces I, m and R.
         let names = system.coordinates();
         let tensor = |k: &usize| names[*k].starts_with('J');
         let instead = |k: usize| {
@@ -59,7 +59,7 @@ impl Coefficients {
         [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
     }
 
-    /// The coefficient of a column as one writes it, in parentheses where it needs them.
+    /// Writes the coefficient of a column, in parentheses where needed.
     pub fn text(&self, column: usize) -> String {
         let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
         let own = &self.polynomials[column];
@@ -68,7 +68,7 @@ impl Coefficients {
         written(&multiples, &texts.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
-    /// Σ coefficient · function over the columns `own`, as one writes it.
+    /// Writes Σ coefficient · function over the columns `own`.
     pub fn sum(&self, own: &[usize], functions: &[String]) -> String {
         let mut text = String::new();
         for (column, function) in own.iter().zip(functions) {
@@ -98,7 +98,7 @@ impl Coefficients {
         if text.is_empty() { "0".to_string() } else { text }
     }
 
-    /// The same without the common divisor of all numbers, and the last column positive.
+    /// Divides by the common divisor of all numbers and makes the last column positive.
     fn reduced(mut self) -> Self {
         let all = || self.polynomials.iter().flatten();
         let common = all().fold(BigInt::ZERO, |gcd, (_, a)| gcd.gcd(a));
@@ -112,12 +112,12 @@ impl Coefficients {
     }
 }
 
-/// The vector for choices of the parameters, as far as it was asked for.
+/// Values of the vector for choices of the parameters, computed on demand.
 struct Samples<'s> {
     system: &'s System,
     columns: &'s [usize],
     next: u64,
-    /// Where, and the vector.
+    /// Choices of the parameters with the vector there.
     known: Vec<(At, Vec<u64>)>,
 }
 
@@ -138,7 +138,7 @@ impl Samples<'_> {
         Some(())
     }
 
-    /// The coordinates that differ from choice to choice, and from those before them.
+    /// Returns the coordinates that differ between choices, and from those before them.
     fn varying(&mut self) -> Option<Vec<usize>> {
         self.extend(4)?;
         let column =
@@ -150,7 +150,7 @@ impl Samples<'_> {
         Some((0..self.system.coordinates().len()).filter(is_new).collect())
     }
 
-    /// Coefficients as polynomials in some of the coordinates, all multiplied by what they need.
+    /// Fits coefficients as polynomials in some of the coordinates, over a common denominator.
     fn fitted(&mut self, kept: &[usize]) -> Option<Coefficients> {
         if kept.is_empty() {
             return None;
@@ -189,7 +189,7 @@ impl Samples<'_> {
         }
     }
 
-    /// Numerator and denominator of least degree for a column, times denominators of others.
+    /// Finds numerator and denominator of least degree for a column, times denominators of others.
     fn fraction(
         &mut self,
         kept: &[usize],
@@ -224,7 +224,7 @@ impl Samples<'_> {
             }
             if let Some(vector) = echelon.null_space().first() {
                 let (n, d) = vector.split_at(upper.len());
-                // 0 = c D at all points: the coordinates are not independent of each other.
+                // 0 = c D at all points: the coordinates are dependent.
                 if n.iter().all(|image| *image == 0) {
                     return None;
                 }
@@ -266,18 +266,18 @@ fn evaluate(m: &Modulus, point: &[u64], exponents: &[u32]) -> u64 {
     powers.fold(m.one(), |product, power| m.mul(product, power))
 }
 
-/// How many monomials of at most this degree there are.
+/// Number of monomials of at most this degree.
 fn count(variables: usize, degree: u32) -> usize {
     (1..=variables).fold(1, |product, i| product * (degree as usize + i) / i)
 }
 
-/// The null vector that is 1 at the last column.
+/// Returns the null vector that is 1 at the last column.
 fn normalised(system: &System, columns: &[usize], at: &At) -> Option<Vec<u64>> {
     let vectors = system.null_space(at, columns)?;
     vectors.into_iter().next_back().filter(|vector| vector.last() == Some(&at.modulus.one()))
 }
 
-/// Rational coefficients, confirmed modulo one prime more than they are made from.
+/// Finds rational coefficients, confirmed modulo one further prime.
 fn numbers(system: &System, columns: &[usize]) -> Option<Coefficients> {
     let mut product = BigInt::one();
     let mut residues: Vec<BigInt> = vec![BigInt::ZERO; columns.len()];
@@ -319,7 +319,7 @@ fn numbers(system: &System, columns: &[usize]) -> Option<Coefficients> {
     None
 }
 
-/// The fraction with numerator and denominator below √(M/2) that has this residue.
+/// Finds the fraction with numerator and denominator below √(M/2) and this residue.
 fn fraction(residue: &BigInt, modulus: &BigInt) -> Option<(BigInt, BigInt)> {
     let bound = (modulus / 2u32).sqrt();
     let mut previous = (modulus.clone(), BigInt::ZERO);

@@ -1,4 +1,4 @@
-//! The same body with another potential or rotor, and free constants in front of them.
+//! Variants of a body with another potential or rotor, and with further free constants.
 
 use crate::case::Case;
 use crate::formula::{Formula, Type};
@@ -6,8 +6,8 @@ use crate::mechanics::{
     Draw, Meaning, Model, Origin, Parameter, Potential, Range, Reach, Recipe, System,
 };
 
-/// A model whose potential is the one that it has and a further term; nothing if it takes none, or if
-/// the text is no function of the configuration.
+/// Adds a term to the potential of a model; `None` if the system takes no potential, or if the text
+/// is not a function of the configuration.
 pub fn with_potential(model: &Model, further: &str) -> Option<Model> {
     let mut changed = model.clone();
     let System::Rubber(body) = &mut changed.system else { return None };
@@ -26,7 +26,7 @@ pub fn with_potential(model: &Model, further: &str) -> Option<Model> {
     Some(changed)
 }
 
-/// A model with a rotor; nothing if it has one, or takes none.
+/// Adds a rotor to a model; `None` if it has one already, or takes none.
 pub fn with_gyrostat(model: &Model, rotor: &str) -> Option<Model> {
     let mut changed = model.clone();
     let read = Formula::parse(rotor, &changed.vocabulary).ok()?;
@@ -42,7 +42,7 @@ pub fn with_gyrostat(model: &Model, rotor: &str) -> Option<Model> {
     Some(changed)
 }
 
-/// The case with so many further free numbers, and their names.
+/// Adds `count` free numbers to the case and returns their names.
 pub fn with_constants(case: &Case, letter: &str, count: usize) -> (Case, Vec<String>) {
     let mut extended = case.clone();
     let model = &mut extended.model;
@@ -62,7 +62,7 @@ pub fn with_constants(case: &Case, letter: &str, count: usize) -> (Case, Vec<Str
     (extended, names)
 }
 
-/// Σ constant · part.
+/// Writes Σ constant · part.
 pub fn combination<'t>(parts: impl Iterator<Item = (&'t String, &'t String)>) -> String {
     let term = |(constant, part): (&String, &String)| match part.starts_with('[') {
         true => format!("{constant}*{part}"),

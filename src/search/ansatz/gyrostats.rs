@@ -1,14 +1,14 @@
-//! The constant rotors under which an integral survives.
+//! Constant rotors under which an integral persists.
 //!
-//! Let F be an integral of degree 2 in ω, and A(S) what a rotor S adds to ω', linear in S. F + F₁ + F₀,
-//! of degree 1 and 0 in ω, is an integral with S when
+//! Let F be an integral of degree 2 in ω, and A(S) the contribution of a rotor S to ω', linear in
+//! S. F + F₁ + F₀, with F₁ and F₀ of degree 1 and 0 in ω, is an integral with S when
 //!
 //! ```text
 //! (∂F/∂ω, A(S)) + L_v F₁ = 0       linear in S and F₁
 //! (∂F₁/∂ω, A(S)) + L_v F₀ = 0      linear in the products of S's components and F₀
 //! ```
 //!
-//! For an F of degree 1 the first equation is all, with F₁ of degree 0.
+//! For an F of degree 1 the first equation suffices, with F₁ of degree 0.
 
 use super::super::ask::{holds, judged, quoted};
 use super::super::products::Generators;
@@ -25,7 +25,7 @@ use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 
-/// For each integral of degree 2 that is known: which rotors does it survive?
+/// Finds, for each known integral of degree 1 or 2, the rotors under which it persists.
 pub fn gyrostats(
     case: &Case,
     effort: &Effort,
@@ -67,20 +67,20 @@ pub fn gyrostats(
     Ok(())
 }
 
-/// The rotors that keep one integral.
+/// The search for the rotors that preserve one integral.
 struct Rotors<'a> {
     case: &'a Case,
     effort: &'a Effort,
     variables: &'a Variables,
-    /// The model with a rotor along each axis.
+    /// Models with a unit rotor along each axis.
     unit: &'a [Model],
     below: &'a [Term],
     integral: Term,
-    /// Of the integral in the velocities.
+    /// Degree of the integral in the velocities.
     degree: u32,
 }
 
-/// A direction of the rotor, and what the integral gains.
+/// A direction of the rotor, with the terms added to the integral.
 struct Direction {
     rotor: String,
     linear: String,
@@ -124,7 +124,7 @@ impl Rotors<'_> {
         Ok(())
     }
 
-    /// (∂F/∂ω, A(e_i)) for each axis.
+    /// Computes (∂F/∂ω, A(e_i)) for each axis.
     fn gains(&self, jet: &Jet<'_, Expr>, function: &Term) -> Vec<Expr> {
         let (state, field) = (jet.phase.state(), jet.phase.field());
         let gain = |model: &Model| {
@@ -145,7 +145,7 @@ impl Rotors<'_> {
         })
     }
 
-    /// The equations of first order; the rotor's components stand last.
+    /// Sets up the equations of first order; the rotor's components are the last columns.
     fn linear(&self) -> Result<System, SearchError> {
         let over = factors(self.below, self.case);
         let seed = self.effort.options.seed;
@@ -161,7 +161,7 @@ impl Rotors<'_> {
         Ok(system)
     }
 
-    /// How many directions there are to first order, and those whose coefficients are known.
+    /// Returns the number of directions to first order, and those whose coefficients are known.
     fn directions(&self, system: &System, report: &mut Report) -> Option<(usize, Vec<Direction>)> {
         let at = system.at(0, 0)?;
         let first = system.columns.len() - 3;
@@ -198,7 +198,7 @@ impl Rotors<'_> {
         Some((dimension, found))
     }
 
-    /// Terms of second order for each product of two directions; nothing where there are none.
+    /// Finds terms of second order for each product of two directions; `None` where there are none.
     fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<String>>, SearchError> {
         if self.degree < 2 {
             return Ok(vec![Some("0".to_string()); pairs(directions.len()).len()]);
@@ -256,7 +256,8 @@ impl Rotors<'_> {
         Ok((0..pairs.len()).map(solved).collect())
     }
 
-    /// The integral with as many directions as allow one, a free constant in front of each; how many?
+    /// Reports the integral with all directions that admit one, each with a free constant; returns
+    /// their number.
     fn tell(&self, directions: &[Direction], report: &mut Report) -> Result<usize, SearchError> {
         let mut kept: Vec<&Direction> = directions.iter().collect();
         while !kept.is_empty() {
@@ -266,7 +267,8 @@ impl Rotors<'_> {
                 .collect();
             let quadratic = self.quadratic(&own)?;
             let pairs = pairs(own.len());
-            // A direction without a term of its own goes first, then the last of those that differ.
+            // Drop a direction without a term for its square first, then the last one in a pair
+            // that fails.
             let missing = pairs.iter().zip(&quadratic).filter(|(_, term)| term.is_none());
             let worst = missing.map(|((k, l), _)| (k == l, *k.max(l))).max();
             if let Some((_, index)) = worst {

@@ -1,4 +1,5 @@
-//! Integrals that are polynomials in velocities and positions over a denominator of the geometry.
+//! Search for integrals that are polynomials in velocities and positions over a denominator of the
+//! geometry.
 
 use super::super::ask::{holds, judged, quoted};
 use super::super::integrals::tell;
@@ -16,21 +17,22 @@ use crate::case::Case;
 use crate::mechanics::{Model, System as Motion};
 use crate::verdict::Verdict;
 
-/// The degree in the positions rises by so much.
+/// Increment of the degree in the positions.
 const STEP: u32 = 4;
 
-/// What became of a null vector.
+/// The outcome for a null vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
-    /// Proved, and told.
+    /// Proved and reported.
     Told,
-    /// Proved, and not shown to be independent of what is known.
+    /// Proved, but not shown to be independent of the known integrals.
     Dependent,
-    /// Not written down, or not proved; a remark says why.
+    /// Not written, or not proved; a remark gives the reason.
     Open,
 }
 
-/// Looks for integrals of the degrees at which the counts leave some, and where nothing was counted.
+/// Searches for integrals of the degrees at which the counts leave some, and where nothing was
+/// counted.
 pub fn integrals(
     case: &Case,
     effort: &Effort,
@@ -81,7 +83,7 @@ pub fn integrals(
     Ok(())
 }
 
-/// What polynomials may be divided by, simple ones first: all that a pole of the field allows.
+/// Lists denominators of polynomials, simple ones first: all that a pole of the field allows.
 fn denominators(model: &Model) -> Vec<Term> {
     let mut texts = library::denominators(model);
     let further: &[&str] = match &model.system {
@@ -94,7 +96,7 @@ fn denominators(model: &Model) -> Vec<Term> {
     read(texts, &model.vocabulary)
 }
 
-/// One degree in the velocities and one denominator.
+/// The search in one degree in the velocities, over one denominator.
 struct Search<'a> {
     case: &'a Case,
     effort: &'a Effort,
@@ -102,12 +104,13 @@ struct Search<'a> {
     degree: u32,
     mixed: bool,
     below: Term,
-    /// What is known, and found on the way.
+    /// Known integrals, including those found so far.
     known: &'a mut Generators,
 }
 
 impl Search<'_> {
-    /// Looks for integrals of rising degree in the positions; are there as many as were counted?
+    /// Searches for integrals of increasing degree in the positions; returns whether all that were
+    /// counted are found.
     fn run(
         &mut self,
         dimension: Option<usize>,
@@ -129,7 +132,7 @@ impl Search<'_> {
         Ok(false)
     }
 
-    /// One ansatz; `false` if it is too large, or has no states.
+    /// Solves one ansatz; `false` if it is too large, or has no states.
     fn step(
         &mut self,
         positions: u32,
@@ -154,7 +157,7 @@ impl Search<'_> {
         let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
             .flat_map(|degree| variables.monomials(degree, 0..=positions))
             .collect();
-        // What stands last is free: of high degree in all, so that what is left has low degree.
+        // The last columns are the free ones: of high degree, so that the others have low degree.
         exponents.sort_by_key(|own| own.iter().sum::<u32>());
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = exponents.into_iter().map(product).collect();
@@ -272,7 +275,7 @@ impl Search<'_> {
         )
     }
 
-    /// What the ansatz holds is at most what was found: a theorem about its functions.
+    /// States a theorem: an upper bound on the integrals that the ansatz contains.
     fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
         let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
         let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));

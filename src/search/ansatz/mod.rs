@@ -1,4 +1,4 @@
-//! Formulas from a linear ansatz with thousands of unknowns, modulo a prime.
+//! Search in a linear ansatz with thousands of unknowns, modulo a prime.
 //!
 //! ```text
 //! monomials     a basis of polynomials in velocities and positions on the level
@@ -9,9 +9,9 @@
 //! verdict       what is found climbs the ladder like any claim
 //! ```
 //!
-//! [`potentials`] and [`gyrostats`] have the leading form of an integral given: then a potential, or the
-//! direction of a rotor, enters linearly beside what the integral gains. [`poisson`] has a Hamiltonian
-//! given: then the entries of a bracket enter linearly.
+//! [`potentials`] and [`gyrostats`] start from the leading form of an integral: then a potential,
+//! or the direction of a rotor, enters linearly together with the terms added to the integral.
+//! [`poisson`] starts from a Hamiltonian: then the entries of a bracket enter linearly.
 
 mod brackets;
 mod characters;
@@ -34,18 +34,18 @@ use monomials::Variables;
 pub use poisson::Hamiltonians;
 use system::Column;
 
-/// What is looked for in a linear ansatz, and how far.
+/// Scope and limits of the linear ansatz.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ansatz {
-    /// Look for integrals even where the counts leave none.
+    /// Whether to search for integrals even where the counts leave none.
     pub wanted: bool,
-    /// The highest degree in the positions.
+    /// Highest degree in the positions.
     pub positions: u32,
-    /// Which potentials keep an integral?
+    /// Whether to search for potentials that preserve an integral.
     pub potentials: bool,
-    /// Which rotors keep an integral?
+    /// Whether to search for rotors that preserve an integral.
     pub gyrostats: bool,
-    /// No matrix is larger.
+    /// Largest size of a matrix in megabytes.
     pub megabytes: u64,
 }
 
@@ -55,7 +55,7 @@ impl Default for Ansatz {
     }
 }
 
-/// Searches as far as the effort goes.
+/// Runs all searches within the effort.
 pub fn search(
     case: &Case,
     effort: &Effort,
@@ -75,20 +75,21 @@ pub fn search(
     Ok(())
 }
 
-/// The parameters' components in which coefficients are written, and those of J where there is one.
+/// Lists the parameters' components in which coefficients are written, including those of J if
+/// there is one.
 fn coordinates(case: &Case) -> Vec<Term> {
     let entries = ["J1", "J2", "J3", "J12", "J13", "J23"].map(str::to_string);
     let tensor = read(entries.to_vec(), &case.model.vocabulary);
     [components(case), tensor].concat()
 }
 
-/// What a polynomial is divided by; `1` for nothing.
+/// Lists the factors 1/d for the denominators d.
 fn factors(below: &[Term], case: &Case) -> Vec<Term> {
     let over = |term: &Term| format!("1/({})", term.text);
     read(below.iter().map(over).collect(), &case.model.vocabulary)
 }
 
-/// The function that a column differentiates, as one writes it.
+/// Writes the function that a column differentiates.
 fn written(variables: &Variables, below: &[Term], column: &Column) -> String {
     match column {
         Column::Given(_) => "1".to_string(),

@@ -1,18 +1,18 @@
-//! Monomials in velocities and positions, of which no combination vanishes on the level.
+//! Monomials in velocities and positions that are linearly independent on the level.
 //!
-//! On |γ| = 1, (ω,γ) = 0 the leading monomials of the ideal are γ₃², ω₃γ₃ and ω₃γ₂². What none of
-//! them divides is a basis: ω₃ does not occur and γ₃ at most once, or ω₃ occurs, γ₃ does not, and γ₂
-//! at most once.
+//! On |γ| = 1, (ω,γ) = 0 the leading monomials of the ideal are γ₃², ω₃γ₃ and ω₃γ₂². The monomials
+//! divisible by none of them are a basis: ω₃ does not occur and γ₃ at most once, or ω₃ occurs, γ₃
+//! does not, and γ₂ at most once.
 
 use crate::case::Case;
 use crate::mechanics::{Chart, Role, System};
 use crate::search::series::exponents;
 use crate::search::terms::{Term, read};
 
-/// Which monomials are left out, as others express them on the level.
+/// The relations of the level, by which some monomials are redundant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ideal {
-    /// There is no level.
+    /// No relations.
     None,
     /// γ² = 1 in the last three variables.
     Sphere,
@@ -23,15 +23,16 @@ enum Ideal {
 /// The variables of a polynomial ansatz: the components of the state.
 #[derive(Clone, Debug)]
 pub struct Variables {
-    /// The components, as formulas.
+    /// Components of the state as formulas.
     pub terms: Vec<Term>,
-    /// Which of them are velocities.
+    /// Whether each of them is a velocity.
     is_velocity: Vec<bool>,
     ideal: Ideal,
 }
 
 impl Variables {
-    /// The components of a case's state; nothing where a level has no standard monomials here.
+    /// Returns the components of a case's state; `None` for a level without known standard
+    /// monomials.
     pub fn of(case: &Case) -> Option<Self> {
         let model = &case.model;
         if !model.extension.is_empty() {
@@ -59,18 +60,18 @@ impl Variables {
         (terms.len() == model.dimension()).then_some(Self { terms, is_velocity, ideal })
     }
 
-    /// How many there are.
+    /// Number of variables.
     pub fn count(&self) -> usize {
         self.terms.len()
     }
 
-    /// Are there velocities?
+    /// Whether some variable is a velocity.
     pub fn have_velocities(&self) -> bool {
         self.is_velocity.contains(&true)
     }
 
-    /// The monomials of a degree in the velocities, and of some degrees in the positions, those of
-    /// low degree in the positions first.
+    /// Lists the monomials of a degree in the velocities and of some degrees in the positions, low
+    /// degrees in the positions first.
     pub fn monomials(
         &self,
         degree: u32,
@@ -110,7 +111,7 @@ impl Variables {
         }
     }
 
-    /// A monomial as one writes it.
+    /// Writes a monomial.
     pub fn text(&self, exponents: &[u32]) -> String {
         let names: Vec<&str> = self.terms.iter().map(|term| term.text.as_str()).collect();
         power_product(&names, exponents)
@@ -121,7 +122,7 @@ fn first(velocities: usize, all: usize) -> Vec<bool> {
     (0..all).map(|k| k < velocities).collect()
 }
 
-/// Π x^a as one writes it; `1` for the empty product.
+/// Writes Π x^a; `1` for the empty product.
 pub fn power_product(names: &[&str], exponents: &[u32]) -> String {
     let used = names.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
     let powers: Vec<String> = used

@@ -1,9 +1,9 @@
-//! Brackets of a field with a known Hamiltonian: skew P with v = P ∂H/∂x.
+//! Search for brackets of a field with a known Hamiltonian: skew P with v = P ∂H/∂x.
 //!
 //! The entries of P are sums of c w xᵃ with unknown numbers c, where w is 1, a component of a
-//! parameter, or the inverse of one. v = P ∂H is linear in c; constants and low degrees come first, so
-//! that the solution that is told is made of them where it can be. Jacobi's identity is quadratic in
-//! c: it is asked of this solution, and of others beside it, by the ladder.
+//! parameter, or the inverse of one. v = P ∂H is linear in c; constants and low degrees come first,
+//! so that the reported solution consists of them where possible. Jacobi's identity is quadratic in
+//! c: the ladder tests it for this solution, and for some others.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -21,25 +21,26 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
-/// The highest degree of the entries of a bracket.
+/// Highest degree of the entries of a bracket.
 const DEGREE: u32 = 2;
-/// State components beyond which brackets have too many entries.
+/// Largest number of state components.
 const DIMENSION: usize = 8;
-/// Unknowns beyond which the degree is lowered.
+/// Number of unknowns above which the degree is lowered.
 const UNKNOWNS: usize = 1500;
-/// Solutions of P ∂H = 0 that are added, once with each sign, where Jacobi's identity fails.
+/// Number of solutions of P ∂H = 0 that are added, once with each sign, where Jacobi's identity
+/// fails.
 const BESIDE: usize = 12;
 
-/// The Hamiltonians for which brackets are looked for.
+/// The Hamiltonians for which brackets are searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Hamiltonians {
-    /// Every integral that is found, or claimed.
+    /// All integrals found or claimed.
     Known,
-    /// This formula.
+    /// The given formula.
     Given(String),
 }
 
-/// Looks for a bracket for each Hamiltonian.
+/// Searches for a bracket for each Hamiltonian.
 pub fn brackets(
     case: &Case,
     wanted: &Hamiltonians,
@@ -81,7 +82,8 @@ pub fn brackets(
             return Err(SearchError::NoTerm(name));
         };
         let family = Family::new(case, effort, hamiltonian, weights.clone());
-        // What the claims about a bracket cannot read, such as `energy`, is no Hamiltonian here.
+        // A function that claims about a bracket cannot read, such as `energy`, is not tried as a
+        // Hamiltonian.
         if family.with_bracket(&[]).and_then(|asked| family.reads(&asked)).is_err() {
             report.remark(format!(
                 "no bracket is looked for with the Hamiltonian {name}: write it in the state and the parameters alone"
@@ -93,7 +95,8 @@ pub fn brackets(
     Ok(())
 }
 
-/// 1, the components of the parameters, and their inverses, less those that depend on others.
+/// Lists 1, the components of the parameters, and their inverses, without those that depend on
+/// others.
 fn weights(case: &Case, effort: &Effort) -> Result<Vec<Term>, SearchError> {
     let own: Vec<String> = components(case).into_iter().map(|term| term.text).collect();
     let inverse = own.iter().map(|text| format!("1/{text}"));
@@ -109,14 +112,14 @@ fn weights(case: &Case, effort: &Effort) -> Result<Vec<Term>, SearchError> {
     Ok(independent.into_iter().map(|k| all[defined[k]].clone()).collect())
 }
 
-/// An unknown number: that of w xᵃ in P_ij, i < j.
+/// The unknown coefficient of w xᵃ in P_ij, i < j.
 pub(super) struct Unknown {
     pub(super) pair: (usize, usize),
     pub(super) weight: usize,
     pub(super) exponents: Vec<u32>,
 }
 
-/// The brackets for one Hamiltonian.
+/// The search for brackets with one Hamiltonian.
 pub(super) struct Family<'a> {
     pub(super) case: &'a Case,
     effort: &'a Effort,
@@ -183,7 +186,7 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// The column of each unknown is what it adds to P ∂H; the last is v.
+    /// Records the contribution of each unknown to P ∂H as a column; the last column is v.
     fn recorded(&self) -> Result<(crate::graph::Graph, Vec<Vec<Expr>>), SearchError> {
         let dimension = self.names.len();
         let zero = || Expr::rational(&Rational::from(0));
@@ -208,7 +211,8 @@ impl<'a> Family<'a> {
         })?)
     }
 
-    /// Asks for Jacobi's identity, first of the solution, then of it ± solutions of P ∂H = 0.
+    /// Tests Jacobi's identity, first for the solution, then for its sums and differences with
+    /// solutions of P ∂H = 0.
     fn judge(
         &self,
         solution: &[Rational],
@@ -250,7 +254,7 @@ impl<'a> Family<'a> {
                     with.push(("Casimir", casimir.clone()));
                 }
             }
-            // The weaker of the two verdicts.
+            // Use the weaker of the two verdicts.
             let weaker = reports.into_iter().min_by_key(|own| own.verdict == Verdict::Proved);
             if let Some(weaker) = weaker {
                 let mut found = Found::new("bracket", &self.shown(&entries), None, weaker, model);
@@ -269,8 +273,9 @@ impl<'a> Family<'a> {
         Ok(())
     }
 
-    /// A theorem, once all that solves P ∂H = 0 modulo the prime is proved to: then the rank of the
-    /// unknowns' columns is that modulo the prime, and the rank with v is not below that.
+    /// States a theorem, once all solutions of P ∂H = 0 modulo the prime are proved to be
+    /// solutions: then the rank of the unknowns' columns is that modulo the prime, and the rank
+    /// with v is not below that.
     fn exclude(&self, beside: &[Vec<Rational>], report: &mut Report) -> Result<(), SearchError> {
         let name = &self.hamiltonian.text;
         for vector in beside {
@@ -307,13 +312,13 @@ impl<'a> Family<'a> {
 
     fn is_casimir(&self, asked: &Case, function: &str) -> Result<bool, SearchError> {
         match judged(asked, &[format!("casimir = {}", quoted(function))], self.effort) {
-            // It contains what formulas in the variables of a bracket cannot.
+            // The Hamiltonian contains names that formulas in the variables of a bracket cannot.
             Err(SearchError::Unreadable(_)) => Ok(false),
             reports => Ok(reports?.iter().any(|own| own.verdict == Verdict::Proved)),
         }
     }
 
-    /// Can the Hamiltonian be read in the variables of a bracket?
+    /// Checks that the Hamiltonian can be read in the variables of a bracket.
     fn reads(&self, asked: &Case) -> Result<(), SearchError> {
         let claim = format!("[[claim]]\ncasimir = {}\n", quoted(&self.hamiltonian.text));
         Ok(asked.ask(&claim).map(|_| ())?)

@@ -1,9 +1,9 @@
-//! The potentials under which an integral survives, as far as a linear ansatz reaches.
+//! Potentials under which an integral persists, within a linear ansatz.
 //!
-//! Let F be an integral of degree 2 in ω, and A(∇U) what a potential U adds to ω', linear in ∇U. Then
-//! F + G(γ) is an integral with U exactly when (∂F/∂ω, A(∇U)) + L_v G = 0: linear in U and G. Both are
-//! polynomials over some denominators; constants are left out. With P_i = (∂F/∂ω, A(e_i)) the first
-//! term is the derivative of U along γ → γ + tP.
+//! Let F be an integral of degree 2 in ω, and A(∇U) the contribution of a potential U to ω', linear
+//! in ∇U. Then F + G(γ) is an integral with U exactly when (∂F/∂ω, A(∇U)) + L_v G = 0: linear in U
+//! and G. Both are polynomials over some denominators, without constant terms. With P_i = (∂F/∂ω,
+//! A(e_i)) the first term is the derivative of U along γ → γ + tP.
 
 use super::super::ask::{holds, judged, quoted};
 use super::super::products::Generators;
@@ -21,12 +21,12 @@ use crate::mechanics::{Model, Phase};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// The highest degree of a potential's numerators.
+/// Highest degree of a potential's numerators.
 const POTENTIAL: u32 = 4;
-/// The highest degree of numerators of what an integral gains.
+/// Highest degree of the numerators of the terms added to an integral.
 const GAIN: u32 = 6;
 
-/// For each integral of degree 1 or 2 that is known: which potentials does it survive?
+/// Finds, for each known integral of degree 1 or 2, the potentials under which it persists.
 pub fn potentials(
     case: &Case,
     effort: &Effort,
@@ -59,12 +59,12 @@ pub fn potentials(
     Ok(())
 }
 
-/// The potentials that keep one integral.
+/// The search for the potentials that preserve one integral.
 struct Family<'a> {
     case: &'a Case,
     effort: &'a Effort,
     variables: &'a Variables,
-    /// The model with a potential γ_i more.
+    /// Models with an additional potential γ_i.
     unit: &'a [Model],
     integral: Term,
 }
@@ -94,7 +94,7 @@ impl Family<'_> {
                 })
                 .collect()
         };
-        // The potential stands last: its coefficients are what is free.
+        // The potential's columns are last, so that its coefficients are the free ones.
         let gains: Vec<Column> = all(GAIN).into_iter().map(product(1)).collect();
         let potentials: Vec<Column> = all(POTENTIAL).into_iter().map(product(0)).collect();
         let first = gains.len();
@@ -112,7 +112,7 @@ impl Family<'_> {
         for range in [0..first, first..count] {
             let own: Vec<usize> = range.collect();
             let Some(distinct) = system.distinct(&at, &own) else { return Ok(()) };
-            // The constant comes first among the functions; it does nothing.
+            // The constant is the first of the functions; it has no effect.
             columns.extend(distinct.into_iter().filter(|column| *column != own[0]));
         }
         let Some(vectors) = system.null_space(&at, &columns) else { return Ok(()) };
@@ -158,7 +158,7 @@ impl Family<'_> {
         Ok(())
     }
 
-    /// Along γ → γ + tP with P_i = (∂F/∂ω, A(e_i)); and along the motion.
+    /// Records derivatives along γ → γ + tP with P_i = (∂F/∂ω, A(e_i)), and along the motion.
     fn recorded(&self, over: &[Term]) -> Result<System, SearchError> {
         let Self { case, effort, variables, .. } = self;
         System::record(case, &coordinates(case), effort.options.seed, |jet, recording| {
@@ -179,8 +179,8 @@ impl Family<'_> {
         })
     }
 
-    /// All potentials at once, each with a free constant in front, and the integral with all of them;
-    /// how many were proved?
+    /// Reports all potentials together, each with a free constant, and the integral with all of
+    /// them; returns the number proved.
     fn tell(&self, found: &[(String, String)], report: &mut Report) -> Result<usize, SearchError> {
         if found.is_empty() {
             return Ok(0);

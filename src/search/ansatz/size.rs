@@ -1,11 +1,11 @@
-//! How large a linear system is, and whether it may be set up.
+//! Size of a linear system, and the limits on it.
 
 use super::super::Effort;
 
-/// Elementary steps of an elimination a second, at the least.
+/// Lower bound on the elementary steps of an elimination per second.
 const STEPS: f64 = 5e8;
 
-/// Unknowns, block by block.
+/// Numbers of unknowns and blocks of a linear system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     unknowns: usize,
@@ -15,7 +15,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// The size of a system that falls apart into blocks.
+    /// Computes the size of a system that decomposes into blocks.
     pub fn of(blocks: &[Vec<usize>]) -> Self {
         let sizes = || blocks.iter().map(Vec::len);
         Self {
@@ -31,7 +31,7 @@ impl Size {
         (largest * largest * 8).div_ceil(1_000_000)
     }
 
-    /// Why it is not set up, if it is not.
+    /// Returns the limit that the system exceeds, if any.
     pub fn beyond(&self, effort: &Effort) -> Option<String> {
         if self.megabytes() > effort.ansatz.megabytes {
             return Some(format!("the bound is {} MB, see --megabytes", effort.ansatz.megabytes));

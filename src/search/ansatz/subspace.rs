@@ -1,14 +1,14 @@
-//! What is left of a null space beside functions of what is known.
+//! Complement of the functions of known integrals in a null space.
 
 use super::system::{At, System};
 use crate::proof::reduce;
 
-/// Those of the vectors that are needed beside combinations of `products`, each a list of outputs
-/// whose values are multiplied; nothing if too few states have values.
+/// Selects the vectors that, together with combinations of `products`, span the null space; each
+/// product is a list of outputs whose values are multiplied. `None` if too few states have values.
 ///
 /// Each vector is 1 at its last column and the others are 0 there. A combination of them ends where
-/// the last that it contains ends; so those at whose end no known combination ends are a basis of the
-/// rest, the same for all parameters in general position.
+/// the last vector that it contains ends; so those at whose end no known combination ends are a
+/// basis of the complement, the same for all parameters in general position.
 pub fn complement(
     system: &System,
     at: &At,

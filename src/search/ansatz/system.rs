@@ -1,8 +1,8 @@
-//! Linear systems whose columns are derivatives of functions, and whose rows are random states modulo
-//! a prime, for one choice of the parameters.
+//! Linear systems whose columns are derivatives of functions, and whose rows are random states
+//! modulo a prime, for one choice of the parameters.
 //!
-//! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape gives x, dx, W and dW once a state, and all columns
-//! follow from them.
+//! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
+//! and all columns follow from them.
 
 use num_dual::Dual;
 
@@ -19,30 +19,31 @@ use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::proof::Chance;
 use crate::verdict::Sampler;
 
-/// Lanes of the evaluation.
+/// Number of lanes of the evaluation.
 const LANES: usize = 8;
-/// Rows in succession that depend on those before them: accidents have probability p⁻⁸.
+/// Number of successive dependent rows after which the rank is accepted: accidents have probability
+/// p⁻⁸.
 const SPARE: usize = 8;
-/// Choices of parameters at which some state has a value, roots included.
+/// Largest number of choices of parameters tried until some state has a value, roots included.
 const POINTS: usize = 64;
 
 /// A column of a linear system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Column {
-    /// An output of the recording as it is.
+    /// An output of the recording.
     Given(usize),
     /// The derivative of a factor times a product of powers of the variables.
     Product {
-        /// Along which direction.
+        /// Index of the direction.
         derivation: usize,
-        /// Which factor.
+        /// Index of the factor.
         factor: usize,
-        /// One exponent a variable.
+        /// One exponent for each variable.
         exponents: Vec<u32>,
     },
 }
 
-/// Where x, dx, W and dW of one direction are among the outputs.
+/// Position of x, dx, W and dW of one direction among the outputs.
 #[derive(Clone, Copy, Debug)]
 struct Derivation {
     start: usize,
@@ -50,7 +51,7 @@ struct Derivation {
     factors: usize,
 }
 
-/// What is recorded at a state.
+/// Values recorded at a state.
 #[derive(Default)]
 pub struct Recording {
     outputs: Vec<Expr>,
@@ -58,13 +59,13 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Adds an output; gives its number.
+    /// Adds an output and returns its index.
     pub fn give(&mut self, value: Expr) -> usize {
         self.outputs.push(value);
         self.outputs.len() - 1
     }
 
-    /// Adds variables and factors with their derivatives along a direction; gives its number.
+    /// Adds variables and factors with their derivatives along a direction; returns its index.
     pub fn derive(
         &mut self,
         moved: &Phase<'_, Dual<Expr>>,
@@ -87,30 +88,30 @@ impl Recording {
 /// A prime, and values for the draws of the parameters.
 #[derive(Clone, Debug)]
 pub struct At {
-    /// The field.
+    /// Prime field.
     pub modulus: Modulus,
     parameters: Vec<u64>,
-    /// The coordinates of the parameters there.
+    /// Values of the parameters' coordinates.
     pub coordinates: Vec<u64>,
 }
 
-/// Columns, and the tape that makes their rows.
+/// A linear system: its columns, and the tape that computes its rows.
 pub struct System {
-    /// The unknowns.
+    /// Columns of the unknowns.
     pub columns: Vec<Column>,
     tape: Tape,
     inputs: usize,
     parameters: Vec<Draw>,
     draws: Vec<Draw>,
     derivations: Vec<Derivation>,
-    /// How many outputs stand before the coordinates of the parameters.
+    /// Number of outputs before the coordinates of the parameters.
     own: usize,
     coordinates: Vec<String>,
     seed: u64,
 }
 
 impl System {
-    /// Records what `make` wants at a state of the level; the columns are to be added.
+    /// Records the values that `make` needs at a state of the level; the columns are added later.
     pub fn record(
         case: &Case,
         coordinates: &[Term],
@@ -146,13 +147,13 @@ impl System {
         Ok(system)
     }
 
-    /// The names of the parameters' coordinates.
+    /// Returns the names of the parameters' coordinates.
     pub fn coordinates(&self) -> &[String] {
         &self.coordinates
     }
 
-    /// Choice number `index` of parameters, modulo prime number `prime`; nothing where no state has a
-    /// value.
+    /// Makes choice `index` of the parameters, modulo the prime with index `prime`; `None` where no
+    /// state has a value.
     pub fn at(&self, prime: u64, index: u64) -> Option<At> {
         let modulus = Chance::new(self.seed, 60 + prime).prime(&[3, 5], &[2, 3]);
         let mut chance = Chance::new(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15), 58);
@@ -172,8 +173,8 @@ impl System {
         None
     }
 
-    /// Shows the outputs at random states that have values, until `look` has seen enough; `false` if
-    /// it has not after so many blocks.
+    /// Passes the outputs at random states that have values to `look` until it has seen enough;
+    /// `false` if it has not within the limit of blocks.
     fn visit(
         &self,
         at: &At,
@@ -205,8 +206,9 @@ impl System {
         false
     }
 
-    /// A basis of the relations between some columns, each 1 at a free column, 0 at the other free
-    /// ones and at all columns behind its own; nothing if too few states have values.
+    /// Finds a basis of the relations between some columns, each vector being 1 at a free column, 0
+    /// at the other free ones and at all columns after its own; `None` if too few states have
+    /// values.
     pub fn null_space(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
         self.relations(at, columns.len(), &mut |values| {
             self.row(&at.modulus, values, columns, &|column, powers| {
@@ -215,8 +217,8 @@ impl System {
         })
     }
 
-    /// Those of some columns whose functions do not depend on the functions before them; nothing if too
-    /// few states have values.
+    /// Selects the columns whose functions do not depend on earlier ones; `None` if too few states
+    /// have values.
     pub fn distinct(&self, at: &At, columns: &[usize]) -> Option<Vec<usize>> {
         let m = &at.modulus;
         let relations = self.relations(at, columns.len(), &mut |values| {
@@ -228,7 +230,8 @@ impl System {
         Some(kept.map(|k| columns[k]).collect())
     }
 
-    /// A basis of the relations between combinations of the functions, and products of outputs.
+    /// Finds a basis of the relations between combinations of the functions, and products of
+    /// outputs.
     pub fn combination_relations(
         &self,
         at: &At,
@@ -264,7 +267,7 @@ impl System {
         enough.then(|| echelon.null_space())
     }
 
-    /// The entries of some columns at a state; nothing where a variable is 0.
+    /// Computes the entries of some columns at a state; `None` where a variable is 0.
     fn row(
         &self,
         m: &Modulus,

@@ -1,11 +1,11 @@
-//! The parameters of a case as coordinates: components that vary, by their names.
+//! Parameters of a case as coordinates: the components that vary, by name.
 
 use crate::case::Case;
 use crate::formula::Type;
 use crate::mechanics::Origin;
 use crate::search::terms::{Term, read};
 
-/// The components of the parameters that are drawn, also those that are constant or equal to others.
+/// Lists the components of the drawn parameters, including constant and equal ones.
 pub fn components(case: &Case) -> Vec<Term> {
     let model = &case.model;
     let drawn = model.parameters.iter().filter(|p| matches!(p.origin, Origin::Free(_)));

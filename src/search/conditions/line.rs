@@ -1,4 +1,4 @@
-//! Parameters along a random line: where on it does a residual vanish for all states?
+//! Zeros of a residual along random lines of parameters.
 
 use super::polynomial::{Polynomial, Ring};
 use super::residual::{LANES, Residual, Seen};
@@ -6,33 +6,34 @@ use crate::graph::Evaluator;
 use crate::number::prime::{Modulus, Prime};
 use crate::proof::Chance;
 
-/// States whose residuals are compared.
+/// Number of states whose residuals are compared.
 const STATES: usize = 3;
-/// States at which a point that was found is tried.
+/// Number of further states at which a zero is checked.
 const CHECKS: usize = 16;
-/// Values of a residual along the line, at the least and at most.
+/// Smallest and largest number of values of a residual along the line.
 const LEAST: usize = 16;
 const MOST: usize = 1024;
 
-/// Draws of states until the residual has values: a constant root exists for half of them.
+/// Number of draws of states until the residual has values: a constant root exists for half of
+/// them.
 const DRAWS: usize = 16;
 
-/// Why there are no numerators.
+/// The reason why there are no numerators.
 enum Gap {
     /// The residual has too few values on the line.
     Undefined,
-    /// They belong to no fraction of low degree.
+    /// The values do not belong to a fraction of low degree.
     NoFraction,
 }
 
-/// What was found along a line.
+/// The result along one line.
 pub enum Along {
     /// The residual vanishes everywhere.
     Always,
-    /// It is no fraction of a degree that can be found.
+    /// The residual is not a fraction of a degree within reach.
     Unknown,
-    /// Components of the parameters at the points where it vanishes for all states, and the degree of
-    /// the condition along the line.
+    /// Components of the parameters at the points where it vanishes for all states, and the degree
+    /// of the condition along the line.
     Points(Vec<Vec<u64>>, usize),
 }
 
@@ -42,16 +43,16 @@ pub struct Lines<'r> {
     evaluator: Evaluator<'r, Prime<LANES>>,
     modulus: Modulus,
     chance: Chance,
-    /// Values that were enough before.
+    /// Number of values that sufficed before.
     enough: usize,
-    /// The draws that move along a line.
+    /// Whether each draw moves along a line.
     moving: Vec<bool>,
 }
 
 impl<'r> Lines<'r> {
-    /// Lines modulo a random prime; nothing if the residual is a fraction along none.
+    /// Prepares lines modulo a random prime; `None` if the residual is not a fraction along any.
     ///
-    /// What stands under a root stays fixed along a line if the residual is no fraction otherwise.
+    /// Draws under a root stay fixed along a line if the residual is not a fraction otherwise.
     pub fn new(residual: &'r Residual, seed: u64) -> Option<Self> {
         let mut chance = Chance::new(seed, 43);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
@@ -70,14 +71,14 @@ impl<'r> Lines<'r> {
         (lines.moving.contains(&true) && lines.is_fraction()).then_some(lines)
     }
 
-    /// Is the residual a fraction along a line?
+    /// Whether the residual is a fraction along a line.
     fn is_fraction(&mut self) -> bool {
         self.enough = LEAST;
         let (origin, slope) = self.line();
         self.somewhere(&origin, &slope).is_some()
     }
 
-    /// The numerators for a random state at which the residual has values.
+    /// Finds the numerators for a random state at which the residual has values.
     fn somewhere(&mut self, origin: &[u64], slope: &[u64]) -> Option<Vec<Polynomial>> {
         for _ in 0..DRAWS {
             let state = self.residual.state(&self.modulus, &mut self.chance);
@@ -90,7 +91,7 @@ impl<'r> Lines<'r> {
         None
     }
 
-    /// A random line.
+    /// Draws a random line.
     fn line(&mut self) -> (Vec<u64>, Vec<u64>) {
         let m = self.modulus;
         let origin = self.residual.parameters(&m, &mut self.chance);
@@ -101,12 +102,12 @@ impl<'r> Lines<'r> {
         (origin, slope.collect())
     }
 
-    /// The prime.
+    /// Returns the prime modulus.
     pub fn modulus(&self) -> Modulus {
         self.modulus
     }
 
-    /// Looks along another line.
+    /// Examines another line.
     pub fn next(&mut self) -> Along {
         let m = self.modulus;
         let ring = Ring(m);
@@ -130,7 +131,7 @@ impl<'r> Lines<'r> {
         Along::Points(points.collect(), degree)
     }
 
-    /// The numerators of the residual's components, for one state.
+    /// Finds the numerators of the residual's components, for one state.
     fn numerators(
         &mut self,
         origin: &[u64],
@@ -158,7 +159,7 @@ impl<'r> Lines<'r> {
                 let value = |f: &dyn Fn(u64) -> u64| -> Vec<(u64, u64)> {
                     values.iter().map(|(t, residual)| (*t, f(residual[k]))).collect()
                 };
-                // A root may stand in front of it: then its square is a fraction.
+                // With a root as a factor its square is a fraction.
                 let plain = ring.fraction(&value(&|x| x));
                 plain.or_else(|| ring.fraction(&value(&|x| m.mul(x, x)))).map(|(above, _)| above)
             };
@@ -174,7 +175,7 @@ impl<'r> Lines<'r> {
         }
     }
 
-    /// The components at parameters where the residual vanishes at further states too.
+    /// Returns the components at parameters where the residual vanishes at further states too.
     fn confirmed(&mut self, parameters: &[u64]) -> Option<Vec<u64>> {
         let m = self.modulus;
         let (mut zeros, mut components) = (0, None);
@@ -198,7 +199,7 @@ impl<'r> Lines<'r> {
     }
 }
 
-/// The point of a line.
+/// Returns the point of a line with parameter t.
 fn at(m: &Modulus, origin: &[u64], slope: &[u64], t: u64) -> Vec<u64> {
     origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect()
 }

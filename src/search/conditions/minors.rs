@@ -1,9 +1,9 @@
-//! For which values of one parameter are there more integrals than in general?
+//! Values of one parameter for which there are more integrals than in general.
 //!
-//! The equations for the Taylor coefficients of an integral have a minor that is not 0 in general. As
-//! a function of one parameter it is a fraction; a value with more integrals makes every such minor
-//! vanish, so it is a root of the common divisor of minors at several points. All such values are
-//! found, complex ones included; those in the field are confirmed by a count.
+//! The equations for the Taylor coefficients of an integral have a minor that is not 0 in general.
+//! As a function of one parameter it is a fraction; a value with more integrals makes every such
+//! minor vanish, so it is a root of the common divisor of minors at several points. All such values
+//! are found, including complex ones; those in the field are confirmed by a count.
 
 use super::polynomial::{Polynomial, Ring};
 use crate::case::Case;
@@ -16,17 +16,17 @@ use crate::search::jets::{Asked, Equations, RowKey};
 use crate::search::local::Local;
 use crate::search::{Effort, SearchError};
 
-/// Points whose minors are compared.
+/// Number of points whose minors are compared.
 const POINTS: usize = 2;
-/// Values of a minor, at the least and at most.
+/// Smallest and largest number of values of a minor.
 const LEAST: usize = 64;
 const MOST: usize = 2048;
-/// Draws of a point, or of a value, until the field has a series there.
+/// Number of draws of a point, or of a value, until the field has a series there.
 const DRAWS: usize = 64;
-/// Choices of the other parameters that a relation must survive.
+/// Number of choices of the other parameters under which a relation must persist.
 const ROUNDS: u64 = 2;
 
-/// A parameter that is drawn from a range: its name, and its draw.
+/// Lists the parameters drawn from a range: name, and index of the draw.
 pub fn scalars(case: &Case) -> Vec<(String, usize)> {
     let mut draw = 0;
     let mut found = Vec::new();
@@ -40,8 +40,8 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
     found
 }
 
-/// The relations under which there are more integrals of a degree, for one parameter; others are
-/// chosen at random from small integers.
+/// Finds the relations under which there are more integrals of a degree, for one parameter; the
+/// others are random small integers.
 pub fn relations(
     case: &Case,
     local: &Local,
@@ -95,7 +95,7 @@ pub fn relations(
     Ok(found)
 }
 
-/// Small enough to be the constant of a relation rather than an accident.
+/// Whether a number is small enough to be the constant of a relation rather than an accident.
 fn is_simple(value: &Rational) -> bool {
     value.small_parts().is_some_and(|(n, d)| n.abs() <= 8 && d <= 8)
 }
@@ -130,7 +130,7 @@ impl<'l> Minors<'l> {
         Self { taylor, effort, asked, draw, parameters, modulus, chance }
     }
 
-    /// The equations at a value of the parameter; nothing where the field has no series.
+    /// Sets up the equations at a value of the parameter; `None` where the field has no series.
     fn equations(
         &mut self,
         value: u64,
@@ -142,7 +142,7 @@ impl<'l> Minors<'l> {
         Ok(expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0)))
     }
 
-    /// The values at which there are more integrals.
+    /// Finds the values at which there are more integrals.
     fn special_values(&mut self) -> Result<Vec<u64>, SearchError> {
         let ring = Ring(self.modulus);
         let mut common: Polynomial = Vec::new();
@@ -167,7 +167,8 @@ impl<'l> Minors<'l> {
         Ok(found)
     }
 
-    /// The numerator of a maximal minor at a random point, and the number of integrals in general.
+    /// Finds the numerator of a maximal minor at a random point, and the number of integrals in
+    /// general.
     fn minor(&mut self) -> Result<(Polynomial, usize), SearchError> {
         let ring = Ring(self.modulus);
         for _ in 0..DRAWS {
@@ -199,7 +200,7 @@ impl<'l> Minors<'l> {
         Err(SearchError::NoFraction)
     }
 
-    /// The determinant of some rows and columns.
+    /// Computes the determinant of some rows and columns.
     fn determinant(&self, equations: &Equations, rows: &[RowKey], columns: &[usize]) -> u64 {
         let m = self.modulus;
         let mut matrix: Vec<Vec<u64>> = equations

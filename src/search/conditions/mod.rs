@@ -1,4 +1,4 @@
-//! For which parameters? The polynomial equations under which a claim that fails in general holds.
+//! Polynomial conditions on the parameters under which a claim that fails in general holds.
 //!
 //! ```text
 //! line      where on a random line of parameters does the residual vanish for all states?
@@ -7,9 +7,9 @@
 //! minors    values of one parameter for which there are more integrals
 //! ```
 //!
-//! A condition of codimension one meets almost every line (over the closure of the field), so that no
-//! meeting point means that there is none; equations come from points modulo one prime, and are
-//! confirmed at more of them than they have coefficients.
+//! A condition of codimension one meets almost every line (over the closure of the field), so that
+//! without a meeting point there is none; equations come from points modulo one prime, and are
+//! confirmed at more points than they have coefficients.
 
 mod coordinates;
 mod line;
@@ -30,36 +30,37 @@ use residual::Residual;
 
 use super::local::Local;
 
-/// The highest degree of an equation that is looked for.
+/// Highest degree of an equation.
 const DEGREE: u32 = 5;
-/// Lines after which no further points are hoped for.
+/// Number of lines after which the search for points ends.
 const LINES: usize = 4000;
-/// Lines without any point after which there is no condition of codimension one.
+/// Number of lines without any point after which there is no condition of codimension one.
 const BARREN: usize = 24;
-/// Points with the same simple condition that make it one.
+/// Number of points that establish a simple condition shared by them.
 const REPEATED: usize = 2;
 
-/// The parameters for which something holds.
+/// A condition on the parameters under which a statement holds.
 #[derive(Clone, Debug, Serialize)]
 pub struct Condition {
-    /// What holds.
+    /// Statement that holds.
     pub of: String,
-    /// The equations, each of which is enough; none where no condition was found.
+    /// Alternative equations, each sufficient; empty if no condition was found.
     pub equations: Vec<String>,
-    /// In words: how it was found, or that there is none.
+    /// Method by which it was found, or the reason why there is none.
     pub grounds: String,
 }
 
-/// What conditions are wanted for.
+/// The statements for which conditions are searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Wanted {
-    /// A density of the configuration; integrals of degree 1 and 2 in the velocities.
+    /// Existence of a density of the configuration, and of integrals of degree 1 and 2 in the
+    /// velocities.
     Existence,
-    /// A claim, by its name.
+    /// A claim, by name.
     Claim(String),
 }
 
-/// The conditions under which something holds that fails in general.
+/// Finds the conditions under which statements hold that fail in general.
 pub fn conditions(
     case: &Case,
     wanted: &Wanted,
@@ -85,7 +86,7 @@ pub fn conditions(
     Ok(())
 }
 
-/// The values of single parameters for which there are more integrals of degree 1 or 2.
+/// Finds the values of single parameters for which there are more integrals of degree 1 or 2.
 fn integrals(
     case: &Case,
     effort: &Effort,
@@ -122,7 +123,7 @@ fn integrals(
     Ok(())
 }
 
-/// The conditions for one claim, or for the criterion; nothing if it holds always.
+/// Finds the conditions for one claim, or for the criterion; `None` if it always holds.
 fn condition(
     case: &Case,
     claim: Option<&Claim>,

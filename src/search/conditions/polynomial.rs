@@ -3,10 +3,10 @@
 use crate::number::prime::Modulus;
 use crate::proof::Chance;
 
-/// Coefficients from low to high degree, in the modulus's form; the last one is not 0.
+/// Coefficients as residues from low to high degree; the last one is not 0.
 pub type Polynomial = Vec<u64>;
 
-/// F_p[x]
+/// The polynomial ring F_p[x].
 #[derive(Clone, Copy)]
 pub struct Ring(pub Modulus);
 
@@ -18,12 +18,12 @@ impl Ring {
         a
     }
 
-    /// a(x)
+    /// Evaluates a(x).
     pub fn evaluate(&self, a: &[u64], x: u64) -> u64 {
         a.iter().rev().fold(0, |sum, c| self.0.add(self.0.mul(sum, x), *c))
     }
 
-    /// a b
+    /// Computes a b.
     pub fn product(&self, a: &[u64], b: &[u64]) -> Polynomial {
         let mut product = vec![0; (a.len() + b.len()).saturating_sub(1)];
         for (i, x) in a.iter().enumerate() {
@@ -39,7 +39,7 @@ impl Ring {
         Self::trimmed((0..a.len().max(b.len())).map(|i| self.0.sub(at(a, i), at(b, i))).collect())
     }
 
-    /// Quotient and remainder of a by b ≠ 0.
+    /// Divides a by b ≠ 0; returns quotient and remainder.
     pub fn divided(&self, a: &[u64], b: &[u64]) -> (Polynomial, Polynomial) {
         let mut rest = a.to_vec();
         let mut quotient = vec![0; (a.len() + 1).saturating_sub(b.len())];
@@ -59,7 +59,7 @@ impl Ring {
         a.iter().map(|c| self.0.mul(*c, inverse)).collect()
     }
 
-    /// The greatest common divisor, with leading coefficient 1; of nothing but zeros it is 0.
+    /// Computes the monic greatest common divisor; 0 if both are 0.
     pub fn common(&self, a: &[u64], b: &[u64]) -> Polynomial {
         let (mut a, mut b) = (a.to_vec(), b.to_vec());
         while !b.is_empty() {
@@ -69,7 +69,7 @@ impl Ring {
         self.monic(&a)
     }
 
-    /// The polynomial through some points, and the product of x - x_i.
+    /// Finds the polynomial through some points, and the product of x - x_i.
     fn through(&self, points: &[(u64, u64)]) -> (Polynomial, Polynomial) {
         let mut found: Polynomial = Vec::new();
         let mut node = vec![self.0.one()];
@@ -84,8 +84,8 @@ impl Ring {
         (found, node)
     }
 
-    /// Numerator and monic denominator of the fraction of low degree with these values, if the last
-    /// points confirm it.
+    /// Finds numerator and monic denominator of the fraction of low degree with these values, if
+    /// the last points confirm it.
     pub fn fraction(&self, points: &[(u64, u64)]) -> Option<(Polynomial, Polynomial)> {
         let (given, checks) = points.split_at(points.len().checked_sub(CHECKS)?);
         let (found, node) = self.through(given);
@@ -107,7 +107,7 @@ impl Ring {
         Some((scaled(&r.1), scaled(&t.1)))
     }
 
-    /// The different roots in the field.
+    /// Finds the distinct roots in the field.
     pub fn roots(&self, a: &[u64], chance: &mut Chance) -> Vec<u64> {
         if a.len() < 2 {
             return Vec::new();
@@ -121,7 +121,7 @@ impl Ring {
         found
     }
 
-    /// Splits a product of different linear factors by the squares among root + shift.
+    /// Splits a product of distinct linear factors by the squares among root + shift.
     fn split(&self, a: &[u64], chance: &mut Chance, found: &mut Vec<u64>) {
         match a {
             [] | [_] => {}
@@ -154,7 +154,7 @@ impl Ring {
     }
 }
 
-/// Points that a fraction is checked at: a false one survives each with probability d/p.
+/// Number of points at which a fraction is checked: a false one survives each with probability d/p.
 const CHECKS: usize = 3;
 
 #[cfg(test)]
@@ -189,7 +189,7 @@ mod tests {
         let (ring, mut chance) = ring();
         let m = ring.0;
         let linear = |x: u64| vec![m.sub(0, m.integer(x)), m.one()];
-        // (x - 4)(x - 9)²(x² + 1): -1 is no square.
+        // (x - 4)(x - 9)²(x² + 1), where -1 is not a square.
         let irreducible = vec![m.one(), 0, m.one()];
         let factors = [linear(4), linear(9), linear(9), irreducible];
         let product = factors.iter().fold(vec![m.one()], |a, b| ring.product(&a, b));

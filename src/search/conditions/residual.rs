@@ -1,4 +1,4 @@
-//! A residual as a function of the draws of parameters and state, modulo a prime.
+//! Residual as a function of the draws of parameters and state, modulo a prime.
 
 use super::coordinates::components;
 use crate::case::{Case, Claim};
@@ -12,32 +12,33 @@ use crate::search::local::random;
 use crate::search::terms::recorded;
 use crate::verdict::Sampler;
 
-/// Points evaluated at a time.
+/// Number of points evaluated at a time.
 pub const LANES: usize = 8;
 
-/// What has to vanish for all states.
+/// A residual that has to vanish for all states.
 pub struct Residual {
     tape: Tape,
-    /// Draws of parameters and state, and constants of integration.
+    /// Number of draws of parameters and state, and constants of integration.
     inputs: usize,
     /// Names of the parameters' components.
     names: Vec<String>,
-    /// How many outputs belong to the residual; the components follow.
+    /// Number of outputs that belong to the residual; the components follow.
     height: usize,
-    /// The draws of the parameters; those of the state follow.
+    /// Draws of the parameters; those of the state follow.
     parameters: Vec<Draw>,
 }
 
 /// One point of an evaluation: the residual, and the parameters' components.
 pub struct Seen {
-    /// Nothing where the residual is undefined.
+    /// Values of the residual; `None` where it is undefined.
     pub residual: Option<Vec<u64>>,
-    /// The components.
+    /// Values of the parameters' components.
     pub components: Vec<u64>,
 }
 
 impl Residual {
-    /// That of a claim; without one, of the criterion for a density of the configuration.
+    /// Records the residual of a claim or, without one, of the criterion for a density of the
+    /// configuration.
     pub fn of(case: &Case, claim: Option<&Claim>, seed: u64) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
         let terms = components(case);
@@ -70,7 +71,7 @@ impl Residual {
         Ok(Some(residual))
     }
 
-    /// The components that differ from draw to draw, and from those before them.
+    /// Returns the components that differ between draws, and from those before them.
     fn varying(&self, seed: u64) -> Vec<usize> {
         let mut chance = Chance::new(seed, 44);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
@@ -89,37 +90,37 @@ impl Residual {
         (0..self.names.len()).filter(is_new).collect()
     }
 
-    /// The names of the components.
+    /// Returns the names of the components.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// How many components the residual has.
+    /// Number of components of the residual.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Random draws of the parameters; of a list the first is taken.
+    /// Draws the parameters at random; of a list the first value is taken.
     pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
         random(&self.parameters, modulus, chance)
     }
 
-    /// For each draw of the parameters: is it more than one of a list?
+    /// Whether each draw of the parameters is from a range rather than a list.
     pub fn free(&self) -> impl Iterator<Item = bool> {
         self.parameters.iter().map(|draw| !matches!(draw, Draw::OneOf(_)))
     }
 
-    /// Random draws of the state.
+    /// Draws a random state.
     pub fn state(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
         (self.parameters.len()..self.inputs).map(|_| chance.element(modulus)).collect()
     }
 
-    /// An evaluator modulo a prime.
+    /// Makes an evaluator modulo a prime.
     pub fn evaluator(&self, modulus: Modulus) -> Evaluator<'_, Prime<LANES>> {
         Evaluator::new(&self.tape, Prime::new([modulus; LANES]))
     }
 
-    /// Residual and components at points, each the draws of parameters and state.
+    /// Evaluates residual and components at points, each given by draws of parameters and state.
     pub fn at(
         &self,
         evaluator: &mut Evaluator<'_, Prime<LANES>>,

@@ -1,7 +1,7 @@
-//! Conditions of codimension two: parameters at random in a small field meet them often enough.
+//! Conditions of codimension two, which random parameters in a small field meet often enough.
 //!
-//! A variety of codimension two has about one point in p². Most of what is met in one field may be
-//! an accident of it; so equations are read off modulo one prime and confirmed modulo another.
+//! A variety of codimension two has about one point in p². Most conditions met in one field may be
+//! accidents of that field; so equations are found modulo one prime and confirmed modulo another.
 
 use super::residual::{LANES, Residual};
 use super::variety::{monomial, power, simple};
@@ -11,22 +11,24 @@ use crate::search::echelon::Echelon;
 use crate::search::series::exponents;
 use crate::search::{Effort, Halt, SearchError};
 
-/// Two primes that are 3 modulo 4: in one equations are found, in the other confirmed.
+/// Primes that are 3 modulo 4: equations are found modulo the first and confirmed modulo the
+/// second.
 const PRIMES: [u64; 2] = [43, 47];
-/// Evaluations in each field.
+/// Number of evaluations in each field.
 const RUNS: usize = 75_000;
-/// States at which a residual must vanish.
+/// Number of states at which a residual must vanish.
 const STATES: usize = 12;
-/// Points that make a condition.
+/// Number of points that establish a condition.
 const REPEATED: usize = 12;
-/// The degree of the equations.
+/// Degree of the equations.
 const DEGREE: u32 = 2;
-/// Random subsets of the points that are looked at: some points are accidents of the field.
+/// Number of random subsets of the points that are tried: some points are accidents of the field.
 const SUBSETS: usize = 200;
-/// Points beyond the number of monomials.
+/// Number of points beyond the number of monomials.
 const SPARE: usize = 8;
 
-/// Systems of equations each of which makes the residual vanish, and how many points were met.
+/// Finds systems of equations each of which makes the residual vanish; returns them with the number
+/// of points met.
 pub fn conditions(
     residual: &Residual,
     effort: &Effort,
@@ -42,7 +44,7 @@ pub fn conditions(
     let (mut plain, mut others) = (Vec::new(), Vec::new());
     for (point, of) in found.iter().map(|p| (p, 0)).chain(again.iter().map(|p| (p, 1))) {
         let own = simple(names, point, &all);
-        // A parameter that is zero is met by accident in half of a small field.
+        // A zero parameter is met by accident in half of a small field.
         if own.iter().any(|text| text.ends_with("= 0")) {
             continue;
         }
@@ -65,7 +67,7 @@ pub fn conditions(
     Ok((systems, met))
 }
 
-/// Components of random parameters at which the residual vanishes.
+/// Finds components of random parameters at which the residual vanishes.
 fn points(
     residual: &Residual,
     prime: u64,
@@ -95,7 +97,7 @@ fn points(
             if is_hit {
                 found.push(seen.components);
             }
-            // The next parameters take the lane as soon as these are settled.
+            // The next parameters take the lane as soon as these are decided.
             if is_hit || is_zero == Some(false) || looks[lane] >= 4 * STATES {
                 parameters[lane] = draw(chance);
                 (zeros[lane], looks[lane]) = (0, 0);
@@ -105,7 +107,7 @@ fn points(
     Ok(found)
 }
 
-/// The equations of degree two that most points of both fields satisfy.
+/// Finds the equations of degree two that most points of both fields satisfy.
 fn system(
     names: &[String],
     points: &[Vec<u64>],
@@ -150,7 +152,7 @@ fn system(
     None
 }
 
-/// Residues of small absolute value.
+/// Returns residues of small absolute value.
 fn signed(vector: &[u64], m: &Modulus) -> Vec<i64> {
     let prime = m.prime() as i64;
     let near = |x: &u64| {

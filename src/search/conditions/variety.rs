@@ -7,11 +7,11 @@ use crate::search::echelon::Echelon;
 use crate::search::series::exponents;
 use crate::search::terms::sum;
 
-/// Points beyond the number of monomials.
+/// Number of points beyond the number of monomials.
 const SPARE: usize = 8;
 
-/// The equations of least degree that hold at all points, as text; nothing if none has degree at most
-/// `most`, or if there are too few points.
+/// Finds the equations of least degree that hold at all points, as text; `None` if none has degree
+/// at most `most`, or if there are too few points.
 pub fn equations(
     names: &[String],
     points: &[Vec<u64>],
@@ -49,12 +49,12 @@ pub fn equations(
     None
 }
 
-/// How many points the equations of this degree ask for.
+/// Number of points needed for equations of this degree.
 pub fn needed(coordinates: usize, degree: u32) -> usize {
     (0..=degree).map(|total| exponents(coordinates, total).len()).sum::<usize>() + SPARE
 }
 
-/// The components that differ from point to point, and from those before them.
+/// Returns the components that differ between points, and from those before them.
 pub fn varying(points: &[Vec<u64>]) -> Vec<usize> {
     let Some(first) = points.first() else { return Vec::new() };
     let constant = |k: usize| points.iter().all(|point| point[k] == first[k]);
@@ -62,7 +62,7 @@ pub fn varying(points: &[Vec<u64>]) -> Vec<usize> {
     (0..first.len()).filter(|k| !constant(*k) && !copy(*k)).collect()
 }
 
-/// The value of a monomial.
+/// Evaluates a monomial.
 pub fn power(coordinates: &[u64], exponents: &[u32], m: &Modulus) -> u64 {
     coordinates
         .iter()
@@ -70,7 +70,7 @@ pub fn power(coordinates: &[u64], exponents: &[u32], m: &Modulus) -> u64 {
         .fold(m.one(), |product, (x, e)| m.mul(product, m.power(*x, u64::from(*e))))
 }
 
-/// A monomial as text.
+/// Writes a monomial.
 pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
     let used = names.iter().zip(exponents).filter(|(_, e)| **e > 0);
     let factors: Vec<String> = used
@@ -82,7 +82,7 @@ pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
     if factors.is_empty() { "1".to_string() } else { factors.join("*") }
 }
 
-/// Conditions that single components satisfy: x = 0, and x = y for components with like names.
+/// Lists conditions on single components: x = 0, and x = y for components with similar names.
 pub fn simple(names: &[String], point: &[u64], among: &[usize]) -> Vec<String> {
     let mut found = Vec::new();
     for (place, k) in among.iter().enumerate() {
