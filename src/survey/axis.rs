@@ -1,23 +1,23 @@
-//! Axes about which a body, or a surface, may be turned.
+//! Candidates for axes of revolution of a body or a surface.
 
 use crate::case::Case;
 use crate::formula::Type;
 use crate::mechanics::System;
 
-/// An axis about which the body and its tensor of inertia may be turned.
+/// A candidate for an axis of revolution of the body and its inertia tensor.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// Its name.
+    /// Name of the axis.
     pub name: String,
-    /// Unit vector along it.
+    /// Unit vector along the axis.
     pub vector: String,
-    /// Its number, if it is one of the frame's.
+    /// Index among the axes of the frame, if it is one of these.
     pub index: Option<usize>,
-    /// The name of the state's second vector: γ, or r of a surface given as a level.
+    /// Name of the state's second vector: γ, or r of a surface given as a level.
     second: &'static str,
 }
 
-/// The axes that are worth a try: the frame's, and those along the vectors of the case.
+/// Lists the candidates: the axes of the frame, and those along the vectors of the case.
 pub fn tried(case: &Case) -> Vec<Axis> {
     let second = match &case.model.system {
         System::Rubber(_) => "γ",
@@ -47,7 +47,7 @@ pub fn tried(case: &Case) -> Vec<Axis> {
 }
 
 impl Axis {
-    /// What stands for the placeholders of a family.
+    /// Returns the replacements for the placeholders of a family.
     pub fn words(&self) -> Vec<(&'static str, String)> {
         let a = &self.vector;
         let component = |name: &str| match self.index {

@@ -1,8 +1,8 @@
-//! The embedded files of the survey: small TOML tables of strings.
+//! Access to the embedded files of the survey: small TOML tables of strings.
 
 use toml::de::{DeTable, DeValue};
 
-/// The string under a key.
+/// Returns the string of a key.
 pub fn word(table: &DeTable<'_>, key: &str) -> Option<String> {
     match table.get(key)?.get_ref() {
         DeValue::String(text) => Some(text.to_string()),
@@ -10,7 +10,7 @@ pub fn word(table: &DeTable<'_>, key: &str) -> Option<String> {
     }
 }
 
-/// The strings of a list; none where there is no such key.
+/// Returns the strings of a list; empty without the key.
 pub fn words(table: &DeTable<'_>, key: &str) -> Vec<String> {
     let Some(DeValue::Array(items)) = table.get(key).map(|value| value.get_ref()) else {
         return Vec::new();
@@ -22,12 +22,12 @@ pub fn words(table: &DeTable<'_>, key: &str) -> Vec<String> {
     items.iter().filter_map(|item| text(item.get_ref())).collect()
 }
 
-/// Is the key there, and true?
+/// Whether the key exists and is `true`.
 pub fn flag(table: &DeTable<'_>, key: &str) -> bool {
     matches!(table.get(key).map(|value| value.get_ref()), Some(DeValue::Boolean(true)))
 }
 
-/// The tables of a list of tables.
+/// Returns the tables of a list of tables.
 pub fn tables<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Vec<&'t DeTable<'a>> {
     let Some(DeValue::Array(items)) = table.get(key).map(|value| value.get_ref()) else {
         return Vec::new();
@@ -39,7 +39,7 @@ pub fn tables<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Vec<&'t DeTable<'a>>
     items.iter().filter_map(|item| inner(item.get_ref())).collect()
 }
 
-/// The strings of the table under a key, in the order of the file.
+/// Returns the strings of the table of a key, in the order of the file.
 pub fn pairs(table: &DeTable<'_>, key: &str) -> Vec<(String, String)> {
     let Some(DeValue::Table(inner)) = table.get(key).map(|value| value.get_ref()) else {
         return Vec::new();

@@ -1,12 +1,12 @@
-//! What the tool knows: one small file a family of systems, with the conditions under which its
-//! formulas make sense, and the formulas.
+//! Library of known invariants: one small file for each family of systems, with its formulas and
+//! the conditions under which they are meaningful.
 //!
-//! A file has a head (`family`, `system`, `when`, `unless`, `source`, `note`, and what is said of
-//! them below) and then the tables `[let]` and `[[claim]]` of a case file. `general = true`: its
-//! integrals say nothing about the body. `gives = ["…", …]` names the integrals that follow from its
-//! claims by a linear equation. A family `around` an axis is tried for each axis;
-//! `@a`, `@γ`, `@ω`, `@r`, `@S`, `@M`, `@I1`, `@I3`, `@x` and `@name` in it stand for the axis, for
-//! components and moments along and across it, and for the state's second vector.
+//! A file has a head (`family`, `system`, `when`, `unless`, `source`, `note`, and the keys below),
+//! followed by the tables `[let]` and `[[claim]]` of a case file. `general = true` marks integrals
+//! that say nothing about the body. `gives = ["…", …]` names the integrals that follow from its
+//! claims by a linear equation. A family `around` an axis is tried for each axis; in it `@a`, `@γ`,
+//! `@ω`, `@r`, `@S`, `@M`, `@I1`, `@I3`, `@x` and `@name` stand for the axis, for components and
+//! moments along and across it, and for the state's second vector.
 
 use toml::de::DeTable;
 
@@ -15,31 +15,31 @@ use super::data;
 /// A family of systems with the formulas to be tried on them.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// What the family is called.
+    /// Name of the family.
     pub name: String,
-    /// The kinds of systems it is about.
+    /// Kinds of systems to which it applies.
     pub systems: Vec<String>,
     /// Facts that must hold.
     pub when: Vec<String>,
     /// Facts that must not hold.
     pub unless: Vec<String>,
-    /// Do its integrals hold for every system of this kind, as the energy does?
+    /// Whether its integrals hold for every system of this kind, as the energy does.
     pub general: bool,
-    /// The integrals that follow from its claims by a linear equation, if all of them hold.
+    /// Integrals that follow from its claims by a linear equation, if all claims hold.
     pub gives: Vec<String>,
-    /// Is it tried for each axis of revolution?
+    /// Whether it is tried for each axis of revolution.
     pub around: bool,
-    /// Where the formulas come from.
+    /// Source of the formulas.
     pub source: String,
-    /// What is known beside them.
+    /// Additional remarks.
     pub note: Option<String>,
-    /// The names its formulas use.
+    /// Definitions that its formulas use.
     pub definitions: Vec<(String, String)>,
-    /// The tables `[[claim]]`.
+    /// Tables `[[claim]]` as text.
     pub claims: String,
 }
 
-/// The files of the families.
+/// Includes the files of the families.
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
         [$(include_str!(concat!("families/", $name, ".toml"))),*]
@@ -97,12 +97,12 @@ const TEXTS: [&str; 48] = files![
     "field",
 ];
 
-/// All families, in the order in which they are tried.
+/// Returns all families, in the order in which they are tried.
 pub fn all() -> Vec<Family> {
     TEXTS.iter().filter_map(|text| read(text)).collect()
 }
 
-/// A family from its file; a test makes sure that each can be read.
+/// Reads a family from its file; a test ensures that each can be read.
 fn read(text: &str) -> Option<Family> {
     let document = DeTable::parse(text).ok()?;
     let table = document.get_ref();
@@ -123,14 +123,14 @@ fn read(text: &str) -> Option<Family> {
 }
 
 impl Family {
-    /// Does it apply to this kind of system with these facts?
+    /// Whether the family applies to this kind of system with these facts.
     pub fn applies(&self, system: &str, holds: impl Fn(&str) -> bool) -> bool {
         self.systems.iter().any(|known| known == system)
             && self.when.iter().all(|fact| holds(fact))
             && !self.unless.iter().any(|fact| holds(fact))
     }
 
-    /// The same family with other words for the placeholders.
+    /// Returns the same family with replacements for the placeholders.
     pub fn with(&self, words: &[(&str, String)]) -> Self {
         let replace = |text: &String| {
             words.iter().fold(text.clone(), |text, (from, to)| text.replace(from, to))

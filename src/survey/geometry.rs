@@ -1,7 +1,7 @@
-//! What the prover recognises of a geometry: each fact is a claim about the case, and is judged like
+//! Recognition of a geometry by the prover: each fact is a claim about the case, and is judged like
 //! any other.
 //!
-//! A ball is known by its point of contact, not by the word that the file uses: ∂r = −R(E − γ⊗γ).
+//! A ball is recognised by its point of contact, ∂r = −R(E − γ⊗γ), whatever the case calls it.
 
 use serde::Serialize;
 use toml::de::DeTable;
@@ -17,25 +17,25 @@ use crate::verdict::{ClaimReport, JudgeError, Options, Verdict};
 /// A fact about a geometry, with its proof or its witness.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fact {
-    /// Its name in conditions.
+    /// Name of the fact in conditions.
     pub id: String,
-    /// In words.
+    /// Description of the fact.
     pub words: String,
-    /// Does it hold?
+    /// Whether the fact holds.
     pub holds: bool,
-    /// The claim by which it was decided; none where the file says it.
+    /// Claim by which it was decided; `None` if the file states it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub claim: Option<ClaimReport>,
 }
 
-/// What is known about a geometry.
+/// Facts about a geometry.
 #[derive(Clone, Debug, Default)]
 pub struct Geometry {
-    /// All facts that were tried.
+    /// All facts that were examined.
     pub facts: Vec<Fact>,
-    /// The axes of revolution.
+    /// Axes of revolution.
     pub axes: Vec<Axis>,
-    /// Names for what the case calls otherwise.
+    /// Standard names for what the case names differently.
     pub bindings: Vec<Definition>,
 }
 
@@ -47,7 +47,7 @@ const TEXTS: [&str; 5] = [
     include_str!("facts/surface-level.toml"),
 ];
 
-/// A fact to be asked: the claim, the fact without which it has no meaning, and that which says all.
+/// A fact to be examined: its claim, the fact that is its premise, and the fact that implies it.
 struct Asked {
     id: String,
     words: String,
@@ -57,7 +57,7 @@ struct Asked {
 }
 
 impl Geometry {
-    /// Recognises what it can.
+    /// Examines all facts.
     pub fn of(case: &Case, options: &Options) -> Result<Self, JudgeError> {
         let mut geometry = Self { bindings: bindings(case), ..Self::default() };
         geometry.read_features(case);
@@ -77,17 +77,17 @@ impl Geometry {
         Ok(geometry)
     }
 
-    /// Does a fact hold?
+    /// Whether a fact holds.
     pub fn has(&self, id: &str) -> bool {
         self.facts.iter().any(|fact| fact.holds && fact.id == id)
     }
 
-    /// Does a fact hold, in general or about this axis?
+    /// Whether a fact holds, in general or about this axis.
     pub fn has_about(&self, id: &str, axis: Option<&Axis>) -> bool {
         self.has(id) || axis.is_some_and(|axis| self.has(&format!("{id} about {}", axis.name)))
     }
 
-    /// Asks the facts of a file.
+    /// Examines the facts of a file.
     fn ask_all(
         &mut self,
         case: &Case,
@@ -123,7 +123,7 @@ impl Geometry {
         Ok(holds)
     }
 
-    /// What the file itself says.
+    /// Notes the facts that the case file states.
     fn read_features(&mut self, case: &Case) {
         let mut note = |id: &str, words: &str| {
             let (id, words) = (id.to_string(), words.to_string());
@@ -188,7 +188,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// R, c and B by the names that the case has for them, or by what they are.
+    /// Binds R, c and B to the names that the case has for them, or to their definitions.
     fn name_shape(&mut self, case: &Case, options: &Options) -> Result<(), JudgeError> {
         let names = self.bindings.clone();
         let named = |name: &str, kind: Type, meaning: &str| -> Result<bool, JudgeError> {
@@ -213,7 +213,7 @@ impl Geometry {
     }
 }
 
-/// A fact of a file; a test makes sure that each can be read.
+/// Reads a fact of a file; a test ensures that each can be read.
 fn asked(fact: &DeTable<'_>) -> Option<Asked> {
     let statement = |key: &str| Some(claim(key, &data::word(fact, key)?));
     Some(Asked {
@@ -229,7 +229,7 @@ fn claim(key: &str, text: &str) -> String {
     format!("[[claim]]\n{key} = \"{text}\"\n")
 }
 
-/// Asks one claim; `None` where it cannot be stated.
+/// Judges one claim; `None` if it cannot be stated.
 fn decided(
     case: &Case,
     options: &Options,
@@ -245,7 +245,7 @@ fn is_true(claim: &ClaimReport) -> bool {
     matches!(claim.verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
-/// The names of the families for what the case writes otherwise.
+/// Binds the names of the families to what the case names differently.
 fn bindings(case: &Case) -> Vec<Definition> {
     let mut found: Vec<(&str, &str)> = Vec::new();
     match &case.model.system {

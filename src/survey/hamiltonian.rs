@@ -1,4 +1,4 @@
-//! The conformally Hamiltonian form that every rubber body with a density has.
+//! Conformally Hamiltonian form of rubber bodies with a density.
 //!
 //! With N = ρ/ρ₀, ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, on (M,γ) = 0
 //!
@@ -16,7 +16,7 @@ use crate::case::Case;
 use crate::mechanics::System;
 use crate::verdict::{JudgeError, Options};
 
-/// The form with its proof, where the density is known in closed form.
+/// Returns the form with its proof, if the density is known in closed form.
 pub fn form(
     case: &Case,
     options: &Options,
@@ -33,7 +33,8 @@ pub fn form(
     add("N", format!("({})/(det(Ĩ)*(γ,Ĩ⁻¹*γ){volume})", formulas[0]));
     let energy = match body.curvature {
         None => {
-            // The last term vanishes on the level; with it M and γ are coordinates beside it.
+            // The last term vanishes on the level; with it M and γ are coordinates off the level
+            // too.
             add("M", "N*(Ĩ*ω − (Ĩ*ω,γ)*γ) + (ω,γ)*γ".to_string());
             "((γ × M),Ĩ*(γ × M))/(2*N²*det(Ĩ)*(γ,Ĩ⁻¹*γ))"
         }
@@ -62,7 +63,7 @@ pub fn form(
             "hamiltonian" => format!("{energy}{potential}"),
             _ => "1/N".to_string(),
         };
-        // The measure is told after H, in the same names.
+        // The measure follows H in the report, in the same names.
         finding.definitions = match finding.claim.kind {
             "hamiltonian" => used_by(&[&text, "N", "M"], &names),
             _ => Vec::new(),

@@ -1,77 +1,77 @@
-//! Where a system stands in the hierarchy of BMB 2013: integral and measure, integral only, measure
-//! only, neither; and what is typical of it.
+//! Place of a system in the hierarchy of BMB 2013: integral and measure, integral only, measure
+//! only, neither; and the behaviour typical of each class.
 
 use serde::Serialize;
 
-/// What is known of an invariant density that is positive.
+/// State of knowledge about a positive invariant density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// One was found in closed form, and proved.
+    /// Found in closed form, and proved.
     ClosedForm,
-    /// One exists by the criterion, by quadrature.
+    /// Known to exist by the criterion, given by a quadrature.
     ByQuadrature,
-    /// None that is positive and C¹ near ω = 0 exists.
+    /// Proved not to exist, if positive and C¹ near ω = 0.
     Excluded,
-    /// None of the configuration alone exists; others are not known.
+    /// Proved not to exist as a function of the configuration alone; otherwise unknown.
     ExcludedForConfiguration,
-    /// One with zeros or poles was found; no positive one is known.
+    /// Found with zeros or poles; no positive density is known.
     Singular,
-    /// Nothing is known.
+    /// Unknown.
     NotKnown,
 }
 
-/// What is known of integrals beside the energy.
+/// State of knowledge about integrals other than the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrals {
-    /// As many as Euler and Jacobi's theorem needs, or more.
+    /// At least as many as the theorem of Euler and Jacobi needs.
     Enough,
-    /// Some, but fewer.
+    /// Some, but fewer than the theorem needs.
     Some,
-    /// None is known; none that is polynomial in the velocities up to a degree exists.
+    /// None known; none exists that is polynomial in the velocities up to this degree.
     ExcludedToDegree(u32),
-    /// None is known.
+    /// None known.
     NotKnown,
 }
 
-/// The place in the hierarchy.
+/// A class of the hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Class {
-    /// An integral beside the energy, and a measure.
+    /// An integral other than the energy, and a measure.
     #[serde(rename = "integral and measure")]
     IntegralAndMeasure,
     /// An integral, and no measure.
     #[serde(rename = "integral only")]
     IntegralOnly,
-    /// A measure, and no integral that is known.
+    /// A measure, and no known integral.
     #[serde(rename = "measure only")]
     MeasureOnly,
-    /// No measure, and no integral that is known.
+    /// No measure, and no known integral.
     #[serde(rename = "neither")]
     Neither,
-    /// The measure is not decided.
+    /// A measure is neither known nor excluded.
     #[serde(rename = "not known")]
     NotKnown,
 }
 
-/// The place in the hierarchy, with what it rests on and what is typical of it.
+/// Place of a system in the hierarchy, with the grounds for it and its typical behaviour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Standing {
-    /// The class.
+    /// Class of the system.
     pub class: Class,
-    /// What is known of densities.
+    /// State of knowledge about densities.
     pub measure: Measure,
-    /// What is known of integrals.
+    /// State of knowledge about integrals.
     pub integrals: Integrals,
-    /// On what the class rests, and what it leaves open.
+    /// Grounds for the class, and questions left open.
     pub grounds: Vec<String>,
-    /// What is typical of the class.
+    /// Typical behaviour of the class.
     pub typical: Vec<String>,
 }
 
 impl Class {
-    /// The words used in reports.
+    /// Returns the name used in reports.
     pub fn words(self) -> &'static str {
         match self {
             Class::IntegralAndMeasure => "integral and measure",
@@ -84,7 +84,8 @@ impl Class {
 }
 
 impl Standing {
-    /// The standing of a system with these invariants; `reversors` is how many were found.
+    /// Finds the standing of a system with these invariants; `reversors` is the number of reversors
+    /// found.
     pub fn of(measure: Measure, integrals: Integrals, reversors: usize) -> Self {
         let has_integral = matches!(integrals, Integrals::Enough | Integrals::Some);
         let class = match (measure, has_integral) {

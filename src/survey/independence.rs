@@ -1,4 +1,4 @@
-//! Which of the integrals are independent, and whether they are enough for a quadrature.
+//! Independence of integrals, and their number against that needed for a quadrature.
 
 use serde::Serialize;
 
@@ -6,29 +6,29 @@ use super::question::{Definition, Finding, Question, merged};
 use crate::case::Case;
 use crate::verdict::{ClaimReport, JudgeError, Options, Verdict};
 
-/// Independent integrals against what Euler and Jacobi's theorem asks for.
+/// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Count {
-    /// The dimension of the level set.
+    /// Dimension of the level set.
     pub dimension: usize,
-    /// How many integrals the theorem needs beside a density.
+    /// Number of integrals that the theorem needs in addition to a density.
     pub needed: usize,
-    /// Names of independent ones, the energy first where there is one.
+    /// Names of independent integrals, the energy first if there is one.
     pub independent: Vec<String>,
-    /// The claim that they are, if there is more than the energy.
+    /// Claim of their independence, if there are integrals other than the energy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub claim: Option<ClaimReport>,
 }
 
-/// An integral found among those that are independent of each other and of the energy.
+/// Selection of integrals that are independent of each other and of the energy.
 pub struct Independent {
-    /// The places of the integrals that are independent.
+    /// Indices of the independent integrals.
     pub kept: Vec<usize>,
-    /// How many there are.
+    /// Count of independent integrals.
     pub count: Count,
 }
 
-/// Takes integrals in order as long as each is independent of those before it, general ones first;
+/// Takes integrals in order if they are independent of those before them, general ones first;
 /// `implied` are names of integrals that exist without a formula.
 pub fn count(
     case: &Case,
@@ -51,7 +51,8 @@ pub fn count(
     }
     let energy = energy.then(|| "energy".to_string());
     let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
-    // Those with a formula may be functions of those without one, so they are not counted twice.
+    // Integrals with a formula may be functions of those without one, so they are not counted
+    // twice.
     let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
     let implied = &implied[beside.min(implied.len())..];
     let count = Count {
@@ -63,7 +64,7 @@ pub fn count(
     Ok(Independent { kept, count })
 }
 
-/// Is the energy an integral that every family of this system has?
+/// Whether every system of this kind conserves the energy.
 fn has_energy(case: &Case) -> bool {
     let conserved = |case: &Case| match &case.model.system {
         crate::mechanics::System::Ball(ball) => ball.rotation.is_none(),

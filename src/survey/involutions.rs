@@ -1,9 +1,9 @@
-//! Symmetries and reversors among the maps that permute the axes of the frame and change signs, and
-//! the involutions about vectors of the case.
+//! Symmetries and reversors among the signed permutations of the axes of the frame, and the
+//! involutions about vectors of the case.
 //!
-//! With Q in O(3), Qᵀ = Q⁻¹, an axial vector goes to det Q Qω and a polar one to Qγ; a reversor
-//! has −det Q Qω, and Q² = E. If Q takes the body, its inertia, its rotor and the potential to
-//! themselves the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides it all the same.
+//! With Q in O(3), Qᵀ = Q⁻¹, an axial vector is mapped to det Q Qω and a polar one to Qγ; a
+//! reversor has −det Q Qω, and Q² = E. If Q preserves the body, its inertia, its rotor and the
+//! potential, the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides each case.
 
 use super::mirrors::Mirror;
 use super::question::{Finding, FixedSet, Question};
@@ -12,15 +12,15 @@ use crate::formula::Type;
 use crate::mechanics::{Surface, System};
 use crate::verdict::{JudgeError, Options};
 
-/// A vector's component i goes to `signs[i]` times component `places[i]`.
+/// A signed permutation: component i is `signs[i]` times component `places[i]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Turn {
     places: [usize; 3],
     signs: [i8; 3],
 }
 
-/// A map that is tried: its name, its key in a claim, the images by state variable, the dimension
-/// of what it leaves in place.
+/// A candidate map: its name, its key in a claim, the images by state variable, the dimension of
+/// its fixed set.
 struct Candidate {
     name: String,
     key: &'static str,
@@ -28,7 +28,7 @@ struct Candidate {
     fixed_set: Option<FixedSet>,
 }
 
-/// Reversors and symmetries that were proved, reversors first; those that fail are not told.
+/// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
 pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
     let candidates = candidates(case);
     let claim = |one: &Candidate| {
@@ -91,7 +91,7 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                 };
                 let mut images = across("ω", axial * turn.determinant());
                 images.extend(across("r", 1));
-                // Both fixed spaces have the axis beside what lies in the plane.
+                // Both fixed spaces contain the axis in addition to vectors in the plane.
                 let fixed_set = fixed(axial, turn, |along, velocity| {
                     let of_axis = usize::from(axial * turn.determinant() == 1);
                     Some(along - 1 + velocity - of_axis)
@@ -107,8 +107,8 @@ fn key(axial: i8) -> &'static str {
     if axial < 0 { "reversor" } else { "symmetry" }
 }
 
-/// The dimension of what a reversor leaves in place, from those of the fixed spaces of polar and of
-/// axial vectors.
+/// Computes the dimension of the fixed set of a reversor from those of the fixed spaces of polar
+/// and of axial vectors.
 fn fixed(
     axial: i8,
     map: &impl Orthogonal,
@@ -120,7 +120,7 @@ fn fixed(
     })
 }
 
-/// Reversors (axial −1) of all involutions, then symmetries (axial 1) but the identity.
+/// Lists reversors (axial −1) of all involutions, then symmetries (axial 1) except the identity.
 fn both<M: Orthogonal>(maps: Vec<M>, candidate: impl Fn(&M, i8) -> Candidate) -> Vec<Candidate> {
     let involutions = maps.iter().filter(|map| map.is_involution());
     let mut all: Vec<Candidate> = involutions.map(|map| candidate(map, -1)).collect();
@@ -129,23 +129,23 @@ fn both<M: Orthogonal>(maps: Vec<M>, candidate: impl Fn(&M, i8) -> Candidate) ->
     all
 }
 
-/// A map Q with Qᵀ = Q⁻¹.
+/// An orthogonal map Q, Qᵀ = Q⁻¹.
 trait Orthogonal {
     fn determinant(&self) -> i8;
     fn is_identity(&self) -> bool;
     fn is_involution(&self) -> bool;
-    /// The dimension of {x : sign Qx = x}.
+    /// Returns the dimension of {x : sign Qx = x}.
     fn fixed_space(&self, sign: i8) -> usize;
 }
 
-/// What a body's frame may be taken to.
+/// An orthogonal map of a body's frame.
 enum Map {
     Turn(Turn),
     Mirror(Mirror),
 }
 
 impl Map {
-    /// The 48 permutations with signs, and reflections about the vectors of the case.
+    /// Lists the 48 signed permutations, and reflections about the vectors of the case.
     fn all(case: &Case) -> Vec<Self> {
         let turns = Turn::all().into_iter().map(Self::Turn);
         turns.chain(Mirror::all(case).into_iter().map(Self::Mirror)).collect()
@@ -158,7 +158,7 @@ impl Map {
         }
     }
 
-    /// sign·Q x as a formula.
+    /// Writes sign·Q x as a formula.
     fn image(&self, name: &str, sign: i8) -> String {
         match self {
             Self::Turn(turn) => turn.image(name, sign),
@@ -194,11 +194,11 @@ impl Orthogonal for Map {
     }
 }
 
-/// Components of a state of the user's own whose signs are all tried.
+/// Largest number of components of a user-defined state for which all sign changes are tried.
 const MOST_COMPONENTS: usize = 6;
 
-/// Changes of sign of the components of a state that has no frame; of whole variables if there are
-/// many.
+/// Lists the sign changes of the components of a state without a frame; of whole variables if there
+/// are many.
 fn sign_changes(case: &Case) -> Vec<Candidate> {
     let model = &case.model;
     let single = model.dimension() <= MOST_COMPONENTS;
@@ -237,7 +237,7 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
                 changed.push(format!("{name} → {image}"));
                 images.push((name.clone(), image));
             }
-            // On a level the dimension depends on how the fixed space meets it.
+            // On a level the dimension depends on the intersection with the fixed space.
             let known = key == "reversor" && model.level.is_empty();
             let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
             all.push(Candidate {
@@ -252,7 +252,7 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
 }
 
 impl Turn {
-    /// All 48, those without exchanges first.
+    /// Lists all 48, those without exchanges first.
     fn all() -> Vec<Self> {
         let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
         let signs =
@@ -264,7 +264,7 @@ impl Turn {
             .collect()
     }
 
-    /// Component i of sign·Q x as a formula.
+    /// Writes component i of sign·Q x as a formula.
     fn component(self, name: &str, i: usize, sign: i8) -> String {
         let minus = if self.signs[i] * sign < 0 { "−" } else { "" };
         format!("{minus}{name}{}", self.places[i] + 1)
@@ -275,7 +275,7 @@ impl Turn {
         format!("[{}]", parts.join(", "))
     }
 
-    /// The name in BMB 2013, A.1, where it has one.
+    /// Returns the name in BMB 2013, A.1, if it has one.
     fn name(self, reverses: bool) -> String {
         let tilde = if reverses { "\u{303}" } else { "" };
         let minus = self.signs.iter().filter(|sign| **sign < 0).count();
@@ -312,7 +312,7 @@ impl Orthogonal for Turn {
         })
     }
 
-    /// One for each cycle whose signs multiply to 1.
+    /// One dimension for each cycle whose signs multiply to 1.
     fn fixed_space(&self, sign: i8) -> usize {
         let mut seen = [false; 3];
         let mut dimension = 0;

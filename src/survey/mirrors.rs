@@ -1,8 +1,8 @@
-//! Involutions about an axis that the case names: the reflection across the plane that n is normal
-//! to, and the half turn about n.
+//! Involutions about a vector n of the case: the reflection in the plane normal to n, and the half
+//! turn about n.
 //!
-//! Together with ±E these are all involutions in O(3). A turned plane of symmetry is met by the
-//! vectors of the case: its parameters, and what is normal to two of them.
+//! Together with ±E these are all involutions in O(3). A tilted plane of symmetry is normal to a
+//! vector of the case: a parameter, or a normal to two parameters.
 
 use crate::case::Case;
 use crate::formula::Type;
@@ -11,30 +11,30 @@ use crate::mechanics::Model;
 /// A reflection, E − 2 n⊗n/(n,n), or a half turn, which is its negative.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mirror {
-    /// The vector n as a formula.
+    /// Vector n as a formula.
     normal: String,
     is_turn: bool,
 }
 
 impl Mirror {
-    /// The reflections and half turns that are worth a try.
+    /// Lists the candidate reflections and half turns.
     pub fn all(case: &Case) -> Vec<Self> {
         let both =
             |normal: String| [false, true].map(|is_turn| Self { normal: normal.clone(), is_turn });
         normals(&case.model).into_iter().flat_map(both).collect()
     }
 
-    /// det Q
+    /// Returns det Q.
     pub fn determinant(&self) -> i8 {
         if self.is_turn { 1 } else { -1 }
     }
 
-    /// The dimension of {x : sign Qx = x}.
+    /// Returns the dimension of {x : sign Qx = x}.
     pub fn fixed_space(&self, sign: i8) -> usize {
         if self.is_turn == (sign > 0) { 1 } else { 2 }
     }
 
-    /// sign·Q x as a formula.
+    /// Writes sign·Q x as a formula.
     pub fn image(&self, name: &str, sign: i8) -> String {
         let n = &self.normal;
         let along = format!("2*({name},{n})/({n},{n})*{n}");
@@ -44,7 +44,7 @@ impl Mirror {
         }
     }
 
-    /// The name in BMB 2013, A.1, with the vector in the place of the number of an axis.
+    /// Returns the name in BMB 2013, A.1, with the vector instead of the number of an axis.
     pub fn name(&self, reverses: bool) -> String {
         let letter = if self.is_turn { 'Π' } else { 'Σ' };
         let tilde = if reverses { "\u{303}" } else { "" };
@@ -52,16 +52,16 @@ impl Mirror {
     }
 }
 
-/// Vectors that a plane of symmetry may be normal to, as formulas in brackets.
+/// Lists possible normals of planes of symmetry, as formulas in brackets.
 fn normals(model: &Model) -> Vec<String> {
     let named = model.parameters.iter().filter(|one| one.kind == Type::VECTOR);
-    // The coefficients of an arbitrary function say nothing of a direction.
+    // The coefficients of an arbitrary function define no direction.
     let vectors: Vec<&str> =
         named.map(|one| one.name.as_str()).filter(|name| !name.contains('[')).collect();
     let mut normals: Vec<String> = vectors.iter().map(|name| name.to_string()).collect();
     for (k, a) in vectors.iter().enumerate() {
         normals.extend(vectors[k + 1..].iter().map(|b| format!("({a} × {b})")));
-        // Where nothing else is turned, any plane through the vector will do.
+        // If only this vector is tilted, any plane through it will do.
         normals.push(format!("({a} × [0, 0, 1])"));
     }
     normals

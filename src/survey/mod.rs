@@ -1,4 +1,5 @@
-//! From a geometry to its invariants: everything known is tried, and what is found is proved.
+//! Survey of a system's invariants: all known formulas are tried on the geometry, and those that
+//! hold are proved.
 //!
 //! ```text
 //! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
@@ -46,66 +47,66 @@ pub use words::Given;
 use geometry::Geometry;
 use question::Question;
 
-/// Everything that is known about a system, with proofs.
+/// All known invariants of a system, with proofs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Survey {
-    /// The title of the case.
+    /// Title of the case.
     pub title: String,
-    /// The kind of system.
+    /// Kind of system.
     pub system: String,
-    /// The seed of all states, primes and points.
+    /// Seed of all states, primes and points.
     pub seed: u64,
-    /// What rolls on what.
+    /// Description of the system in one sentence.
     pub sentence: String,
-    /// The parameters: proofs cover all values of those that are free.
+    /// Parameters; proofs cover all values of the free ones.
     pub parameters: Vec<Given>,
-    /// The surface of the body with the parameters of the first state, for a picture.
+    /// Surface of the body with the parameters of the first state, for a picture.
     #[serde(skip)]
     pub wireframe: Option<Wireframe>,
-    /// The case's own notes.
+    /// Notes of the case.
     pub notes: Vec<String>,
-    /// What was recognised, and what was not.
+    /// Facts about the geometry, true and false.
     pub facts: Vec<Fact>,
-    /// Where the system stands.
+    /// Place in the hierarchy.
     pub hierarchy: Standing,
-    /// What every such system conserves, and the energy.
+    /// Integrals common to all such systems, and the energy.
     pub general: Vec<Finding>,
-    /// The criterion for a density of the configuration.
+    /// Criterion for a density of the configuration.
     pub criterion: Vec<Finding>,
     /// Densities that hold.
     pub densities: Vec<Finding>,
-    /// ln ρ, or the criterion, over the sphere.
+    /// Map of ln ρ, or of the criterion, on the sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sphere: Option<SphereMap>,
-    /// Integrals beside the general ones, each independent of those before it.
+    /// Integrals other than the general ones, each independent of those before it.
     pub integrals: Vec<Finding>,
-    /// Integrals that depend on those, each worth its own formula.
+    /// Integrals that depend on these and have simple formulas.
     pub dependent: Vec<Finding>,
     /// Rates from which further integrals follow by a linear equation.
     pub rates: Vec<Finding>,
-    /// The count for Euler and Jacobi's theorem.
+    /// Count for the theorem of Euler and Jacobi.
     pub independence: Count,
     /// Symmetry fields.
     pub fields: Vec<Finding>,
-    /// Reversors, with the dimension of what they leave in place.
+    /// Reversors, with the dimensions of their fixed sets.
     pub reversors: Vec<Finding>,
     /// Discrete symmetries.
     pub symmetries: Vec<Finding>,
-    /// The conformally Hamiltonian form, where there is a density in closed form and no rotor.
+    /// Conformally Hamiltonian form, if there is a density in closed form and no rotor.
     pub hamiltonian: Vec<Finding>,
-    /// What the case itself claims to hold, or asks.
+    /// Claims and questions of the case.
     pub claimed: Vec<Finding>,
-    /// What is known of such systems, and fails for this one.
+    /// Known invariants of such systems that fail for this one.
     pub fails: Vec<Finding>,
-    /// What could not be decided.
+    /// Claims that could not be decided.
     pub undecided: Vec<Finding>,
-    /// What was searched for beside the families.
+    /// Results of the search beyond the families.
     pub search: Unknown,
-    /// What is physically impossible about the states that were drawn.
+    /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
 }
 
-/// Tries everything known on a case; `progress` is told what comes next.
+/// Tries all known formulas on a case; `progress` is called with a description of the next part.
 pub fn survey(
     case: &Case,
     options: &Options,
@@ -141,11 +142,11 @@ pub fn survey(
             (true, _) => sorted.general.push(finding),
             (false, true) => integrals.push(finding),
             (false, false) if finding.is_of_family() => dependent.push(finding),
-            // What the case or the search has beside is a function of what is told.
+            // Further integrals of the case or the search are functions of those reported.
             (false, false) => {}
         }
     }
-    // The densities of the case and of the search are told where no family has one.
+    // The densities of the case and of the search are reported if no family has one.
     let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
     sorted.densities.retain(|one| !from_family || one.is_of_family());
     let measure = measure(&sorted);
@@ -201,7 +202,8 @@ pub fn survey(
     })
 }
 
-/// The claims of all families that apply, judged, and the integrals that follow without a formula.
+/// Judges the claims of all families that apply; returns them with the integrals that follow
+/// without a formula.
 fn tried(
     case: &Case,
     options: &Options,
@@ -231,7 +233,7 @@ fn tried(
     Ok((all, implied))
 }
 
-/// Findings by what they are about.
+/// Findings sorted by subject.
 #[derive(Default)]
 struct Sorted {
     general: Vec<Finding>,
@@ -256,7 +258,7 @@ impl Sorted {
             told.push(statement);
             let place = match finding.claim.kind {
                 "position-density" | "analytic-density" => &mut sorted.criterion,
-                // What the case asks is told with the case's claims.
+                // Questions of the case are reported with the case's claims.
                 _ if !finding.is_of_family() && !finding.holds() => continue,
                 "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
                 _ if finding.fails() => &mut sorted.fails,
@@ -280,7 +282,7 @@ impl Sorted {
     }
 }
 
-/// What is known of a density that keeps its sign.
+/// Determines the state of knowledge about a density of constant sign.
 fn measure(sorted: &Sorted) -> Measure {
     let verdict = |kind: &str| {
         let claim = sorted.criterion.iter().find(|one| one.is(kind));
@@ -341,7 +343,7 @@ mod tests {
         "suslov/vakonomic-top",
     ];
 
-    /// The body for which even phase volume is kept.
+    /// A body that preserves phase volume itself.
     const HOMOGENEOUS: &str = "title = \"homogeneous ball\"\nsystem = \"rubber-plane\"\n[parameters]\n\
         m = \"0.5..2\"\nR = \"1..3\"\nI = \"spherical(0.5..3)\"\n[body]\nshape = \"ball\"\n";
 
@@ -377,7 +379,7 @@ mod tests {
                     let found = found.unwrap_or_else(|| {
                         panic!("{} can be asked of {}", family.name, case.title)
                     });
-                    // By place: the name of an axis is part of the name of a claim.
+                    // By place, since the name of an axis is part of the name of a claim.
                     for (number, finding) in found.iter().enumerate() {
                         let claim = format!("{number}");
                         if finding.claim.verdict == Verdict::Proved && !proved.contains(&claim) {

@@ -1,6 +1,6 @@
-//! Questions: texts that are asked of a case, and the findings that come back.
+//! Questions put to a case as text, and the resulting findings.
 //!
-//! What is asked is a claim like any other: `Case::ask` reads it, `verdict::judge` decides.
+//! A question consists of claims like any other: `Case::ask` reads them, `verdict::judge` decides.
 
 use serde::Serialize;
 use toml::de::DeTable;
@@ -12,77 +12,77 @@ use crate::case::Case;
 use crate::mechanics::Meaning;
 use crate::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
 
-/// A name that formulas use, with its formula.
+/// Definition of a name in formulas.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Definition {
-    /// The name.
+    /// Defined name.
     pub name: String,
-    /// What it stands for.
+    /// Formula of the name.
     pub formula: String,
 }
 
-/// Claims to be made about a case, with the names they use.
+/// Claims to be tested on a case, with the names they use.
 #[derive(Clone, Debug, Default)]
 pub struct Question {
-    /// The family that the claims come from.
+    /// Family of the claims.
     pub family: String,
-    /// Where they come from.
+    /// Source of the claims.
     pub source: String,
-    /// What is known beside them.
+    /// Additional remarks.
     pub note: Option<String>,
-    /// Do its integrals say nothing about the body?
+    /// Whether its integrals say nothing about the body.
     pub is_general: bool,
-    /// The names, in order.
+    /// Definitions in order.
     pub definitions: Vec<Definition>,
-    /// The tables `[[claim]]`, and `[variables]` and `[poisson]` where there are any.
+    /// Tables `[[claim]]`, and `[variables]` and `[poisson]` if there are any.
     pub body: String,
 }
 
-/// A claim that was tried, with its verdict.
+/// A claim that was tested, with its verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The claim and its verdict.
+    /// Report on the claim.
     #[serde(flatten)]
     pub claim: ClaimReport,
-    /// The family that it comes from.
+    /// Family of the claim.
     pub family: String,
-    /// The names that its formulas use, and those that they use.
+    /// Definitions that its formulas use, directly or through others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub definitions: Vec<Definition>,
-    /// Of a map or a field: the image, or the component, of each variable that is not left alone; of
-    /// a rate: the function, and what its rate equals.
+    /// For a map or a field, the image or the component of each variable that changes; for a rate,
+    /// the function and the value of its rate.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<Definition>,
-    /// Of a reversor: the set that it leaves in place, where its dimension is known.
+    /// Fixed set of a reversor, if its dimension is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed_set: Option<FixedSet>,
-    /// What is known beside it.
+    /// Additional remark.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
-    /// Does it say nothing about the body, as that a surface is kept?
+    /// Whether it says nothing about the body, for example that a surface is preserved.
     #[serde(skip)]
     pub is_general: bool,
-    /// Its formulas as they look on paper.
+    /// Typeset formulas.
     #[serde(skip)]
     pub shown: Shown,
 }
 
-/// The points of the level set that a map leaves in place.
+/// The fixed set of a map within the level set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FixedSet {
-    /// Its dimension, unless it is empty.
+    /// Dimension; `None` if the set is empty.
     pub dimension: Option<usize>,
 }
 
-/// What stands for a family where the case itself makes the claim, or where the search found it.
+/// Family name of the claims of the case.
 const OWN: &str = "the case itself";
 const SEARCH: &str = "the search";
 
-/// The statements that are tables of formulas, one a variable.
+/// Kinds of claims that are tables of formulas, one for each variable.
 const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
 
 impl Finding {
-    /// A claim of the case itself, with the abbreviations that it uses.
+    /// Makes a finding from a claim of the case, with the abbreviations that it uses.
     pub fn claimed(case: &Case, claim: ClaimReport) -> Self {
         let names = &case.model.vocabulary;
         let abbreviations = names.iter().filter_map(|(_, entry)| match entry.meaning {
@@ -94,7 +94,7 @@ impl Finding {
         Self::beside(OWN, case, claim, abbreviations.collect())
     }
 
-    /// Something that no family knows and no case claims, with the names that its formula may use.
+    /// Makes a finding from a result of the search, with the names that its formula may use.
     pub fn found(case: &Case, claim: ClaimReport, names: Vec<Definition>) -> Self {
         Self::beside(SEARCH, case, claim, names)
     }
@@ -119,52 +119,52 @@ impl Finding {
         }
     }
 
-    /// Does it come from a family, rather than from the case or the search?
+    /// Whether the finding comes from a family, rather than from the case or the search.
     pub fn is_of_family(&self) -> bool {
         self.family != OWN && self.family != SEARCH
     }
 
-    /// Is it known to hold?
+    /// Whether the claim is known to hold.
     pub fn holds(&self) -> bool {
         matches!(self.claim.verdict, Verdict::Proved | Verdict::Confirmed)
     }
 
-    /// Is it known not to hold?
+    /// Whether the claim is known to fail.
     pub fn fails(&self) -> bool {
         self.claim.verdict == Verdict::Refuted
     }
 
-    /// Is it a claim of this kind?
+    /// Whether the claim is of this kind.
     pub fn is(&self, kind: &str) -> bool {
         self.claim.kind == kind
     }
 
-    /// An integral that is more than a function of the level and the energy.
+    /// Whether the finding is an integral independent of the level and the energy.
     pub fn is_new_integral(&self) -> bool {
         let independent = self.claim.evidence.independence == Some(Independence::Independent);
         self.is("integral") && self.holds() && independent
     }
 
-    /// A density that keeps its sign.
+    /// Whether the finding is a density of constant sign.
     pub fn is_measure(&self) -> bool {
         let sign = self.claim.evidence.sign;
         self.is("density") && self.holds() && sign != Some(Sign::Changes)
     }
 
-    /// Does its formula contain an integral that is not taken?
+    /// Whether a formula contains an unevaluated integral.
     pub fn is_quadrature(&self) -> bool {
         let formulas = self.definitions.iter().map(|one| one.formula.as_str());
         formulas.chain([self.formula()]).any(|text| text.contains('∫'))
     }
 
-    /// The formula that it is about.
+    /// Returns the formula of the claim, or its name.
     pub fn formula(&self) -> &str {
         self.claim.formula.as_deref().unwrap_or(&self.claim.name)
     }
 }
 
 impl Question {
-    /// The question of a family, with names for what the case calls otherwise.
+    /// Makes the question of a family, with names for what the case names differently.
     pub fn of(family: &Family, bindings: &[Definition]) -> Self {
         let own = family
             .definitions
@@ -180,19 +180,19 @@ impl Question {
         }
     }
 
-    /// A question of claims alone.
+    /// Makes a question of claims alone.
     pub fn plain(family: &str, bindings: &[Definition], body: String) -> Self {
         let family = family.to_string();
         Self { family, definitions: bindings.to_vec(), body, ..Self::default() }
     }
 
-    /// The text that is asked.
+    /// Returns the text of the question.
     pub fn text(&self) -> String {
         format!("{}{}", definitions_text(&self.definitions), self.body)
     }
 
-    /// Asks, and judges; `None` where the question has no meaning for the case, such as one about a
-    /// name that it does not have.
+    /// Puts the question to a case and judges it; `None` if it is meaningless for the case, for
+    /// example because of a name that the case does not have.
     pub fn ask(&self, case: &Case, options: &Options) -> Result<Option<Vec<Finding>>, JudgeError> {
         let Ok(asked) = case.ask(&self.text()) else { return Ok(None) };
         let report = judge(&asked, options)?;
@@ -203,7 +203,7 @@ impl Question {
         Ok(Some(found.map(|(claim, images)| self.finding(claim, images, &paper)).collect()))
     }
 
-    /// The tables of formulas that the claims state, one a claim.
+    /// Returns the tables of formulas in the claims, one for each claim.
     fn tables(&self) -> Vec<Vec<Definition>> {
         let Ok(document) = DeTable::parse(&self.body) else { return Vec::new() };
         let claims = data::tables(document.get_ref(), "claim");
@@ -240,7 +240,7 @@ impl Question {
         };
         Finding {
             shown: Shown { statement, definitions: paper.definitions(&definitions) },
-            // A note is about the formulas of its family.
+            // A note concerns the formulas of its family.
             remark: self.note.clone().filter(|_| images.is_empty() || is_rate),
             definitions,
             claim,
@@ -252,7 +252,7 @@ impl Question {
     }
 }
 
-/// `[let]` with these names.
+/// Writes a `[let]` table of these definitions.
 pub fn definitions_text(definitions: &[Definition]) -> String {
     if definitions.is_empty() {
         return String::new();
@@ -261,13 +261,13 @@ pub fn definitions_text(definitions: &[Definition]) -> String {
     format!("[let]\n{}\n", definitions.iter().map(line).collect::<String>())
 }
 
-/// A name with its formula.
+/// Makes a definition.
 pub fn define(name: &str, formula: &str) -> Definition {
     Definition { name: name.to_string(), formula: formula.to_string() }
 }
 
-/// The definitions and formulas of several findings together; what is called alike and means
-/// something else gets another name.
+/// Merges the definitions and formulas of several findings; names with different meanings are
+/// renamed.
 pub fn merged(bindings: &[Definition], findings: &[&Finding]) -> (Vec<Definition>, Vec<String>) {
     let mut all = bindings.to_vec();
     let mut formulas = Vec::new();
@@ -298,7 +298,7 @@ pub fn merged(bindings: &[Definition], findings: &[&Finding]) -> (Vec<Definition
     (all, formulas)
 }
 
-/// The last definition of each name: a family's own hides a binding.
+/// Keeps the last definition of each name: a family's own hides a binding.
 fn distinct(definitions: impl Iterator<Item = Definition>) -> Vec<Definition> {
     let mut kept: Vec<Definition> = Vec::new();
     for definition in definitions {
@@ -308,12 +308,12 @@ fn distinct(definitions: impl Iterator<Item = Definition>) -> Vec<Definition> {
     kept
 }
 
-/// The definitions that formulas use, and those that they use, in order.
+/// Selects the definitions that formulas use, directly or through others, in order.
 pub fn used_by(formulas: &[&str], definitions: &[Definition]) -> Vec<Definition> {
     let mut texts = formulas.to_vec();
     let mut used = vec![false; definitions.len()];
     for (index, definition) in definitions.iter().enumerate().rev() {
-        // g1 is a name of its own, and no component of g, where it is defined.
+        // Where g1 is defined, it is a name rather than a component of g.
         let own = |token: &str| {
             token == definition.name || definitions.iter().all(|other| other.name != token)
         };
@@ -326,7 +326,8 @@ pub fn used_by(formulas: &[&str], definitions: &[Definition]) -> Vec<Definition>
     pairs.filter(|(_, used)| *used).map(|(definition, _)| definition.clone()).collect()
 }
 
-/// Does the name stand in the formula, by itself or with an index that makes a token of its own?
+/// Whether the name occurs in the formula, without an index or with one that does not make it
+/// another name.
 fn mentions(formula: &str, name: &str, own: &dyn Fn(&str) -> bool) -> bool {
     places(formula, name).any(|start| {
         let after = &formula[start + name.len()..];
@@ -335,7 +336,7 @@ fn mentions(formula: &str, name: &str, own: &dyn Fn(&str) -> bool) -> bool {
     })
 }
 
-/// The formula with another name in the place of `name`.
+/// Replaces a name in the formula by another.
 fn renamed(formula: &str, name: &str, other: &str) -> String {
     let mut text = String::new();
     let mut done = 0;
@@ -347,7 +348,7 @@ fn renamed(formula: &str, name: &str, other: &str) -> String {
     text + &formula[done..]
 }
 
-/// Where the name stands in the formula, by itself or with an index.
+/// Finds the places of the name in the formula, with or without an index.
 fn places<'t>(formula: &'t str, name: &'t str) -> impl Iterator<Item = usize> + 't {
     let letter = |c: char| c.is_alphanumeric() && !c.is_numeric() || c == '_';
     let stands = move |start: usize| {

@@ -1,34 +1,34 @@
-//! The formulas of a finding as they look on paper.
+//! Typesetting of the formulas of a finding.
 
 use super::question::Definition;
 use crate::formula::{Formula, Layout, Scope, Symbol, Type};
 use crate::mechanics::Vocabulary;
 
-/// The boxes of a finding's formulas.
+/// Typeset formulas of a finding.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shown {
-    /// What the claim states.
+    /// Statement of the claim.
     pub statement: Option<Layout>,
-    /// The names it uses, each an equation.
+    /// Names it uses, each as an equation.
     pub definitions: Vec<Layout>,
 }
 
-/// Sets texts in the names of a vocabulary.
+/// Typesetter of texts in the names of a vocabulary.
 pub struct Typesetter<'v>(pub &'v Vocabulary);
 
 impl Typesetter<'_> {
-    /// A formula; none where it cannot be read.
+    /// Typesets a formula; `None` if it cannot be read.
     pub fn formula(&self, text: &str) -> Option<Layout> {
         self.typed(text).map(|(layout, _)| layout)
     }
 
-    /// name = formula
+    /// Typesets name = formula.
     pub fn definition(&self, definition: &Definition) -> Option<Layout> {
         let (right, kind) = self.typed(&definition.formula)?;
         Some(Layout::equation(Layout::name(&definition.name, kind), right))
     }
 
-    /// name ↦ formula, for each
+    /// Typesets name ↦ formula for each image.
     pub fn images(&self, images: &[Definition]) -> Option<Layout> {
         let each = images.iter().map(|one| {
             let (right, kind) = self.typed(&one.formula)?;
@@ -44,7 +44,7 @@ impl Typesetter<'_> {
         Some(Layout::Row(row))
     }
 
-    /// The rate of a function, and what it equals.
+    /// Typesets the rate of a function and its value.
     pub fn rate(&self, function: &str, rate: &str) -> Option<Layout> {
         let (function, rate) = (self.formula(function)?, self.formula(rate)?);
         let parts = vec![Layout::Word("d"), Layout::Space, function];
@@ -53,7 +53,7 @@ impl Typesetter<'_> {
         Some(Layout::equation(left, rate))
     }
 
-    /// All definitions that can be read.
+    /// Typesets all definitions that can be read.
     pub fn definitions(&self, definitions: &[Definition]) -> Vec<Layout> {
         definitions.iter().filter_map(|one| self.definition(one)).collect()
     }

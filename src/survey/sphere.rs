@@ -1,4 +1,4 @@
-//! A function on the sphere of γ, for one body of the case: the density, or the criterion that
+//! Maps on the sphere of γ for one body of the case: of the density, or of the criterion that
 //! excludes it.
 //!
 //! d ln ρ = d ln ρ₀ − (w,dγ) on |γ| = 1, where ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T and w is the covector of
@@ -15,12 +15,12 @@ use crate::mechanics::{Model, Phase, System};
 use crate::number::rational::Rational;
 use crate::verdict::{JudgeError, Options, Sampler};
 
-/// Latitudes of the grid, from south to north.
+/// Number of latitudes of the grid, from south to north.
 const LATITUDES: usize = 24;
-/// Longitudes of the grid, eastwards from e₁.
+/// Number of longitudes of the grid, eastwards from e₁.
 const LONGITUDES: usize = 48;
 
-/// Nodes and weights of Gauss and Legendre's rule with four points, on [-1,1].
+/// Nodes and weights of the Gauss–Legendre rule with four points, on [-1,1].
 const NODES: [(f64, f64); 4] = [
     (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
@@ -28,35 +28,35 @@ const NODES: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
 
-/// Values of the free parameters, by names.
+/// Values of the free parameters, by name.
 type Parameters = Vec<(String, String)>;
 
 /// Values on a grid of the sphere of γ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereMap {
-    /// `ln ρ`, less its value at e₁, or `C`, the criterion.
+    /// Quantity of the map: `ln ρ`, minus its value at e₁, or `C`, the criterion.
     pub quantity: &'static str,
-    /// The values of the free parameters, by names.
+    /// Values of the free parameters, by name.
     pub parameters: Parameters,
     /// Latitudes of the rows, in degrees; γ₃ is the sine.
     pub latitudes: Vec<f64>,
     /// Longitudes of the columns, in degrees from e₁.
     pub longitudes: Vec<f64>,
-    /// The values to six digits, row by row; `null` where there is none.
+    /// Values to six digits, row by row; `null` where undefined.
     pub values: Vec<Vec<Option<f64>>>,
-    /// Of ln ρ: the largest integral along a closed parallel, which would be 0 without rounding
-    /// and the error of the rule.
+    /// Largest integral along a closed parallel for ln ρ, which would be 0 without rounding and the
+    /// error of the rule.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<f64>,
 }
 
-/// One body of the case at points of the sphere.
+/// One body of the case, evaluated at points of the sphere.
 pub(super) struct Body<'c> {
     model: &'c Model,
     parameters: Vec<f64>,
 }
 
-/// The logarithm of a density that exists by the criterion.
+/// Maps the logarithm of a density that exists by the criterion.
 pub fn density(case: &Case, options: &Options) -> Result<Option<SphereMap>, JudgeError> {
     let Some((body, parameters)) = Body::first(case, options)? else { return Ok(None) };
     let (latitudes, longitudes) = grid();
@@ -92,12 +92,12 @@ pub fn density(case: &Case, options: &Options) -> Result<Option<SphereMap>, Judg
         latitudes: degrees(&latitudes),
         longitudes: degrees(&longitudes),
         values,
-        // Two digits: the rest is rounding.
+        // Two digits; the rest is rounding error.
         closure: format!("{closure:.1e}").parse().ok(),
     }))
 }
 
-/// The criterion (γ, rot w), where no density of the configuration exists.
+/// Maps the criterion (γ, rot w), where no density of the configuration exists.
 pub fn criterion(case: &Case, options: &Options) -> Result<Option<SphereMap>, JudgeError> {
     let Some((body, parameters)) = Body::first(case, options)? else { return Ok(None) };
     let (latitudes, longitudes) = grid();
@@ -114,7 +114,7 @@ pub fn criterion(case: &Case, options: &Options) -> Result<Option<SphereMap>, Ju
     }))
 }
 
-/// The middles of the cells, in radians.
+/// Returns the centres of the cells, in radians.
 fn grid() -> (Vec<f64>, Vec<f64>) {
     let latitudes = (0..LATITUDES).map(|k| PI * ((k as f64 + 0.5) / LATITUDES as f64 - 0.5));
     let longitudes = (0..LONGITUDES).map(|k| 2.0 * PI * (k as f64 + 0.5) / LONGITUDES as f64);
@@ -130,14 +130,14 @@ pub(super) fn point(latitude: f64, longitude: f64) -> [f64; 3] {
     [cosine * libm::cos(longitude), cosine * libm::sin(longitude), sine]
 }
 
-/// Six digits: what lies beyond differs between machines.
+/// Rounds to six digits: further ones differ between machines.
 fn rounded(value: f64) -> Option<f64> {
     value.is_finite().then(|| format!("{value:.5e}").parse().ok()).flatten()
 }
 
 impl<'c> Body<'c> {
-    /// The body with the parameters of the first state; none where the case is about no body, or
-    /// has further variables.
+    /// Takes the body with the parameters of the first state; `None` for a case without a body, or
+    /// with further variables.
     pub fn first(
         case: &'c Case,
         options: &Options,
@@ -167,7 +167,7 @@ impl<'c> Body<'c> {
         read(&Phase::new(self.model, &self.parameters, &state))
     }
 
-    /// The point of contact r.
+    /// Computes the point of contact r.
     pub fn contact(&self, gamma: [f64; 3]) -> [f64; 3] {
         self.at(gamma, |phase| match &self.model.system {
             System::Rubber(body) => body.shape.contact(&phase.configuration).0.into(),
@@ -175,7 +175,7 @@ impl<'c> Body<'c> {
         })
     }
 
-    /// ρ₀
+    /// Computes ρ₀.
     fn reference(&self, gamma: [f64; 3]) -> f64 {
         self.at(gamma, |phase| match &self.model.system {
             System::Rubber(body) => body.reference_density(&phase.configuration),
@@ -187,12 +187,12 @@ impl<'c> Body<'c> {
         self.at(gamma, |phase| self.model.system.criterion(phase)).unwrap_or(f64::NAN)
     }
 
-    /// ∫ (w,dγ) along a path with parameter 0 ≤ t ≤ 1.
+    /// Computes ∫ (w,dγ) along a path with parameter 0 ≤ t ≤ 1.
     fn work(&self, path: impl Fn(f64) -> [f64; 3]) -> f64 {
         let mut sum = 0.0;
         for (node, weight) in NODES {
             let (t, small) = ((node + 1.0) / 2.0, 1e-4);
-            // Central differences of a circle: an error of 1e-9 of the step's length.
+            // Central differences on a circle: an error of 1e-9 of the step's length.
             let (before, after) = (path(t - small), path(t + small));
             let covector = self.at(path(t), |phase| self.model.system.criterion_covector(phase));
             let Some(covector) = covector else { return f64::NAN };

@@ -1,4 +1,4 @@
-//! What the search finds beside the families, and what it excludes.
+//! Results of the search beyond the families, found and excluded.
 
 use serde::Serialize;
 
@@ -8,28 +8,28 @@ use crate::mechanics::System;
 use crate::search::{CountReport, Effort, Excluded, Found, search};
 use crate::verdict::{ClaimReport, Options};
 
-/// Integrals are counted up to this degree in the velocities: a fraction of a second.
+/// Degree in the velocities up to which integrals are counted: a fraction of a second.
 const DEGREE: u32 = 4;
 
-/// A count that may take longer is left out.
+/// Time in seconds above which a count is left out.
 const SECONDS: f64 = 2.0;
 
-/// The outcome of a search.
+/// Outcome of a search.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Unknown {
-    /// The numbers of integrals, degree by degree.
+    /// Numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
-    /// What cannot be, by theorems.
+    /// Families excluded by theorems.
     pub excluded: Vec<Excluded>,
-    /// What could not be done, and why.
+    /// Parts that could not be carried out, with reasons.
     pub remarks: Vec<String>,
-    /// What was found, as claims with verdicts.
+    /// Invariants found, as claims with verdicts.
     #[serde(skip)]
     pub findings: Vec<Finding>,
 }
 
 impl Unknown {
-    /// Searches; what the search cannot do is a remark.
+    /// Runs the search; its failures become remarks.
     pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
         let effort = Effort {
             degree: DEGREE,
@@ -38,7 +38,7 @@ impl Unknown {
             options: *options,
             ..Effort::default()
         };
-        // The families have the symmetry fields of bodies.
+        // The families contain the symmetry fields of bodies.
         let is_body = !matches!(
             case.model.system,
             System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)
@@ -60,9 +60,10 @@ impl Unknown {
         }
     }
 
-    /// Up to which degree there is no integral that is independent of the energy.
+    /// Returns the degree up to which there is no integral independent of the energy.
     pub fn excluded_to(&self) -> Option<u32> {
-        // Powers of the energy are integrals: a count without them is wrong, and says nothing.
+        // Powers of the energy are integrals: a count below their number is wrong and proves
+        // nothing.
         if self.counts.iter().any(|count| count.dimension < count.known) {
             return None;
         }
@@ -71,7 +72,7 @@ impl Unknown {
     }
 }
 
-/// A find as a finding: a claim, with the names that the search added.
+/// Makes a finding from a result of the search, with the names that the search added.
 fn found(case: &Case, found: Found) -> Finding {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let claim = ClaimReport {

@@ -1,4 +1,4 @@
-//! The surface of a body, by the points of contact over meridians and parallels of normals.
+//! Surface of a body as a wireframe: points of contact for meridians and parallels of normals.
 
 use std::f64::consts::PI;
 
@@ -6,19 +6,19 @@ use super::sphere::{Body, point};
 use crate::case::Case;
 use crate::verdict::{JudgeError, Options};
 
-/// Lines on the surface of a body.
+/// Curves on the surface of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wireframe {
-    /// Points with the outward normals there, line by line.
+    /// Points with the outward normals, curve by curve.
     pub lines: Vec<Vec<([f64; 3], [f64; 3])>>,
 }
 
 const MERIDIANS: usize = 16;
 const PARALLELS: usize = 9;
-/// Steps of a line; even, so that it passes through the middle.
+/// Number of steps of a curve; even, so that it passes through the middle.
 const STEPS: usize = 48;
 
-/// The lines, for a body whose surface is defined on the whole sphere of normals.
+/// Draws the curves for a body whose surface is defined on the whole sphere of normals.
 pub fn of(case: &Case, options: &Options) -> Result<Option<Wireframe>, JudgeError> {
     let Some((body, _)) = Body::first(case, options)? else { return Ok(None) };
     let at = |latitude: f64, longitude: f64| {
@@ -28,7 +28,7 @@ pub fn of(case: &Case, options: &Options) -> Result<Option<Wireframe>, JudgeErro
     let mut lines = Vec::new();
     for k in 0..MERIDIANS {
         let longitude = 2.0 * PI * k as f64 / MERIDIANS as f64;
-        // The poles are left out: a disk has no normal's point there.
+        // The poles are left out: the normal of a disk has no unique point there.
         let latitude = |step: usize| PI * (0.998 * step as f64 / STEPS as f64 - 0.499);
         lines.push((0..=STEPS).map(|step| at(latitude(step), longitude)).collect());
     }

@@ -1,4 +1,4 @@
-//! The system in words: what rolls on what, and what of it is free.
+//! Description of the system in words.
 
 use serde::Serialize;
 
@@ -9,14 +9,14 @@ use crate::mechanics::{Origin, System};
 /// A parameter of the case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Given {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// Its value, or the formula that gives it; none where it is free.
+    /// Value, or the formula for it; `None` for a free parameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
 }
 
-/// One sentence on the system, from its kind and what was recognised.
+/// Describes the system in one sentence, from its kind and the facts.
 pub fn sentence(case: &Case, facts: &[Fact]) -> String {
     let has = |id: &str| facts.iter().any(|fact| fact.holds && fact.id == id);
     let about = || {
@@ -79,7 +79,7 @@ fn capital(text: &str) -> String {
     first + letters.as_str()
 }
 
-/// The parameters, fixed or free.
+/// Lists the parameters, fixed or free.
 pub fn parameters(case: &Case) -> Vec<Given> {
     let given = case.model.parameters.iter().map(|parameter| Given {
         name: parameter.name.clone(),
@@ -92,6 +92,6 @@ pub fn parameters(case: &Case) -> Vec<Given> {
             Origin::Free(_) => None,
         },
     });
-    // The coefficients of an arbitrary function are many, and say nothing by themselves.
+    // The coefficients of an arbitrary function are many and of no interest individually.
     given.filter(|one| !one.name.contains('[')).collect()
 }

@@ -1,54 +1,54 @@
-//! Bodies by their support functions.
+//! Bodies given by support functions.
 
 use num_dual::Dual;
 
 use crate::scalar::Scalar;
 
-/// A convex body, by its support function.
+/// A convex body given by its support function.
 ///
-/// h(γ) is the distance from the mass centre to the tangent plane with outward normal -γ, continued
-/// with h(λγ) = λ h(γ) for λ > 0; then r = -∇h is the point of contact. What is known on the unit
-/// sphere only is continued by [`OnUnitSphere`].
+/// h(γ) is the distance from the mass centre to the tangent plane with outward normal -γ, extended
+/// by h(λγ) = λ h(γ) for λ > 0; then r = -∇h is the point of contact. A function on the unit sphere
+/// alone is extended by [`OnUnitSphere`].
 pub trait Body {
-    /// h(γ)
+    /// Evaluates h(γ).
     fn support<T: Scalar>(&self, gamma: [T; 3]) -> T;
 }
 
-/// A ball with its mass centre in the middle: h = R|γ|.
+/// A ball with its mass centre at the centre: h = R|γ|.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// R
+    /// Radius R.
     pub radius: f64,
 }
 
-/// An ellipsoid about its mass centre: h = √(a²γ₁² + b²γ₂² + c²γ₃²).
+/// An ellipsoid with its mass centre at the centre: h = √(a²γ₁² + b²γ₂² + c²γ₃²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
-    /// a, b, c
+    /// Semi-axes a, b, c.
     pub axes: [f64; 3],
 }
 
-/// h = |γ| Σ c Π (γᵢ/|γ|)^eᵢ, a polynomial on the unit sphere.
+/// A polynomial support function on the unit sphere: h = |γ| Σ c Π (γᵢ/|γ|)^eᵢ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polynomial {
     /// Exponents and coefficients.
     pub terms: Vec<([i32; 3], f64)>,
 }
 
-/// The Minkowski sum of two bodies: h is the sum of theirs.
+/// The Minkowski sum of two bodies, whose h is the sum of theirs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<A, B>(pub A, pub B);
 
-/// A body whose mass centre lies at -c of where it was: h + (c,γ).
+/// A body with its mass centre moved by -c: h + (c,γ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shifted<B> {
-    /// The body.
+    /// Original body.
     pub body: B,
-    /// c
+    /// Displacement c.
     pub by: [f64; 3],
 }
 
-/// A body whose h is meant on the unit sphere, and taken as |γ| h(γ/|γ|) elsewhere.
+/// A body whose h is defined on the unit sphere, and extended as |γ| h(γ/|γ|).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnUnitSphere<B>(pub B);
 
@@ -107,7 +107,7 @@ fn length<T: Scalar>(gamma: [T; 3]) -> T {
     gamma.into_iter().map(|x| x * x).sum::<T>().sqrt()
 }
 
-/// h - (γ,∇h), which is 0 exactly when h is homogeneous of degree 1.
+/// Computes h - (γ,∇h), which is 0 exactly when h is homogeneous of degree 1.
 pub(super) fn euler_defect<T: Scalar>(body: &impl Body, gamma: [T; 3]) -> T {
     let h = body.support(gamma.map(|x| Dual::new(x, x)));
     h.re - h.eps

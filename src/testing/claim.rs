@@ -1,4 +1,4 @@
-//! Claims about a field, and what must vanish where they hold.
+//! Claims about a vector field, and their residuals.
 //!
 //! ```text
 //! integral F         L_vF
@@ -7,7 +7,8 @@
 //! reversor σ         dσ·v + v∘σ,  σ∘σ - id,  F_i∘σ
 //! ```
 //!
-//! Derivatives are taken in the ambient space, and the chart is put in afterwards; docs/soundness.md.
+//! Derivatives are taken in the ambient space, and the chart is substituted afterwards;
+//! docs/soundness.md.
 
 use num_dual::Dual;
 
@@ -15,10 +16,11 @@ use super::notation::{Involution, Place, Quantity, VectorField};
 use crate::mechanics::calculus::transversals;
 use crate::scalar::Scalar;
 
-/// Values that must vanish, under the name that a failure shows.
+/// Values that must vanish, with the name shown on failure.
 pub type Parts<T> = Vec<(&'static str, Vec<T>)>;
 
-/// Something said about a vector field, to be settled by [`at`](Claim::at) or [`prove`](Claim::prove).
+/// A claim about a vector field, to be tested by [`at`](Claim::at) or proved by
+/// [`prove`](Claim::prove).
 #[must_use = "nothing is checked before `at` or `prove`"]
 pub struct Claim<'a, V, S, const N: usize> {
     pub(super) field: &'a V,
@@ -31,25 +33,25 @@ impl<'a, V, S, const N: usize> Claim<'a, V, S, N> {
     }
 }
 
-/// What is said.
+/// A property of a vector field that can be tested or proved.
 pub trait Statement<V, const N: usize> {
-    /// What vanishes at x where it holds on the level of a place.
+    /// Computes the values that vanish at x if the property holds on the level of a place.
     fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T>;
 }
 
-/// See [`VectorField::conserves`].
+/// Property tested by [`VectorField::conserves`].
 pub struct Conserved<'a, Q>(pub(super) &'a Q);
 
-/// See [`VectorField::has_density`].
+/// Property tested by [`VectorField::has_density`].
 pub struct Density<'a, Q>(pub(super) &'a Q);
 
-/// See [`VectorField::has_log_density`].
+/// Property tested by [`VectorField::has_log_density`].
 pub struct LogDensity<'a, Q>(pub(super) &'a Q);
 
-/// See [`VectorField::commutes_with`].
+/// Property tested by [`VectorField::commutes_with`].
 pub struct SymmetryField<'a, U>(pub(super) &'a U);
 
-/// See [`VectorField::is_reversed_by`].
+/// Property tested by [`VectorField::is_reversed_by`].
 pub struct Reversed<'a, S>(pub(super) &'a S);
 
 impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> Statement<V, N> for Conserved<'_, Q> {
@@ -98,7 +100,8 @@ impl<V: VectorField<N>, S: Involution<N>, const N: usize> Statement<V, N> for Re
     }
 }
 
-/// The premises of any claim: the conditions of the field, and that it keeps the level.
+/// Computes the premises of any claim: the conditions of the field, and the invariance of the
+/// level.
 pub fn premises<V: VectorField<N>, T: Scalar, const N: usize>(
     field: &V,
     place: &impl Place<N>,
@@ -112,7 +115,7 @@ pub fn premises<V: VectorField<N>, T: Scalar, const N: usize>(
     ]
 }
 
-/// v(ln ρ) + div v less what the level takes.
+/// Computes v(ln ρ) + div v minus the cofactors of the level functions.
 fn liouville<V: VectorField<N>, T: Scalar, const N: usize>(
     along: T,
     field: &V,
@@ -132,14 +135,14 @@ fn liouville<V: VectorField<N>, T: Scalar, const N: usize>(
     ("v(ln ρ) + div v", vec![along + divergence - cofactor])
 }
 
-/// The gradients of the level functions.
+/// Computes the gradients of the level functions.
 pub fn level_gradients<T: Scalar, const N: usize>(place: &impl Place<N>, x: [T; N]) -> Vec<Vec<T>> {
     let columns: Vec<Vec<Dual<T>>> = (0..N).map(|k| place.level(lift(x, axis(k)))).collect();
     let count = columns.first().map_or(0, Vec::len);
     (0..count).map(|i| columns.iter().map(|column| column[i].eps).collect()).collect()
 }
 
-/// x with derivative parts.
+/// Adds derivative parts to x.
 pub fn lift<T: Scalar, const N: usize>(x: [T; N], direction: [T; N]) -> [Dual<T>; N] {
     std::array::from_fn(|k| Dual::new(x[k], direction[k]))
 }

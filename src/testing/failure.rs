@@ -1,51 +1,52 @@
-//! What an assertion says when it does not hold, and what a proof is worth.
+//! Failures of assertions, and proofs.
 
 use std::fmt;
 
 use crate::graph::Fault;
 use crate::proof::Certificate;
 
-/// Why an assertion failed. Inside `proptest!` the operator `?` turns it into a failed case.
+/// The reason why an assertion failed. Inside `proptest!` the operator `?` turns it into a failed
+/// case.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// The claim is false at this state: an enclosure of the residual excludes 0.
     #[error("refuted: {0}")]
     Refuted(Box<Witness>),
-    /// What every claim rests on is false at this state: the field leaves the level, the chart's
+    /// A premise of every claim is false at this state: the field leaves the level, the chart's
     /// point is not on it, or a condition of the field is violated.
     #[error("the claim has no meaning here: {0}")]
     Premise(Box<Witness>),
-    /// It does not vanish in prime fields, but no enclosure near this state excludes 0.
+    /// The residual does not vanish in prime fields, but no enclosure near this state excludes 0.
     #[error(
         "refuted in prime fields: {what} does not vanish identically, but it is below every \
          precision tried near the state; draw states farther from it"
     )]
     RefutedInFields {
-        /// What was to vanish.
+        /// Value that should vanish.
         what: &'static str,
     },
-    /// Something has no value at this state.
+    /// A value is undefined at this state.
     #[error(
         "{what} has no value at {at}: a division by 0, or a root of a negative number; keep such \
          states out of the strategy, or leave them with `prop_assume!`"
     )]
     Undefined {
-        /// What was to vanish.
+        /// Value that should vanish.
         what: &'static str,
-        /// The state.
+        /// State at which it is undefined.
         at: State,
     },
-    /// The chart reaches too little of its level near this state for a proof on the level.
+    /// The chart covers too little of its level near this state for a proof on the level.
     #[error(
         "the chart does not fill its level at {0}, or the level functions depend on each other"
     )]
     Chart(State),
-    /// No counterexample, and no proof.
+    /// Neither a counterexample nor a proof was found.
     #[error("{what} could not be proved to vanish: {why}")]
     Unproved {
-        /// What was to vanish.
+        /// Value that should vanish.
         what: &'static str,
-        /// Why the prime fields are silent.
+        /// Reason why the prime fields are silent.
         why: String,
     },
     /// The computation cannot be recorded.
@@ -54,22 +55,22 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Is the claim itself shown to be false?
+    /// Whether the failure refutes the claim itself.
     pub fn is_refutation(&self) -> bool {
         matches!(self, Self::Refuted(_) | Self::RefutedInFields { .. })
     }
 }
 
-/// A state at which something does not vanish that should.
+/// A state at which a value that should vanish does not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
-    /// What was to vanish.
+    /// Value that should vanish.
     pub what: &'static str,
-    /// Which component of it.
+    /// Index of the component.
     pub component: usize,
-    /// Midpoint and radius of a ball that holds its value, and not 0.
+    /// Midpoint and radius of a ball that contains the component and excludes 0.
     pub enclosure: (f64, f64),
-    /// Where.
+    /// State of the refutation.
     pub at: State,
 }
 
@@ -84,12 +85,12 @@ impl fmt::Display for Witness {
     }
 }
 
-/// A state as it was drawn.
+/// A drawn state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// The numbers it is made from, exact as they stand.
+    /// Numbers from which it is made, exact as given.
     pub coordinates: Vec<f64>,
-    /// The point of ℝᴺ, rounded.
+    /// Rounded point of ℝᴺ.
     pub point: Vec<f64>,
 }
 
@@ -103,8 +104,8 @@ impl fmt::Display for State {
     }
 }
 
-/// A proof that a claim holds on the whole of a chart: where everything is defined that occurs in
-/// it, and on that side of each root and modulus on which the state lies.
+/// A proof that a claim holds on the whole of a chart: wherever all its terms are defined, and on
+/// the side of each root and modulus on which the state lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proof(pub Certificate);
 

@@ -1,8 +1,10 @@
-//! Expressions as fields, quantities and maps.
+//! Macros that make fields, quantities and maps from expressions.
 
-/// A [`VectorField`](crate::testing::VectorField) from an expression that holds for every scalar.
+/// Makes a [`VectorField`](crate::testing::VectorField) from an expression that is valid for every
+/// scalar.
 ///
-/// What the expression uses beside the state and items is listed behind it with its type, and cloned:
+/// Values that the expression uses besides the state and items are listed after it with their
+/// types, and cloned:
 ///
 /// ```
 /// use liouville::testing::VectorField;
@@ -33,7 +35,7 @@ macro_rules! field {
     }};
 }
 
-/// A [`Quantity`](crate::testing::Quantity) from an expression; see [`field!`](crate::field).
+/// Makes a [`Quantity`](crate::testing::Quantity) from an expression; see [`field!`](crate::field).
 #[macro_export]
 macro_rules! quantity {
     (|$x:ident: [_; $n:expr]| $body:expr $(, $name:ident: $kind:ty)* $(,)?) => {{
@@ -50,7 +52,8 @@ macro_rules! quantity {
     }};
 }
 
-/// An [`Involution`](crate::testing::Involution) from an expression; see [`field!`](crate::field).
+/// Makes an [`Involution`](crate::testing::Involution) from an expression; see
+/// [`field!`](crate::field).
 #[macro_export]
 macro_rules! involution {
     (|$x:ident: [_; $n:expr]| $body:expr $(, $name:ident: $kind:ty)* $(,)?) => {{

@@ -1,7 +1,7 @@
-//! Property tests for Rust code of one's own: strategies, and assertions about vector fields.
+//! Property tests for Rust code: strategies, and assertions about vector fields.
 //!
-//! A field, a quantity or a body is code generic over num-dual's `DualNum`. An assertion runs it over
-//! the recording scalar, lets num-dual differentiate, and evaluates what must vanish in balls: an
+//! A field, a quantity or a body is code generic over num-dual's `DualNum`. An assertion runs it
+//! over the recording scalar, differentiates by num-dual, and evaluates the residual in balls: an
 //! enclosure that excludes 0 fails, and there is no tolerance to choose.
 //!
 //! ```
@@ -36,7 +36,7 @@
 //!
 //! # Bodies
 //!
-//! A body that is not in the catalogue is a type with a support function; [`Rolling`] makes its field:
+//! A body outside the catalogue is a type with a support function; [`Rolling`] provides its field:
 //!
 //! ```
 //! use liouville::quantity;
@@ -72,7 +72,7 @@
 //! # Ok::<(), Failure>(())
 //! ```
 //!
-//! # What is asserted
+//! # Assertions
 //!
 //! | | vanishes |
 //! |---|---|
@@ -81,9 +81,9 @@
 //! | [`commutes_with`](VectorField::commutes_with) | \[v,u\] |
 //! | [`is_reversed_by`](VectorField::is_reversed_by) | dσ·v + v∘σ and σ∘σ - id |
 //!
-//! [`at`](Claim::at) asserts it at a state, [`prove`](Claim::prove) on the whole chart. On a
-//! [`Level`] both also check that the chart's point lies on it and that the field keeps it. The law
-//! for both is docs/soundness.md, the way of use docs/testing.md.
+//! [`at`](Claim::at) asserts the property at a state, [`prove`](Claim::prove) on the whole chart.
+//! On a [`Level`] both also check that the chart's point lies on it and that the field preserves
+//! it. The theory is in docs/soundness.md, the usage in docs/testing.md.
 
 mod body;
 mod claim;

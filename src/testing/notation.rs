@@ -1,7 +1,7 @@
-//! What the user writes: fields, quantities, maps and levels, each generic over the scalar.
+//! Traits for user code: fields, quantities, maps and levels, each generic over the scalar.
 //!
-//! A closure cannot be generic, so each is a trait with one generic method. A type of one's own
-//! implements it; for a function that exists already there are the macros [`field!`](crate::field),
+//! A closure cannot be generic, so each is a trait with one generic method. A user's type
+//! implements it; existing functions are wrapped by the macros [`field!`](crate::field),
 //! [`quantity!`](crate::quantity) and [`involution!`](crate::involution).
 
 use super::claim::{Claim, Conserved, Density, LogDensity, Reversed, SymmetryField};
@@ -9,19 +9,20 @@ use crate::scalar::Scalar;
 
 /// A vector field x' = v(x) on ℝᴺ.
 ///
-/// `Scalar` is num-dual's `DualNum<Primitive = f64> + Copy` with exact rationals beside it, so that
-/// any function generic over `DualNum` can be called from here. An f64 is the dyadic number it is;
+/// `Scalar` is num-dual's `DualNum<Primitive = f64> + Copy` extended by exact rationals, so that
+/// any function generic over `DualNum` can be called. An f64 stands for its exact dyadic value;
 /// [`Scalar::rational`] makes ⅓.
 pub trait VectorField<const N: usize> {
-    /// v(x)
+    /// Computes v(x).
     fn rates<T: Scalar>(&self, x: [T; N]) -> [T; N];
 
-    /// What must vanish wherever the field is used; every claim about the field checks it too.
+    /// Returns values that must vanish wherever the field is used; every claim about the field
+    /// checks them too.
     fn conditions<T: Scalar>(&self, _x: [T; N]) -> Vec<T> {
         Vec::new()
     }
 
-    /// F is a first integral: L_vF = 0.
+    /// Claims that F is a first integral: L_vF = 0.
     fn conserves<'a, Q: Quantity<N>>(
         &'a self,
         quantity: &'a Q,
@@ -32,7 +33,8 @@ pub trait VectorField<const N: usize> {
         Claim::new(self, Conserved(quantity))
     }
 
-    /// ρ is an invariant density: v(ln ρ) + div v, less the cofactors of the level functions, is 0.
+    /// Claims that ρ is an invariant density: v(ln ρ) + div v, minus the cofactors of the level
+    /// functions, is 0.
     fn has_density<'a, Q: Quantity<N>>(
         &'a self,
         density: &'a Q,
@@ -43,7 +45,7 @@ pub trait VectorField<const N: usize> {
         Claim::new(self, Density(density))
     }
 
-    /// The same for a density that is given by ln ρ.
+    /// Claims an invariant density given by ln ρ.
     fn has_log_density<'a, Q: Quantity<N>>(
         &'a self,
         logarithm: &'a Q,
@@ -54,7 +56,7 @@ pub trait VectorField<const N: usize> {
         Claim::new(self, LogDensity(logarithm))
     }
 
-    /// u is a symmetry field: `[v,u] = 0`, and u is tangent to the level.
+    /// Claims that u is a symmetry field: `[v,u] = 0`, and u is tangent to the level.
     fn commutes_with<'a, U: VectorField<N>>(
         &'a self,
         other: &'a U,
@@ -65,7 +67,7 @@ pub trait VectorField<const N: usize> {
         Claim::new(self, SymmetryField(other))
     }
 
-    /// σ reverses time: dσ·v = -v∘σ and σ∘σ = id, and σ keeps the level.
+    /// Claims that σ reverses time: dσ·v = -v∘σ and σ∘σ = id, and σ preserves the level.
     fn is_reversed_by<'a, S: Involution<N>>(
         &'a self,
         map: &'a S,
@@ -79,38 +81,39 @@ pub trait VectorField<const N: usize> {
 
 /// A function on ℝᴺ: an integral, a density, or the logarithm of one.
 pub trait Quantity<const N: usize> {
-    /// F(x)
+    /// Evaluates F(x).
     fn value<T: Scalar>(&self, x: [T; N]) -> T;
 }
 
 /// A map σ of ℝᴺ to itself with σ∘σ = id.
 pub trait Involution<const N: usize> {
-    /// σ(x)
+    /// Computes σ(x).
     fn image<T: Scalar>(&self, x: [T; N]) -> [T; N];
 }
 
-/// A level set {F₁ = 0, …, F_k = 0} in ℝᴺ with a chart of K numbers, at least as many as the level
-/// has dimensions.
+/// A level set {F₁ = 0, …, F_k = 0} in ℝᴺ with a chart of K coordinates, K at least the dimension
+/// of the level.
 pub trait Level<const K: usize, const N: usize> {
-    /// The point of the level that belongs to the numbers u.
+    /// Returns the point of the level with coordinates u.
     fn point<T: Scalar>(&self, u: [T; K]) -> [T; N];
 
-    /// F₁, …, F_k anywhere in ℝᴺ. A density refers to the volume σ with dx = dF₁∧…∧dF_k∧σ.
+    /// Evaluates F₁, …, F_k anywhere in ℝᴺ. A density refers to the volume σ with dx =
+    /// dF₁∧…∧dF_k∧σ.
     fn functions<T: Scalar>(&self, x: [T; N]) -> Vec<T>;
 }
 
-/// A state of a property test: numbers, and how a point is made from them.
+/// A state of a property test: numbers, and the point made from them.
 ///
-/// The point is made inside the arithmetic that an assertion uses, and so lies on its level exactly.
-/// An array is a point of ℝᴺ, [`On`] a point of a level.
+/// The point is made inside the arithmetic that an assertion uses, and so lies exactly on its
+/// level. An array is a point of ℝᴺ, [`On`] a point of a level.
 pub trait Place<const N: usize> {
-    /// The numbers, exact as they stand.
+    /// Returns the numbers, exact as given.
     fn coordinates(&self) -> &[f64];
 
-    /// The point made from as many numbers.
+    /// Makes the point from these numbers.
     fn point<T: Scalar>(&self, coordinates: &[T]) -> [T; N];
 
-    /// The functions that vanish on the level, at any point; none in all of ℝᴺ.
+    /// Evaluates the functions that vanish on the level, at any point; none in all of ℝᴺ.
     fn level<T: Scalar>(&self, x: [T; N]) -> Vec<T>;
 }
 
@@ -128,12 +131,12 @@ impl<const N: usize> Place<N> for [f64; N] {
     }
 }
 
-/// A point of a level, by its numbers in the level's chart.
+/// A point of a level, by its coordinates in the level's chart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct On<L, const K: usize> {
-    /// The level.
+    /// Level of the point.
     pub level: L,
-    /// The numbers.
+    /// Coordinates in the chart.
     pub coordinates: [f64; K],
 }
 

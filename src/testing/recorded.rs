@@ -1,4 +1,5 @@
-//! A claim recorded once at the numbers of a chart, looked at in balls and tested in prime fields.
+//! A claim recorded once over the coordinates of a chart, evaluated in balls and tested in prime
+//! fields.
 
 use num_dual::Dual;
 use num_traits::{One, Zero};
@@ -16,24 +17,24 @@ use crate::number::rational::Rational;
 use crate::proof::{Certificate, Extent, Group, Outcome, Prover};
 use crate::verdict::antiderivative_value;
 
-/// Bits of the second look at a state, where balls over f64 contain 0.
+/// Precision in bits of the second evaluation at a state, where balls over f64 contain 0.
 const BITS: u32 = 256;
-/// The seed of primes, points and neighbours.
+/// Seed of primes, points and neighbours.
 const SEED: u64 = 1;
-/// States near the given one that are looked at after a refutation in prime fields.
+/// Number of nearby states evaluated after a refutation in prime fields.
 const NEIGHBOURS: u64 = 32;
 
-/// A claim as a graph whose inputs are the numbers of a chart.
+/// A claim as a graph whose inputs are the coordinates of a chart.
 pub struct Recorded {
     graph: Graph,
-    /// First the premises, then what the claim itself says.
+    /// Premises, followed by the residual of the claim.
     rows: Vec<Row>,
     point: Vec<Expr>,
-    /// Not 0 where the chart fills its level.
+    /// Value that is not 0 where the chart fills its level.
     filling: Expr,
 }
 
-/// One value that must vanish.
+/// One component that must vanish.
 struct Row {
     what: &'static str,
     component: usize,
@@ -41,11 +42,11 @@ struct Row {
     value: Expr,
 }
 
-/// A ball, absent where there is no value.
+/// Midpoint and radius of a ball, absent where the value is undefined.
 type Enclosure = Option<(f64, f64)>;
 
 impl Recorded {
-    /// Records the residual and the premises at the point that a place makes.
+    /// Records the residual and the premises at the point of a place.
     pub fn new<const N: usize>(
         place: &impl Place<N>,
         residual: impl FnOnce([Expr; N]) -> Parts<Expr>,
@@ -60,9 +61,9 @@ impl Recorded {
         Ok(Self { graph, rows, point, filling })
     }
 
-    /// Fails if an enclosure excludes 0, or if something has no value.
+    /// Fails if an enclosure excludes 0, or if a value is undefined.
     ///
-    /// A ball over f64 that contains 0, or is undefined, is made anew in 256 bits.
+    /// A ball over f64 that contains 0, or is undefined, is computed again in 256 bits.
     pub fn look(&self, coordinates: &[f64]) -> Result<(), Failure> {
         let numbers = exact(coordinates).ok_or_else(|| self.undefined(0, coordinates))?;
         let values: Vec<Expr> = self.rows.iter().map(|row| row.value).collect();
@@ -101,8 +102,8 @@ impl Recorded {
 
     /// Proves that all rows vanish, in prime fields.
     pub fn prove(&self, coordinates: &[f64]) -> Result<Proof, Failure> {
-        // A connected part of the chart is meant on which no radicand and no modulus has a zero: one
-        // state has the signs of all.
+        // A proof is about a connected part of the chart on which no radicand and no modulus has a
+        // zero: one state determines the signs of all.
         let numbers = exact(coordinates).unwrap_or_default();
         let extents: Vec<Extent> = numbers.iter().map(|x| Extent::between(x, x)).collect();
         let prover = Prover { sources: &[], extents: &extents, seed: SEED };
@@ -130,7 +131,7 @@ impl Recorded {
         proof.map(Proof).ok_or_else(nothing)
     }
 
-    /// Looks at states near the given one, and fails at the first that refutes.
+    /// Evaluates states near the given one, and fails at the first that refutes.
     fn look_around(&self, coordinates: &[f64]) -> Result<(), Failure> {
         let step = Draw::Within(Range::between((-1, 8), (1, 8)));
         let steps = Draws::new(&vec![step; coordinates.len()]);
@@ -167,9 +168,9 @@ fn rows(parts: Parts<Expr>, is_premise: bool) -> Vec<Row> {
         .collect()
 }
 
-/// det(J Jᵀ + G Gᵀ) of the chart's derivative J and the level's gradients G, which are orthogonal to
-/// each other: 0 exactly where some direction in the level is not reached, or the level functions
-/// depend on each other.
+/// Computes det(J Jᵀ + G Gᵀ) of the chart's derivative J and the level's gradients G, which are
+/// orthogonal to each other: 0 exactly where the chart misses some direction in the level, or the
+/// level functions are dependent.
 fn filling<const N: usize>(place: &impl Place<N>, u: &[Expr], x: [Expr; N]) -> Expr {
     let gradients = level_gradients(place, x);
     let columns = (0..u.len()).map(|k| {
@@ -183,12 +184,12 @@ fn filling<const N: usize>(place: &impl Place<N>, u: &[Expr], x: [Expr; N]) -> E
     gram_determinant(&rows)
 }
 
-/// The numbers that some f64s are, if all are finite.
+/// Returns the exact values of f64s, if all are finite.
 fn exact(coordinates: &[f64]) -> Option<Vec<Rational>> {
     coordinates.iter().map(|x| Rational::from_f64(*x)).collect()
 }
 
-/// Balls around values at a state, each with whether it excludes 0.
+/// Encloses values at a state; each flag tells whether the ball excludes 0.
 fn enclosures<D: Enclosing + Clone>(
     domain: &D,
     graph: &Graph,

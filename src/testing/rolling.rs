@@ -1,4 +1,4 @@
-//! Rubber rolling of a body of one's own.
+//! Rubber rolling of a user-defined body.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
@@ -8,58 +8,59 @@ use super::notation::{Level, Quantity, VectorField};
 use crate::mechanics::{AcrossNormal, Motion, Pose, contact_of, point_mass, rolling_point};
 use crate::scalar::Scalar;
 
-/// A body that rolls without slipping or spinning on a plane or a sphere: the field of (ω,γ) in ℝ⁶.
+/// A body rolling without slipping or spinning on a plane or a sphere: the field of (ω,γ) in ℝ⁶.
 ///
-/// In the body's frame ω is its angular velocity and γ the normal from the support to the body.
-/// Borisov, Mamaev, Bizyaev, Rus. J. Nonlin. Dyn. 9 (2013), (1.4) on the plane, (1.12) on the sphere.
+/// In the body frame ω is the angular velocity and γ the normal from the support to the body.
+/// Borisov, Mamaev, Bizyaev, Rus. J. Nonlin. Dyn. 9 (2013), (1.4) on the plane, (1.12) on the
+/// sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rolling<B> {
-    /// Its shape.
+    /// Shape of the body.
     pub body: B,
-    /// m
+    /// Mass m.
     pub mass: f64,
-    /// The central inertia tensor I, symmetric.
+    /// Central inertia tensor I, symmetric.
     pub inertia: [[f64; 3]; 3],
-    /// The signed curvature k of the support: 0 for the plane, positive where it is a ball rolled on
-    /// from outside.
+    /// Signed curvature k of the support: 0 for the plane, positive for a ball rolled on from
+    /// outside.
     pub curvature: f64,
-    /// The constant angular momentum S of a rotor.
+    /// Constant angular momentum S of a rotor.
     pub gyrostat: [f64; 3],
-    /// The factor of a potential U = w h(γ): on the plane, the weight.
+    /// Factor w of a potential U = w h(γ): on the plane, the weight.
     pub weight: f64,
 }
 
-/// ½(ω,Ĩω) + U of a rolling body.
+/// Energy ½(ω,Ĩω) + U of a rolling body.
 #[derive(Clone, Copy, Debug)]
 pub struct Energy<'a, B>(&'a Rolling<B>);
 
-/// γ² = 1 and (ω,γ) = 0 in ℝ⁶, with the chart (u,v,a):
-/// γ = (2u, 2v, 1-u²-v²)/(1+u²+v²), ω = γ×a.
+/// The level γ² = 1, (ω,γ) = 0 in ℝ⁶, with the chart (u,v,a): γ = (2u, 2v, 1-u²-v²)/(1+u²+v²), ω =
+/// γ×a.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RollingLevel;
 
 impl<B: Body> Rolling<B> {
-    /// A body on a plane, without rotor and weight.
+    /// Makes a body on a plane, without rotor and weight.
     pub fn on_plane(body: B, mass: f64, inertia: [[f64; 3]; 3]) -> Self {
         Self { body, mass, inertia, curvature: 0.0, gyrostat: [0.0; 3], weight: 0.0 }
     }
 
-    /// The energy, an integral.
+    /// Returns the energy, an integral.
     pub fn energy(&self) -> Energy<'_, B> {
         Energy(self)
     }
 
-    /// r, the point of contact as seen from the mass centre.
+    /// Computes r, the point of contact relative to the mass centre.
     pub fn contact<T: Scalar>(&self, gamma: [T; 3]) -> [T; 3] {
         self.slope_of_support(gamma).map(|x| -x)
     }
 
-    /// Ĩ = I + m r²E - m r⊗r, the inertia tensor about the point of contact.
+    /// Computes Ĩ = I + m r²E - m r⊗r, the inertia tensor about the point of contact.
     pub fn moving_inertia<T: Scalar>(&self, gamma: [T; 3]) -> [[T; 3]; 3] {
         self.inertia_at(&self.contact(gamma).into()).transpose().into()
     }
 
-    /// ∇h
+    /// Computes ∇h.
     fn slope_of_support<T: Scalar>(&self, gamma: [T; 3]) -> [T; 3] {
         std::array::from_fn(|i| self.body.support(along(gamma, i)).eps)
     }
@@ -87,7 +88,7 @@ impl<B: Body> Rolling<B> {
     }
 }
 
-/// A vector with its derivative part along axis `index`.
+/// Adds a derivative part along axis `index` to a vector.
 fn along<T: Scalar>(gamma: [T; 3], index: usize) -> [Dual<T>; 3] {
     let part = |j: usize| if j == index { T::one() } else { T::zero() };
     std::array::from_fn(|j| Dual::new(gamma[j], part(j)))
@@ -105,7 +106,7 @@ impl<B: Body> VectorField<6> for Rolling<B> {
         [a.x, a.y, a.z, b.x, b.y, b.z]
     }
 
-    /// Euler's relation for h, and a symmetric I.
+    /// Returns the defects of Euler's relation for h and of the symmetry of I.
     fn conditions<T: Scalar>(&self, [_, _, _, g1, g2, g3]: [T; 6]) -> Vec<T> {
         let pairs = [(0, 1), (0, 2), (1, 2)];
         let entry = |i: usize, j: usize| T::from(self.inertia[i][j]);

@@ -1,4 +1,4 @@
-//! How a claim is settled: by enclosures at a state, or by a proof on its chart.
+//! Decision of a claim: by enclosures at a state, or by a proof on its chart.
 //!
 //! ```text
 //! state ─ chart, residual ─▶ graph ─▶ balls at the state ─▶ refuted, or 0 is enclosed
@@ -15,19 +15,19 @@ where
     V: VectorField<N>,
     S: Statement<V, N>,
 {
-    /// Asserts the claim at one state: no enclosure of its residual excludes 0, neither over f64 nor
-    /// in 256 bits. The state is a point of ℝᴺ or of a level, and taken as the exact numbers it has.
+    /// Asserts the claim at one state: no enclosure of its residual excludes 0, neither over f64
+    /// nor in 256 bits. The state is a point of ℝᴺ or of a level, and stands for its exact numbers.
     ///
-    /// There is no tolerance: what fails is not 0.
+    /// There is no tolerance: a residual that fails is not 0.
     pub fn at(&self, state: &impl Place<N>) -> Result<(), Failure> {
         self.record(state)?.look(state.coordinates())
     }
 
-    /// Proves the claim on the whole chart, in random prime fields; docs/soundness.md says what that
-    /// means. The state is tried first, and is a state on the side of roots and moduli that is meant.
+    /// Proves the claim on the whole chart, in random prime fields, in the sense of
+    /// docs/soundness.md. The state is tested first, and selects the side of each root and modulus.
     ///
-    /// Parameters are the numbers they have here. A proof for all values takes them as further
-    /// variables whose rates are 0.
+    /// Parameters have their given values. For a proof for all values, make them further variables
+    /// whose rates are 0.
     pub fn prove(&self, state: &impl Place<N>) -> Result<Proof, Failure> {
         let recorded = self.record(state)?;
         let coordinates = state.coordinates();
