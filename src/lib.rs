@@ -1,9 +1,9 @@
-//! liouville decides which tensor invariants a mechanical system has.
+//! Decides which tensor invariants a mechanical system has.
 //!
 //! A case file names a system (a rigid body rolling without slipping or spinning, or any vector
 //! field), its parameters, and claims: first integrals, invariant densities, the existence of a
 //! density. The library differentiates, and answers each claim with a [`verdict::Verdict`] and its
-//! evidence. The way of a claim is the order of the modules:
+//! evidence. A claim passes through the modules in this order:
 //!
 //! ```text
 //! text ─ case ─▶ model and claims ─ record ─▶ graph ─▶ tape ─ number domains ─▶ verdict ─▶ report
@@ -38,7 +38,7 @@
 //! # Ok::<(), liouville::case::CaseError>(())
 //! ```
 //!
-//! # Recording a computation of your own
+//! # Recording user code
 //!
 //! Any function generic over num-dual's `DualNum` can be recorded, differentiated and run:
 //!

@@ -1,8 +1,8 @@
-//! The scalar every field, body and formula is written over.
+//! Scalar types of fields, bodies and formulas.
 //!
-//! [`Scalar`] is num-dual's [`DualNum`] over f64 together with the few operations a *recorded* or
-//! an *exact* scalar needs and num-dual does not offer: constants that are exact rationals, powers
-//! that keep their exponent, |x|, and a function known by its derivative alone.
+//! [`Scalar`] is num-dual's [`DualNum`] over f64 together with the few operations that a *recorded*
+//! or an *exact* scalar needs and num-dual does not offer: constants that are exact rationals,
+//! powers with exact exponents, |x|, and functions known only by their derivatives.
 
 use num_dual::{Dual, DualNum};
 
@@ -11,40 +11,42 @@ use crate::number::rational::Rational;
 /// A `Copy` number over which mechanics and formulas are evaluated: f64, the recording
 /// `Expr`, and num-dual's `Dual` of either, nested to any depth.
 pub trait Scalar: DualNum<Primitive = f64> + Copy {
-    /// The image of an exact constant.
+    /// Returns the image of an exact constant.
     fn rational(value: &Rational) -> Self;
 
-    /// `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an integer.
+    /// Computes `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an
+    /// integer.
     fn power(self, exponent: &Rational) -> Self;
 
-    /// `x^y` for x > 0, with derivative `x^y (y' ln x + y x'/x)`.
+    /// Computes `x^y` for x > 0, with derivative `x^y (y' ln x + y x'/x)`.
     fn power_of(self, exponent: Self) -> Self;
 
-    /// `|x|`, with derivative `x x'/|x|`; not differentiable at 0.
+    /// Computes `|x|`, with derivative `x x'/|x|`; not differentiable at 0.
     fn modulus(self) -> Self;
 
-    /// `asin x = 2 atan(x/(1 + √(1 - x²)))`, at ±1 too; with derivative `x'/√(1 - x²)`.
+    /// Computes `asin x = 2 atan(x/(1 + √(1 - x²)))`, also at ±1, with derivative `x'/√(1 - x²)`.
     fn arcsine(self) -> Self {
         let across = (Self::one() - self * self).sqrt();
         (self / (Self::one() + across)).atan() * Self::from(2.0)
     }
 
-    /// The angle of the point (x, self), `2 atan(y/(x + r))`, with derivative `(x y' - y x')/r²`.
+    /// Computes the angle of the point (x, self), `2 atan(y/(x + r))`, with derivative `(x y' - y
+    /// x')/r²`.
     ///
-    /// It has no value on the ray y = 0, x ≤ 0.
+    /// Undefined on the ray y = 0, x ≤ 0.
     fn angle_from(self, x: Self) -> Self {
         let r = (x * x + self * self).sqrt();
         (self / (x + r)).atan() * Self::from(2.0)
     }
 
-    /// A function Λ of `variable` with Λ' = `integrand`, its constant left open.
+    /// Makes a function Λ of `variable` with Λ' = `integrand` and an arbitrary constant.
     ///
     /// Only the derivative is used: dΛ = integrand · d variable. The value itself is a free symbol
     /// when recorded, and NaN at f64.
     fn antiderivative(integrand: Self, variable: Self) -> Self;
 
-    /// Runs `build` so that what it computes has a value exactly where every operation in it has
-    /// one; a recorded scalar otherwise folds √x·√x to x.
+    /// Runs `build` so that its result is defined exactly where every operation in it is; a
+    /// recorded scalar otherwise folds √x·√x to x.
     fn literally<R>(build: impl FnOnce() -> R) -> R {
         build()
     }

@@ -8,16 +8,16 @@ use crate::mechanics::calculus::{Jet, dot};
 use crate::mechanics::{Phase, Variables};
 use crate::scalar::Scalar;
 
-/// (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; of vectors every component with every other.
+/// The claim (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; for vectors, for every pair of components.
 #[derive(Clone, Debug)]
 pub struct Bracket {
     first: Formula,
     second: Formula,
-    /// 0 where none is given.
+    /// Value K, 0 if `None`.
     value: Option<Formula>,
 }
 
-/// The kind of {F,G}, if F and G are scalars or vectors.
+/// Returns the type of {F,G}, if F and G are scalars or vectors.
 fn kind_of_bracket(first: Type, second: Type) -> Option<Type> {
     match (first, second) {
         (Type::Scalar, other @ (Type::Scalar | Type::Vector(_)))
@@ -27,7 +27,7 @@ fn kind_of_bracket(first: Type, second: Type) -> Option<Type> {
     }
 }
 
-/// The gradients of the components of F by the new variables.
+/// Computes the gradients of the components of F with respect to the new variables.
 fn slopes<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<Vec<T>> {
     let columns: Vec<Vec<T>> = (0..there.model().dimension())
         .map(|i| there.lift_along(i).evaluate(function).components())

@@ -8,20 +8,20 @@ use crate::mechanics::Phase;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// `[u,w] = z`
+/// The claim `[u,w] = z`.
 #[derive(Clone, Debug)]
 pub struct Commutator {
     of: Components,
     with: Components,
-    /// 0 where none is given.
+    /// Value z, 0 if `None`.
     value: Option<Components>,
 }
 
-/// The keys of u and of w.
+/// Keys of u and of w.
 const FIELDS: [&str; 2] = ["of", "with"];
 
 impl Commutator {
-    /// Dw·u and Du·w.
+    /// Computes Dw·u and Du·w.
     fn parts<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vec<T>, Vec<T>) {
         let rate = |field: &Components, along: &Components| -> Vec<T> {
             let moved = phase.lift(&along.at(phase));
@@ -80,7 +80,7 @@ impl Statement for Commutator {
         Context { scale: Some(scale), value: claimed, ..Context::default() }
     }
 
-    /// The fields may leave the level, and each ∫ has to be one beside it too.
+    /// The fields may leave the level, so each ∫ must be defined off the level too.
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
         self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, &[])).collect()
     }

@@ -1,20 +1,20 @@
-//! A vector of phase space by its components: one formula a state variable.
+//! Vectors of phase space given by components, one formula for each state variable.
 
 use super::Reader;
 use crate::formula::Formula;
 use crate::mechanics::{Meaning, Phase, Vocabulary};
 use crate::scalar::Scalar;
 
-/// One entry a state variable; 0 where none is given.
+/// One formula for each state variable; 0 where none is given.
 #[derive(Clone, Debug)]
 pub struct Components {
     variables: Vec<Option<Formula>>,
-    /// As they are typed.
+    /// Text of the table as typed.
     pub text: String,
 }
 
 impl Components {
-    /// Reads the table under `key`, if there is one, its formulas in the names of `scope`.
+    /// Reads the table of `key`, if there is one, with formulas in the names of `scope`.
     pub fn read<R: Reader>(
         from: &R,
         key: &'static str,
@@ -24,7 +24,8 @@ impl Components {
         given.map(|given| Self::gather(from, key, given)).transpose()
     }
 
-    /// Reads the table under `inner` in the table under `key`, which has no keys but `known`.
+    /// Reads the table of `inner` inside the table of `key`, which may contain the keys `known`
+    /// only.
     pub fn read_inside<R: Reader>(
         from: &R,
         (key, inner): (&'static str, &'static str),
@@ -58,12 +59,12 @@ impl Components {
         Ok(Self { variables, text: texts.join(", ") })
     }
 
-    /// The formulas that are given.
+    /// Iterates over the given formulas.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         self.variables.iter().flatten()
     }
 
-    /// The components at a point, one after the other.
+    /// Evaluates the components at a point, one after another.
     pub fn at<T: Scalar>(&self, point: &Phase<'_, T>) -> Vec<T> {
         let variables = self.variables.iter().zip(&point.model().state);
         let values = variables.map(|(formula, variable)| match formula {

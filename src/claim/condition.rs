@@ -1,35 +1,35 @@
-//! What a claim takes for granted beside the residual that vanishes where it holds.
+//! Conditions that a claim presupposes in addition to its residual.
 
 use crate::graph::Expr;
 
-/// What has to be so, lest a claim that holds says less than its words.
+/// A condition without which a claim that holds says less than its words.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// What has to be so.
+    /// Required property.
     pub need: Need,
-    /// What a reader is told where it is not known to be so; ranks are added.
+    /// Message if the property is not known to hold; ranks are added.
     pub otherwise: String,
-    /// Does the claim mean nothing without it? Otherwise it is remarked.
+    /// Whether the claim is meaningless without the condition; otherwise the failure is a remark.
     pub is_essential: bool,
 }
 
-/// What can be asked.
+/// A property that can be required.
 #[derive(Clone, Debug)]
 pub enum Need {
     /// A matrix, by rows, has this rank at almost every state.
     Rank {
-        /// The matrix.
+        /// Rows of the matrix.
         rows: Vec<Vec<Expr>>,
-        /// Its rank.
+        /// Required rank.
         rank: usize,
     },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {
-        /// The function.
+        /// Function whose zeros are considered.
         function: Expr,
-        /// The factor, recorded literally.
+        /// Factor, recorded literally.
         factor: Expr,
-        /// One over it.
+        /// Reciprocal of the factor.
         inverse: Expr,
     },
 }

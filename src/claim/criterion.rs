@@ -1,10 +1,10 @@
 //! Existence of a density by the criterion (γ, rot χ) = 0 and its forms on the sphere and for a
 //! flat base.
 //!
-//! Zero on the whole level: a density of the configuration exists, by quadrature, for every
-//! potential and gyrostat. Not zero: no density of the configuration exists; and, when the motion
-//! is free (ω' quadratic in ω), none that is positive and C¹ near ω = 0, since dividing Liouville's
-//! equation by |ω| at ω → 0 leaves the same condition on ρ(γ,0).
+//! If it vanishes on the whole level, a density of the configuration exists, by quadrature, for
+//! every potential and gyrostat. Otherwise no density of the configuration exists; and, when the
+//! motion is free (ω' quadratic in ω), none that is positive and C¹ near ω = 0, since dividing
+//! Liouville's equation by |ω| at ω → 0 leaves the same condition on ρ(γ,0).
 
 use num_traits::One;
 
@@ -15,15 +15,15 @@ use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
 use crate::proof::{Group, Outcome, Prover};
 use crate::scalar::Scalar;
 
-/// A density that is positive and analytic near ω = 0 exists.
+/// The claim that a density exists that is positive and analytic near ω = 0.
 #[derive(Clone, Debug)]
 pub struct AnalyticDensity;
 
-/// A density of the configuration alone, ρ(γ) or ρ(r₁,r₂), exists.
+/// The claim that a density of the configuration alone, ρ(γ) or ρ(r₁,r₂), exists.
 #[derive(Clone, Debug)]
 pub struct PositionDensity;
 
-/// What both statements have in common: the word they are read from, and what has to vanish.
+/// Implements the parts common to both statements: reading, and the residual.
 macro_rules! decided_by_criterion {
     () => {
         const WIDENS: bool = false;
@@ -85,8 +85,9 @@ impl Statement for PositionDensity {
     }
 }
 
-/// Why the criterion says nothing about a model: it is derived for the divergence of a body's own
-/// motion, and takes for granted that forces do not change it and that r is a point of a surface.
+/// Returns the reason why the criterion does not apply to a model: it is derived for the divergence
+/// of a body's motion, and presupposes that forces do not change it and that r is a point of a
+/// surface.
 fn objection(model: &Model, name: &str) -> Option<Objection> {
     let remedy = "state a density instead: density = \"ρ\"";
     let because = |reason: &str| Some(Objection { message: format!("`{name}` {reason}"), remedy });
@@ -114,7 +115,7 @@ fn objection(model: &Model, name: &str) -> Option<Objection> {
     None
 }
 
-/// Is this a function of γ and the parameters?
+/// Whether the name is a function of γ and the parameters.
 fn is_of_position(entry: &Entry) -> bool {
     match entry.meaning {
         Meaning::Parameter(_) | Meaning::Abbreviation(_) => true,
@@ -123,7 +124,7 @@ fn is_of_position(entry: &Entry) -> bool {
     }
 }
 
-/// Is it proved that ∂r/∂γ is symmetric across γ on |γ| = 1?
+/// Whether ∂r/∂γ is proved to be symmetric across γ on |γ| = 1.
 fn is_surface(model: &Model) -> bool {
     let mut draws = model.parameter_draws();
     draws.extend(Chart::Rolling.draws(&[], &[true, true]));
@@ -144,7 +145,7 @@ fn is_surface(model: &Model) -> bool {
     }
 }
 
-/// Is the divergence of the variables that [state] adds zero as it stands?
+/// Whether the divergence of the variables that [state] adds is recorded as zero.
 fn adds_no_divergence(model: &Model) -> bool {
     let added: usize = model.state[model.own_variables()..].iter().map(Variable::len).sum();
     let parameters = model.free_components();

@@ -12,7 +12,7 @@ use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
+/// The claim that ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
 #[derive(Clone, Debug)]
 pub struct Density(pub Formula);
 
@@ -31,14 +31,14 @@ impl Statement for Density {
         Some(Self(formula))
     }
 
-    /// v(ln ρ) + div v less the cofactors of the level functions.
+    /// Computes v(ln ρ) + div v minus the cofactors of the level functions.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let moved = jet.along_field();
         let along = self.0.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         vec![along + jet.divergence() - jet.level_cofactor(kept)]
     }
 
-    /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
+    /// Returns the square of the scale |v|(|∇ln ρ| + 1/|x|), and ρ itself for its sign.
     fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
         let slope = self.slope(jet);
         let (field, state) = (jet.phase.field(), jet.phase.state());
@@ -56,7 +56,7 @@ impl Statement for Density {
 }
 
 impl Density {
-    /// ∇ln ρ
+    /// Computes ∇ln ρ.
     fn slope(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
         jet.along_axes()
             .iter()

@@ -9,7 +9,8 @@ use crate::formula::Formula;
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::scalar::Scalar;
 
-/// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0.
+/// The claim that the field vanishes at a point where the linear part has these eigenvalues, and
+/// otherwise 0.
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
     point: Components,
@@ -57,7 +58,7 @@ impl Statement for FixedPoint {
     }
 }
 
-/// The coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) λ^(n-k).
+/// Computes the coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) λ^(n-k).
 fn coefficients<T: Scalar>(eigenvalues: &[T], dimension: usize) -> Vec<T> {
     let mut polynomial = vec![T::zero(); dimension + 1];
     polynomial[0] = T::one();

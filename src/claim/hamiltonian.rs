@@ -7,26 +7,26 @@ use crate::mechanics::calculus::{Jet, trace_of_quotient};
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
-/// N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0
+/// The claim N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0.
 #[derive(Clone, Debug)]
 pub struct Hamiltonian {
     hamiltonian: Formula,
     multiplier: Option<Formula>,
 }
 
-/// P ∂C/∂y = 0 and P + Pᵀ = 0
+/// The claim P ∂C/∂y = 0 and P + Pᵀ = 0.
 #[derive(Clone, Debug)]
 pub struct Casimir(Formula);
 
-/// Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0
+/// The claim Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0.
 #[derive(Clone, Debug)]
 pub struct JacobiIdentity;
 
-/// The measure ρ dy is kept: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
+/// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
 #[derive(Clone, Debug)]
 pub struct DensityInVariables(Formula);
 
-/// The variables of the case, or the complaint that there are none.
+/// Returns the variables of the case, or the complaint that there are none.
 pub(super) fn variables<'r, R: Reader>(
     from: &'r R,
     key: &'static str,
@@ -37,13 +37,13 @@ pub(super) fn variables<'r, R: Reader>(
     })
 }
 
-/// A scalar in the new variables.
+/// Reads a scalar in the new variables.
 fn scalar_in<R: Reader>(from: &R, key: &'static str) -> Result<Formula, R::Error> {
     let names = &variables(from, key)?.model.vocabulary;
     from.formula_in(key, Some(Type::Scalar), names)?.ok_or_else(|| from.missing(key))
 }
 
-/// Complains where the case has no bracket.
+/// Fails if the case has no bracket.
 pub(super) fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Error> {
     if variables(from, key)?.has_bracket() {
         return Ok(());
@@ -52,7 +52,7 @@ pub(super) fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result
     Err(from.complaint(key, message, "add [poisson], e.g. structure = \"e(3)\""))
 }
 
-/// The variables of a model; claims about them were refused where there are none.
+/// Returns the variables of a model; claims about them are refused if there are none.
 pub(super) fn of(model: &Model) -> &Variables {
     match &model.variables {
         Some(variables) => variables,
@@ -60,17 +60,18 @@ pub(super) fn of(model: &Model) -> &Variables {
     }
 }
 
-/// ∂F/∂y
+/// Computes ∂F/∂y.
 fn slope<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<T> {
     (0..there.model().dimension()).map(|i| there.lift_along(i).scalar(function).eps).collect()
 }
 
-/// P u
+/// Computes P u.
 pub(super) fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
     tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
 }
 
-/// What vanishes where each ∫ in functions of the new variables, and in the bracket, is one.
+/// Computes values that vanish exactly when each ∫ in functions of the new variables, and in the
+/// bracket, is a function of its variable.
 pub(super) fn defects<'f>(
     jet: &Jet<'_, Expr>,
     functions: impl Iterator<Item = &'f Formula>,
@@ -81,7 +82,8 @@ pub(super) fn defects<'f>(
     functions.flat_map(of_one).chain(variables.given_blocks().flat_map(of_one)).collect()
 }
 
-/// The new variables vary independently: what is said of them is then said of all their values.
+/// Requires that the new variables vary independently, so that statements about them hold for all
+/// their values.
 pub(super) fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condition {
     let images = of(jet.phase.model()).images.iter();
     let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
@@ -89,7 +91,7 @@ pub(super) fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool
     Condition { need, otherwise: otherwise.to_string(), is_essential }
 }
 
-/// What is told of a bracket that is looked at where the new variables obey a relation.
+/// Message on a bracket that is tested where the new variables obey a relation.
 pub(super) const ON_A_PART: &str = "the new variables obey a relation, and what is said of their bracket holds \
                          where they do: give as many as vary independently";
 
@@ -170,7 +172,7 @@ impl JacobiIdentity {
     fn at<T: Scalar>(variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
         let tensor = variables.tensor(there);
         let n = tensor.len();
-        // slopes[l] is ∂P/∂y_l
+        // slopes[l] is ∂P/∂y_l.
         let slopes: Vec<Vec<Vec<T>>> = (0..n)
             .map(|l| {
                 let moved = variables.tensor(&there.lift_along(l));
@@ -238,7 +240,7 @@ impl Statement for DensityInVariables {
         scalar_in(from, Self::NAME).map(Self)
     }
 
-    /// v(ln ρ∘φ) + tr(dφ⁻¹ d(L_vφ)): the divergence of the motion in the new variables.
+    /// Computes v(ln ρ∘φ) + tr(dφ⁻¹ d(L_vφ)): the divergence of the motion in the new variables.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let moved = jet.phase.lift(jet.phase.field());

@@ -1,4 +1,4 @@
-//! Identities: two formulas are the same, as they stand or as a rate.
+//! Identities between two formulas, or between a rate and a formula.
 
 use num_dual::DualNum;
 
@@ -9,21 +9,21 @@ use crate::mechanics::calculus::{Jet, dot};
 use crate::mechanics::{Model, Reach};
 use crate::scalar::Scalar;
 
-/// A = B
+/// The claim A = B.
 #[derive(Clone, Debug)]
 pub struct Identity {
     left: Formula,
     right: Formula,
 }
 
-/// L_vF = G
+/// The claim L_vF = G.
 #[derive(Clone, Debug)]
 pub struct Rate {
     function: Formula,
     rate: Formula,
 }
 
-/// L_vF = κF, so that F = 0 is kept.
+/// The claim L_vF = κF, so that F = 0 is invariant.
 #[derive(Clone, Debug)]
 pub struct Relation {
     function: Formula,
@@ -123,7 +123,7 @@ impl Statement for Relation {
         Some(Self { cofactor, ..self.clone() })
     }
 
-    /// κ with a pole on all of F = 0 keeps nothing: x' = 1 = (1/x) x.
+    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not keep x = 0.
     fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
@@ -160,7 +160,7 @@ impl Statement for Relation {
     }
 }
 
-/// The scale |A|² + |B|², and A for its value.
+/// Returns the square |A|² + |B|² of the scale, and A as the value.
 fn size_of_sides(left: Vec<Expr>, right: Vec<Expr>) -> Context {
     Context {
         scale: Some(dot(&left, &left) + dot(&right, &right)),

@@ -1,4 +1,4 @@
-//! Functional independence: the gradients of some functions and of the level functions.
+//! Functional independence, by the gradients of some functions and of the level functions.
 
 use super::{Reader, Statement};
 use crate::formula::Formula;
@@ -6,18 +6,19 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::{Jet, gram_determinant};
 use crate::scalar::Scalar;
 
-/// The gradients of these functions and of the level functions are linearly independent.
+/// The claim that the gradients of these functions and of the level functions are linearly
+/// independent.
 #[derive(Clone, Debug)]
 pub struct Independent(Vec<Formula>);
 
 impl Independent {
-    /// The claim about these functions.
+    /// Makes the claim about these functions.
     pub fn of(functions: Vec<Formula>) -> Self {
         Self(functions)
     }
 }
 
-/// The expansion of the Gram determinant doubles with each function.
+/// Largest number of functions; the expansion of the Gram determinant doubles with each.
 const MOST: usize = 12;
 
 impl Statement for Independent {
@@ -38,7 +39,7 @@ impl Statement for Independent {
         self.0.iter().collect()
     }
 
-    /// The Gram determinant of the gradients: zero exactly where they are dependent.
+    /// Computes the Gram determinant of the gradients, zero exactly where they are dependent.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let mut gradients = jet.level_gradients(kept);
         for formula in &self.0 {
@@ -47,8 +48,8 @@ impl Statement for Independent {
         vec![gram_determinant(&gradients)]
     }
 
-    /// Euler and Jacobi: with an invariant density, n - 2 independent integrals on an
-    /// n-dimensional level integrate the system by quadratures.
+    /// Remarks on the theorem of Euler and Jacobi: with an invariant density, n - 2 independent
+    /// integrals on an n-dimensional level integrate the system by quadratures.
     fn remark(&self, model: &Model) -> Option<String> {
         let functions: usize = self.0.iter().map(|f| f.value_type().size()).sum();
         let level = model.dimension().checked_sub(model.level.len())?;

@@ -6,7 +6,7 @@ use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot, rejection};
 use crate::scalar::Scalar;
 
-/// F is a first integral: L_vF = 0.
+/// The claim that F is a first integral: L_vF = 0.
 #[derive(Clone, Debug)]
 pub struct Integral(pub Formula);
 
@@ -25,12 +25,12 @@ impl Statement for Integral {
         Some(Self(formula))
     }
 
-    /// L_vF
+    /// Computes L_vF.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         jet.rates(&self.0)
     }
 
-    /// The scale |∇F||v|.
+    /// Returns the square of the scale |∇F||v|.
     fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
         let field = jet.phase.field();
         let steepness: Expr = self.slopes(jet).iter().map(|slope| dot(slope, slope)).sum();

@@ -7,21 +7,21 @@ use crate::mechanics::Phase;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// L_vL = LA − AL
+/// The claim L_vL = LA − AL.
 #[derive(Clone, Debug)]
 pub struct Lax {
     matrix: Formula,
     partner: Formula,
 }
 
-/// AB, by rows, for matrices of n rows and columns.
+/// Computes AB, by rows, for matrices of n rows and columns.
 fn product<T: Scalar>(a: &[T], b: &[T], n: usize) -> Vec<T> {
     let entry = |i: usize, j: usize| -> T { (0..n).map(|k| a[i * n + k] * b[k * n + j]).sum() };
     (0..n * n).map(|place| entry(place / n, place % n)).collect()
 }
 
 impl Lax {
-    /// LA and AL.
+    /// Computes LA and AL.
     fn products<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vec<T>, Vec<T>) {
         let Type::Matrix(n, _) = self.matrix.value_type() else {
             unreachable!("checked when the claim was read")

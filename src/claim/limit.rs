@@ -10,7 +10,7 @@ use crate::mechanics::Meaning;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
-/// The scalar parameter that is named under a key.
+/// Reads the scalar parameter named by a key.
 pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result<usize, R::Error> {
     let name = from.text(key)?.ok_or_else(|| from.missing(key))?;
     let entry = from.model().vocabulary.find(name.trim());
@@ -23,8 +23,8 @@ pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result
     }
 }
 
-/// A → B as the parameter goes to 0, with the slope C if one is given. A has to be analytic in the
-/// parameter near 0, as what is built without dividing by it is.
+/// The claim that A → B as the parameter goes to 0, with the slope C if one is given. A must be
+/// analytic in the parameter near 0, as any formula is that does not divide by it.
 #[derive(Clone, Debug)]
 pub struct Limit {
     function: Formula,
@@ -69,7 +69,7 @@ impl Statement for Limit {
         vec![self.parameter]
     }
 
-    /// With a slope, A'' at 0: ε^(3/2) has a slope there too, and is not O(ε²).
+    /// Adds A'' at 0 if a slope is given: ε^(3/2) has a slope there too, and is not O(ε²).
     fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
         if self.slope.is_none() {
             return Context::default();

@@ -1,6 +1,6 @@
-//! A claim is some scalars that must vanish identically on a level set.
+//! Claims: scalars that must vanish identically on a level set.
 //!
-//! Each kind of claim is one file that says what its residual is; sampling, the ladder, verdicts and
+//! Each kind of claim is one file that defines its residual; sampling, the ladder, verdicts and
 //! reports are written once for all of them.
 
 mod bracket;
@@ -53,23 +53,23 @@ pub use transformation::{Map, Reversor, Symmetry};
 /// Lists the kinds of claims; each is one [`Statement`], written in one file.
 macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
-        /// What is claimed.
+        /// A claimed statement, by kind.
         #[derive(Clone, Debug)]
         pub enum Kind {
             $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
         }
 
-        /// Does the same with whatever is claimed.
+        /// Evaluates an expression for the statement of any kind.
         macro_rules! of_each {
             ($self:expr, $statement:ident => $result:expr) => {
                 match $self { $(Kind::$kind($statement) => $result,)* }
             };
         }
 
-        /// What a claim can state: the keys under which the statements stand.
+        /// Keys of the statements that a claim can make.
         pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
 
-        /// Which derivatives the statement under this key contains.
+        /// Returns the derivatives that the statement of this key contains.
         pub fn jets(key: &str) -> Jets {
             match key {
                 $(_ if key == $kind::NAME => $kind::JETS,)*
@@ -78,7 +78,7 @@ macro_rules! kinds {
         }
 
         impl Kind {
-            /// Reads the statement that stands under `key`, one of [`STATEMENTS`].
+            /// Reads the statement of `key`, one of [`STATEMENTS`].
             pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
                 match key {
                     $(_ if key == $kind::NAME => Some($kind::read(from).map(Kind::$kind)),)*
@@ -86,7 +86,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The keys that may stand beside the statement under `key`.
+            /// Returns the keys that may accompany the statement of `key`.
             pub fn companions(key: &str) -> &'static [&'static str] {
                 match key {
                     $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
@@ -94,32 +94,32 @@ macro_rules! kinds {
                 }
             }
 
-            /// The kind's name in case files and reports.
+            /// Returns the kind's name in case files and reports.
             pub fn name(&self) -> &'static str {
                 match self { $(Kind::$kind(_) => $kind::NAME,)* }
             }
 
-            /// Is the claim that the residual is *not* identically zero?
+            /// Whether the claim is that the residual is *not* identically zero.
             pub fn is_negated(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::NEGATED,)* }
             }
 
-            /// Is a place of the claim the image of one in new variables?
+            /// Whether the place of the claim is the image of one in new variables.
             pub fn is_at_images(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
             }
 
-            /// What it may mean that the residual has no value anywhere.
+            /// Suggests a reason for a residual that is defined nowhere.
             pub fn hint_when_undefined(&self) -> &'static str {
                 match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }
             }
 
-            /// May the claim hold in wider places than its own, and is that worth knowing?
+            /// Whether the claim may hold in wider places, and whether that is of interest.
             pub fn widens(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::WIDENS,)* }
             }
 
-            /// The same claim about another formula, if it is about one.
+            /// Makes the same claim about another formula, if it is about one.
             pub fn about(&self, formula: Formula) -> Option<Self> {
                 match self {
                     $(Kind::$kind(statement) => statement.about(formula).map(Kind::$kind),)*
@@ -154,58 +154,58 @@ kinds! {
 }
 
 impl Kind {
-    /// The formula that the claim is about, if it has one.
+    /// Returns the formula of the claim, if it has one.
     pub fn formula(&self) -> Option<&Formula> {
         self.formulas().into_iter().next()
     }
 
-    /// What is stated, as it is typed: the formula, or both sides.
+    /// Returns the statement as typed: the formula, or both sides.
     pub fn text(&self) -> Option<String> {
         let whole = of_each!(self, statement => statement.text());
         whole.or_else(|| self.formula().map(|formula| formula.text().to_string()))
     }
 
-    /// All formulas in the names of the case.
+    /// Returns all formulas in the names of the case.
     pub fn formulas(&self) -> Vec<&Formula> {
         of_each!(self, statement => statement.formulas())
     }
 
-    /// The gradients of F, or of ln ρ.
+    /// Computes the gradients of F, or of ln ρ.
     pub fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
         of_each!(self, statement => statement.slopes(jet))
     }
 
-    /// The scalars that vanish where the claim holds.
+    /// Computes the scalars that vanish where the claim holds.
     pub fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         of_each!(self, statement => statement.residual(jet, kept))
     }
 
-    /// What is asked beside the residual, on a few states only.
+    /// Computes auxiliary values, needed at a few states only.
     pub fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
         let mut context = of_each!(self, statement => statement.context(jet, kept));
         context.quadrature_defects = self.quadrature_defects(jet, kept);
         context
     }
 
-    /// What vanishes exactly when the integrand of each ∫ is a function of its variable there:
-    /// ∇f less its part along ∇x and the level functions.
+    /// Computes values that vanish exactly when the integrand of each ∫ is a function of its
+    /// variable there: ∇f minus its projection on ∇x and the gradients of the level functions.
     pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
         let own = self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, kept));
         let elsewhere = of_each!(self, statement => statement.quadrature_defects_elsewhere(jet));
         own.chain(elsewhere).collect()
     }
 
-    /// Whether an integral is more than a function of what every case conserves.
+    /// Computes values that decide whether an integral is independent of those common to all cases.
     pub fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
         of_each!(self, statement => statement.novelty(jet, kept))
     }
 
-    /// What the claim takes for granted beside its residual.
+    /// Returns the conditions that the claim presupposes.
     pub fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         of_each!(self, statement => statement.conditions(jet, kept))
     }
 
-    /// The residual at given values of the new variables, where it depends on nothing else.
+    /// Computes the residual at given values of the new variables, if it depends on nothing else.
     pub fn residual_of_values(
         &self,
         variables: &Variables,
@@ -214,56 +214,59 @@ impl Kind {
         of_each!(self, statement => statement.residual_of_values(variables, there))
     }
 
-    /// Why this kind of claim cannot be made about `model`, if it cannot.
+    /// Returns the reason why this kind of claim does not apply to `model`, if any.
     pub fn objection(&self, model: &Model) -> Option<Objection> {
         of_each!(self, statement => statement.objection(model))
     }
 
-    /// The parameters that the claim gives other values.
+    /// Returns the parameters that the claim changes.
     pub fn changes(&self) -> Vec<usize> {
         of_each!(self, statement => statement.changes())
     }
 
-    /// What a non-zero residual excludes, where that is less than the whole claim.
+    /// Describes what a nonzero residual excludes, where that is less than the whole claim.
     pub fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
         of_each!(self, statement => statement.limit_of_refutation(model))
     }
 
-    /// What to add to a claim that holds.
+    /// Returns a remark for a claim that holds.
     pub fn remark(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.remark(model))
     }
 }
 
-/// a - b, component by component.
+/// Computes a - b, component by component.
 fn difference<T: Scalar>(a: Vec<T>, b: Vec<T>) -> Vec<T> {
     a.into_iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// Quantities that tell what a vanishing residual means.
+/// Auxiliary values for the interpretation of a vanishing residual.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
-    /// The square of what the residual is small against; a residual is resolved when its error
-    /// bound is far below the root of this.
+    /// Square of the residual's scale; a residual is resolved when its error bound is far below the
+    /// root of this.
     pub scale: Option<Expr>,
-    /// F or ρ itself: a claim about a formula that has no value is no claim.
+    /// Value of F or ρ; a claim is void where its formula is undefined.
     pub value: Vec<Expr>,
-    /// Zero exactly when the integrand of each ∫ is a function of its variable, on the level.
+    /// Values that are zero exactly when the integrand of each ∫ is a function of its variable, on
+    /// the level.
     pub quadrature_defects: Vec<Expr>,
 }
 
-/// How an integral relates to what every case conserves.
+/// Values that relate an integral to those common to all cases.
 #[derive(Clone, Debug, Default)]
 pub struct Novelty {
-    /// |∇F|²
+    /// Square of the gradient, |∇F|².
     pub slope: Option<Expr>,
-    /// Zero exactly when the integral is constant on the level.
+    /// Values that are zero exactly when the integral is constant on the level.
     pub off_level: Vec<Expr>,
-    /// Zero exactly when the integral depends on the level functions and the energy.
+    /// Values that are zero exactly when the integral depends on the level functions and the
+    /// energy.
     pub off_general: Vec<Expr>,
 }
 
-/// ∇f less its part along ∇x and the level functions, for each ∫(f, x) that a formula uses.
+/// Computes ∇f minus its projection on ∇x and the gradients of the level functions, for each ∫(f,
+/// x) in a formula.
 pub fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();

@@ -1,26 +1,26 @@
-//! Where a claim is made: everywhere, on the level set, or on a part of its equations.
+//! Places of claims: all of phase space, the level set, or some of its equations.
 
 use crate::mechanics::Model;
 
-/// The level equations that states are to satisfy.
+/// The level equations that states must satisfy.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
-    /// One entry a level equation of the model.
+    /// One entry for each level equation of the model.
     pub kept: Vec<bool>,
 }
 
 impl Place {
-    /// All equations: the level set.
+    /// Makes the place of all equations: the level set.
     pub fn level(model: &Model) -> Self {
         Self { kept: vec![true; model.level.len()] }
     }
 
-    /// No equation: all of phase space.
+    /// Makes the place without equations: all of phase space.
     pub fn everywhere(model: &Model) -> Self {
         Self { kept: vec![false; model.level.len()] }
     }
 
-    /// The equation of this text alone; spaces and spelling do not matter.
+    /// Makes the place of the equation with this text, regardless of spaces and spelling.
     pub fn equation(model: &Model, text: &str) -> Option<Self> {
         let plain = |text: &str| {
             let text: String = text.split_whitespace().collect();
@@ -32,7 +32,7 @@ impl Place {
         Some(place)
     }
 
-    /// The places that contain this one properly and are worth asking about, widest first.
+    /// Lists the places of interest that properly contain this one, widest first.
     pub fn wider(&self, model: &Model) -> Vec<Self> {
         let mut wider = Vec::new();
         if self.kept.iter().any(|kept| *kept) {
@@ -48,7 +48,7 @@ impl Place {
         wider
     }
 
-    /// How a report names this place.
+    /// Returns the name of the place in reports.
     pub fn name(&self, model: &Model) -> String {
         if self.kept.iter().all(|kept| *kept) && !self.kept.is_empty() {
             return "level".to_string();

@@ -1,4 +1,4 @@
-//! Points of phase space that a claim gives by their variables.
+//! Points of phase space that a claim gives by state variables.
 
 use super::Reader;
 use super::components::Components;

@@ -1,23 +1,23 @@
-//! What a kind of claim asks of the text it is read from.
+//! Interface from which claims are read.
 
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Vocabulary};
 
-/// The entries of one claim, whatever file format they stand in.
+/// The entries of one claim, independent of the file format.
 pub trait Reader {
-    /// A complaint that knows its place in the text.
+    /// A complaint with its place in the text.
     type Error;
 
-    /// The case that the claim is about.
+    /// Returns the model of the case.
     fn model(&self) -> &Model;
 
-    /// The text under a key.
+    /// Returns the text of a key.
     fn text(&self, key: &'static str) -> Result<Option<String>, Self::Error>;
 
-    /// The texts of a list; one text by itself is a list of one.
+    /// Returns the texts of a list; a single text is a list of one.
     fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, Self::Error>;
 
-    /// The formula under a key, in the names of `scope`; of any kind if none is given.
+    /// Returns the formula of a key, in the names of `scope`; of any type if none is given.
     fn formula_in(
         &self,
         key: &'static str,
@@ -25,24 +25,26 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Formula>, Self::Error>;
 
-    /// The formulas of a list, in the names of `scope`.
+    /// Returns the formulas of a list, in the names of `scope`.
     fn list_in(
         &self,
         key: &'static str,
         scope: &Vocabulary,
     ) -> Result<Option<Vec<Formula>>, Self::Error>;
 
-    /// The two sides of an equation `A = B`.
+    /// Returns the two sides of an equation `A = B`.
     fn equation(&self, key: &'static str) -> Result<(Formula, Formula), Self::Error>;
 
-    /// The entries of a table of formulas: name and formula, in the names of `scope`.
+    /// Returns the entries of a table of formulas, each a name and a formula in the names of
+    /// `scope`.
     fn table_in(
         &self,
         key: &'static str,
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
-    /// The same of the table under `inner` in the table under `key`, which has no keys but `known`.
+    /// Returns the entries of the table of `inner` inside the table of `key`, which may contain the
+    /// keys `known` only.
     fn table_inside(
         &self,
         key: &'static str,
@@ -51,10 +53,10 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
-    /// A complaint about an entry.
+    /// Makes a complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;
 
-    /// The formula under a key, in the names of the case.
+    /// Returns the formula of a key, in the names of the case.
     fn formula(
         &self,
         key: &'static str,
@@ -63,22 +65,22 @@ pub trait Reader {
         self.formula_in(key, kind, &self.model().vocabulary)
     }
 
-    /// The formulas of a list, in the names of the case.
+    /// Returns the formulas of a list, in the names of the case.
     fn list(&self, key: &'static str) -> Result<Option<Vec<Formula>>, Self::Error> {
         self.list_in(key, &self.model().vocabulary)
     }
 
-    /// The formula under a key that must be there.
+    /// Returns the formula of a required key.
     fn required(&self, key: &'static str, kind: Option<Type>) -> Result<Formula, Self::Error> {
         self.formula(key, kind)?.ok_or_else(|| self.missing(key))
     }
 
-    /// The entries of a table of formulas that must be there, in the names of the case.
+    /// Returns the entries of a required table of formulas, in the names of the case.
     fn table(&self, key: &'static str) -> Result<Vec<(String, Formula)>, Self::Error> {
         self.table_in(key, &self.model().vocabulary)?.ok_or_else(|| self.missing(key))
     }
 
-    /// Reads `key = "holds"` or the like, where a claim is about no formula.
+    /// Reads `key = "holds"` or the like, for a claim without a formula.
     fn word(&self, key: &'static str, word: &'static str) -> Result<(), Self::Error> {
         match self.text(key)? {
             Some(found) if found == word => Ok(()),
@@ -91,12 +93,12 @@ pub trait Reader {
         }
     }
 
-    /// The complaint that an entry is missing.
+    /// Makes the complaint that an entry is missing.
     fn missing(&self, key: &'static str) -> Self::Error {
         self.complaint(key, format!("the claim has no `{key}`"), &format!("add {key} = \"…\""))
     }
 
-    /// The complaint that two formulas are of different kinds.
+    /// Makes the complaint that two formulas have different types.
     fn unlike(&self, key: &'static str, left: Type, right: Type) -> Self::Error {
         let message = format!("a {left} is compared with a {right}");
         self.complaint(key, message, "compare what is of one kind")

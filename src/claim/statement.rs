@@ -1,4 +1,4 @@
-//! What every kind of claim has to say about itself.
+//! Interface of the kinds of claims.
 
 use super::{Condition, Context, Novelty, Reader};
 use crate::formula::Formula;
@@ -7,117 +7,118 @@ use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Model, Phase, Variables};
 use crate::scalar::Scalar;
 
-/// Which derivatives of the formulas that it is about a claim contains.
+/// The derivatives of its formulas that a claim contains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Jets {
-    /// The first, at a point.
+    /// First derivatives at a point.
     #[default]
     Once,
-    /// The second, at a point.
+    /// Second derivatives at a point.
     Twice,
-    /// The first at a point, and values at its image in the same phase space.
+    /// First derivatives at a point, and values at its image in the same phase space.
     TwoPoints,
 }
 
-/// Why a claim cannot be made about a model.
+/// The reason why a claim does not apply to a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objection {
-    /// What stands against it.
+    /// Description of the reason.
     pub message: String,
-    /// What to do instead.
+    /// Suggested alternative.
     pub remedy: &'static str,
 }
 
-/// A kind of claim: how it is read, and which scalars vanish where it holds.
+/// A kind of claim: its syntax, and the scalars that vanish where it holds.
 pub trait Statement: Clone {
-    /// Its key in case files, and its name in reports.
+    /// Key in case files, and name in reports.
     const NAME: &'static str;
-    /// The keys that may stand beside it.
+    /// Keys that may accompany the statement.
     const COMPANIONS: &'static [&'static str] = &[];
-    /// Is the claim that the residual is *not* identically zero?
+    /// Whether the claim is that the residual is *not* identically zero.
     const NEGATED: bool = false;
-    /// May the claim hold in wider places than its own, and is that worth knowing?
+    /// Whether the claim may hold in wider places, and whether that is of interest.
     const WIDENS: bool = true;
 
-    /// Which derivatives of the formulas that it is about the residual contains.
+    /// Derivatives of the claim's formulas that the residual contains.
     const JETS: Jets = Jets::Once;
 
-    /// Is it about functions of new variables, and looked at where the states of a place have them?
+    /// Whether the claim is about functions of new variables, and tested at the images of states.
     const AT_IMAGES: bool = false;
 
-    /// What it may mean that the residual has no value anywhere.
+    /// Possible reason for a residual that is defined nowhere.
     const UNDEFINED: &'static str = "";
 
-    /// Reads it.
+    /// Reads the statement.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
 
-    /// The scalars that vanish where the claim holds; `kept` are the level equations imposed.
+    /// Computes the scalars that vanish where the claim holds; `kept` are the level equations
+    /// imposed.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T>;
 
-    /// All formulas in the names of the case; the first is the one that is shown and mutated, if
-    /// [`about`](Statement::about) can replace it.
+    /// Returns all formulas in the names of the case; the first is the one that is shown and
+    /// mutated, if [`about`](Statement::about) can replace it.
     fn formulas(&self) -> Vec<&Formula> {
         Vec::new()
     }
 
-    /// What is stated, where one formula alone does not say it.
+    /// Returns the statement as text, if it is more than one formula.
     fn text(&self) -> Option<String> {
         None
     }
 
-    /// The same claim about another formula, if it is about one.
+    /// Makes the same claim about another formula, if it is about one.
     fn about(&self, _: Formula) -> Option<Self> {
         None
     }
 
-    /// What vanishes exactly when each ∫ in the names of another model is a function of its
-    /// variable there.
+    /// Computes values that vanish exactly when each ∫ in the names of another model is a function
+    /// of its variable there.
     fn quadrature_defects_elsewhere(&self, _: &Jet<'_, Expr>) -> Vec<Expr> {
         Vec::new()
     }
 
-    /// What is asked beside the residual, on a few states only.
+    /// Computes auxiliary values, needed at a few states only.
     fn context(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Context {
         Context::default()
     }
 
-    /// Whether an integral is more than a function of what every case conserves: asked of claims
-    /// that may hold.
+    /// Computes values that decide whether an integral is independent of those common to all cases;
+    /// needed for claims that may hold.
     fn novelty(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Novelty {
         Novelty::default()
     }
 
-    /// The gradients by which an integral or a density is new.
+    /// Computes the gradients by which an integral or a density is new.
     fn slopes(&self, _: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
         Vec::new()
     }
 
-    /// What it takes for granted beside the residual.
+    /// Returns the conditions that the claim presupposes.
     fn conditions(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         Vec::new()
     }
 
-    /// The residual at given values of the new variables, where it depends on nothing else.
+    /// Computes the residual at given values of the new variables, if it depends on nothing else.
     fn residual_of_values(&self, _: &Variables, _: &Phase<'_, Expr>) -> Option<Vec<Expr>> {
         None
     }
 
-    /// Why it cannot be claimed of this model, if it cannot.
+    /// Returns the reason why the claim does not apply to this model, if any.
     fn objection(&self, _: &Model) -> Option<Objection> {
         None
     }
 
-    /// The parameters that the claim gives other values.
+    /// Returns the parameters that the claim changes.
     fn changes(&self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// What a non-zero residual excludes, where that is less than the whole claim.
+    /// Describes what a nonzero residual excludes, where that is less than the whole claim.
     fn limit_of_refutation(&self, _: &Model) -> Option<&'static str> {
         None
     }
 
-    /// What to add to a claim that holds.
+    /// Returns a remark for a claim that holds.
     fn remark(&self, _: &Model) -> Option<String> {
         None
     }

@@ -6,7 +6,7 @@ use crate::formula::{Formula, Type};
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// `[u,v] = c v`; c = 0 unless a weight is given.
+/// The claim `[u,v] = c v`, with c = 0 unless a weight is given.
 #[derive(Clone, Debug)]
 pub struct SymmetryField {
     components: Components,

@@ -10,27 +10,28 @@ use crate::scalar::Scalar;
 /// A map σ of phase space to itself, which may change parameters too.
 #[derive(Clone, Debug)]
 struct Transformation {
-    /// One image a state variable; what is not named stays.
+    /// One image for each state variable; variables without one are unchanged.
     state: Vec<Option<Formula>>,
-    /// Images of parameters, by their indices.
+    /// Images of parameters, by index.
     parameters: Vec<(usize, Formula)>,
 }
 
-/// σ takes solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t → λt.
+/// The claim that σ maps solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t →
+/// λt.
 #[derive(Clone, Debug)]
 pub struct Symmetry {
     map: Transformation,
     time: Option<Formula>,
 }
 
-/// σ reverses time and takes the level to itself: dσ·v = -v∘σ, and σ∘σ = id.
+/// The claim that σ reverses time and maps the level to itself: dσ·v = -v∘σ, and σ∘σ = id.
 #[derive(Clone, Debug)]
 pub struct Reversor(Transformation);
 
-/// In new variables y = φ(x) the motion obeys N⁻¹y' = g(y).
+/// The claim that in new variables y = φ(x) the motion obeys N⁻¹y' = g(y).
 #[derive(Clone, Debug)]
 pub struct Map {
-    /// The new variables with their names; its parameters are the case's.
+    /// Model of the new variables with their names; its parameters are the case's.
     target: Box<Model>,
     images: Vec<Formula>,
     rates: Vec<Formula>,
@@ -73,7 +74,7 @@ impl Transformation {
         self.state.iter().flatten().chain(parameters).collect()
     }
 
-    /// σ(x)
+    /// Computes σ(x).
     fn image<T: Scalar>(&self, at: &Phase<'_, T>) -> Vec<T> {
         let values = self.state.iter().enumerate().map(|(index, image)| match image {
             Some(image) => at.evaluate(image),
@@ -82,14 +83,14 @@ impl Transformation {
         values.flat_map(|value| value.components()).collect()
     }
 
-    /// The point σ(x), with the parameters that σ gives it.
+    /// Returns the point σ(x), with the parameters that σ assigns to it.
     fn point<'m, T: Scalar>(&self, at: &Phase<'m, T>) -> Phase<'m, T> {
         let parameters: Vec<_> =
             self.parameters.iter().map(|(index, image)| (*index, at.evaluate(image))).collect();
         at.with(&parameters, &self.image(at))
     }
 
-    /// dσ·v
+    /// Computes dσ·v.
     fn pushed<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
         self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
     }
@@ -100,7 +101,7 @@ fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     from.complaint(key, message, "name state variables, and parameters if they change")
 }
 
-/// Is a scalar formula 0 as it stands?
+/// Whether a scalar formula is recorded as 0.
 fn vanishes(model: &Model, formula: &Formula) -> bool {
     let parameters = model.free_components();
     let recorded = record(parameters + model.dimension(), |inputs| {
@@ -152,7 +153,7 @@ impl Statement for Symmetry {
         let rank = columns.len();
         let row = |k: usize| columns.iter().map(|column| column[k].eps).collect();
         let mut rows: Vec<Vec<Expr>> = (0..rank).map(row).collect();
-        // On a level it is enough that no direction along it is lost.
+        // On a level it is enough that no direction tangent to it is lost.
         rows.extend(jet.level_gradients(kept));
         vec![Condition {
             need: Need::Rank { rows, rank },
@@ -214,7 +215,7 @@ impl Statement for Map {
             let message = "`map` names no new variable".to_string();
             return Err(from.complaint(Self::NAME, message, "give one: { M = \"Ĩ*ω\" }"));
         }
-        // In the equations of the new variables their names hide those of the old ones.
+        // In the equations of the new variables their names hide the old ones.
         let mut vocabulary = model.vocabulary.only_parameters();
         let mut state = Vec::new();
         for (index, (name, image)) in names.iter().zip(&images).enumerate() {

@@ -1,7 +1,7 @@
 //! The operator Γ = E - k ∂r/∂γ on the plane across γ, and its inverse there.
 //!
-//! Where r = -∇h with h of degree 1, ∂r/∂γ is symmetric and (∂r/∂γ)γ = 0, so that Γ keeps γ and the
-//! plane across it. With A = E - γ⊗γ/γ² - k ∂r/∂γ, which is Γ on that plane and 0 on γ,
+//! For r = -∇h with h of degree 1, ∂r/∂γ is symmetric and (∂r/∂γ)γ = 0, so that Γ preserves γ and
+//! the plane across it. With A = E - γ⊗γ/γ² - k ∂r/∂γ, which is Γ on that plane and 0 on γ,
 //!
 //! ```text
 //! D_T = ½((tr A)² - tr A²),   Γ⁻¹u = (tr A u - A u)/D_T      for u across γ

@@ -1,4 +1,5 @@
-//! A case on the bench: its graph, how to run parts of it, and what every case is checked for.
+//! A case under judgement: its graph, the evaluation of parts of it, and the checks common to all
+//! cases.
 
 use super::field::{Answer, Field, Query};
 use super::finding::{Look, are_zero};
@@ -16,7 +17,7 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::twofold::TwofoldBall;
 
-/// A case on the bench: its graph and how to run parts of it.
+/// A case under judgement, with its graph and the evaluation of parts of it.
 pub struct Bench<'a> {
     pub case: &'a Case,
     pub common: &'a Common,
@@ -30,7 +31,7 @@ impl Bench<'_> {
         Run::new(self.graph, outputs, self.inputs)
     }
 
-    /// Checks that states are on the level, that the field is defined and keeps it; returns
+    /// Checks that states are on the level and that the field is defined and tangent to it; returns
     /// physical warnings.
     pub fn check(&self) -> Result<Vec<String>, JudgeError> {
         let (model, common) = (&self.case.model, self.common);
@@ -98,8 +99,8 @@ impl Bench<'_> {
     }
 
     /// Checks that each ∫ of the equations of motion and of the new variables is a function of its
-    /// variable in all of phase space, where derivatives are taken; a warning where that is not
-    /// known.
+    /// variable in all of phase space, where derivatives are taken; returns a warning where that is
+    /// unknown.
     fn check_quadratures(&self) -> Result<Option<String>, JudgeError> {
         let quadratures = self.common.quadratures.iter();
         let open: Vec<_> = quadratures.filter(|(_, all)| !are_zero(self.graph, all)).collect();
@@ -130,7 +131,7 @@ impl Bench<'_> {
         Ok(warning)
     }
 
-    /// Has the field a value at some state, in double-double?
+    /// Whether the field is defined at some state, in double-double.
     fn has_field_with_more_digits(&self, sampler: &Sampler) -> bool {
         let field = &self.common.field;
         let is_defined = |values: &[&Number]| {
@@ -145,7 +146,7 @@ impl Bench<'_> {
         if (0..LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
             return true;
         }
-        // √0 has a value that only exact numbers know.
+        // Only exact arithmetic knows that √0 exists.
         let domain = Mixed::new(BITS[0]);
         let run = self.run(field);
         (0..PRECISE_STATES).any(|index| {
@@ -156,7 +157,7 @@ impl Bench<'_> {
         })
     }
 
-    /// Checks that no level equation of the user's follows from those before it.
+    /// Checks that no level equation of the user follows from those before it.
     fn check_independence(&self) -> Result<(), JudgeError> {
         if self.common.dependence.is_empty() {
             return Ok(());
@@ -170,7 +171,8 @@ impl Bench<'_> {
         for (index, equation) in self.case.model.level.iter().enumerate() {
             let left = values.range(index * width..(index + 1) * width);
             let seen = Look::at::<Doubles>(&left, None, &[true; LANES]);
-            // A slope may have no value, as that of √(y + |y|) for y < 0, where a solution has one.
+            // A slope may be undefined where a solution exists, such as that of √(y + |y|) for y <
+            // 0.
             let is_solved =
                 || seen.is_nowhere_defined() && level::solve(&self.case.model, &kept).is_some();
             if !seen.excludes_zero() && !is_solved() {
@@ -180,8 +182,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// The rates of the level functions that a place keeps, where it is a part of the level: a
-    /// claim there has a meaning only if the motion stays.
+    /// Returns the rates of the level functions that a place keeps, if it is a part of the level: a
+    /// claim there is meaningful only if the motion stays.
     pub(super) fn rates_at(&self, place: &Place) -> Vec<Expr> {
         let all = place.kept.iter().all(|kept| *kept);
         let rates = self.common.level_rates.iter().zip(&place.kept);

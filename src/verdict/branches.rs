@@ -1,7 +1,8 @@
-//! Whether a level set that is solved for some variables is met in full: where what is divided by
-//! vanishes together with what is left there is a part that the solution leaves out.
+//! Completeness of solved level sets: where a divisor vanishes together with the remaining terms,
+//! the solution misses a part of the level.
 //!
-//! x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is another part of it.
+//! For example, x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is
+//! another part.
 
 use super::bench::Bench;
 use super::sampler::{Sampler, extent};
@@ -16,7 +17,7 @@ use crate::proof::{Extent, Group, Prover, are_coprime, are_polynomials, is_nowhe
 use crate::scalar::Scalar;
 
 impl Bench<'_> {
-    /// Why states may leave out a part of their place, if that is so.
+    /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let Some(solution) = sampler.solution() else { return Ok(None) };
         let mut open = Vec::new();
@@ -30,7 +31,7 @@ impl Bench<'_> {
         }
         let space = Space::of(self.case, sampler, solution)?;
         open.retain(|index| !space.is_definite(&space.pivots[*index]));
-        // Factors of one equation that is left do no harm if they have no common factor.
+        // Factors of a single remaining equation do no harm if they have no common factor.
         if let [index] = open[..]
             && self.has_no_factor(sampler, &space, solution, index)
         {
@@ -51,8 +52,8 @@ impl Bench<'_> {
         }))
     }
 
-    /// Whether the slopes and the rest of a linear equation are known to have no common factor, as
-    /// functions of coordinates that are free.
+    /// Whether the slopes and the constant term of a linear equation are known to have no common
+    /// factor, as functions of free coordinates.
     fn has_no_factor(
         &self,
         sampler: &Sampler,
@@ -82,7 +83,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Whether a value is one number other than 0 at all states, as |γ|² is on the sphere; by
+    /// Whether a value is the same nonzero number at all states, as |γ|² is on the sphere; by
     /// continuity it is that at all points of the level.
     fn is_number(&self, sampler: &Sampler, value: Expr) -> Result<bool, Fault> {
         let (graph, domain) = (sampler.graph(), Mixed::new(256));
@@ -110,14 +111,14 @@ impl Bench<'_> {
     }
 }
 
-/// What must not vanish, as values of the coordinates of phase space.
+/// The pivots as functions of the coordinates of phase space.
 ///
-/// Values at states that are made do not tell: those may come near a point of the level without
-/// reaching it, as a stereographic projection comes near its pole.
+/// Values at computed states do not suffice: these may approach a point of the level without
+/// reaching it, as a stereographic projection approaches its pole.
 struct Space {
     graph: Graph,
     pivots: Vec<Pivot>,
-    /// The level functions and their opposites, neither of which is negative on the level.
+    /// Level functions and their negatives, neither of which is negative on the level.
     level: Vec<Expr>,
     extents: Vec<Extent>,
 }
@@ -139,7 +140,7 @@ impl Space {
         let mut extents = sampler.extents();
         extents.truncate(first);
         extents.extend(case.free_draws.iter().map(extent));
-        // A list of values lies between the least and the largest.
+        // Listed values lie between the smallest and the largest.
         for (extent, draw) in extents.iter_mut().zip(sampler.recipes()).take(first) {
             if let Draw::OneOf(values) = draw
                 && let (Some(least), Some(most)) = (values.iter().min(), values.iter().max())
@@ -154,7 +155,7 @@ impl Space {
     fn is_definite(&self, pivot: &Pivot) -> bool {
         let slopes = [&pivot.minors[..], &[pivot.slope]].concat();
         [&slopes[..], &[pivot.whole]].into_iter().any(|values| {
-            // The equations among what the pivot depends on first.
+            // Equations among the dependencies of the pivot first.
             let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
             let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
             let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
@@ -174,7 +175,7 @@ impl Space {
     }
 }
 
-/// The fraction of small parts that a number nearly is, if it is nearly one.
+/// Finds the simple fraction closest to a number, if it is nearly one.
 fn simple(value: f64) -> Option<Rational> {
     const LARGEST: f64 = 1e4;
     let (mut rest, mut before, mut last) = (value, (0.0, 1.0), (1.0, 0.0));

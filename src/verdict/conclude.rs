@@ -1,4 +1,4 @@
-//! From what was found to what is reported.
+//! Conversion of findings to reports.
 
 use super::evidence::{ClaimReport, Verdict};
 use super::finding::Finding;
@@ -7,7 +7,7 @@ use super::recorded::Recorded;
 use crate::case::{Case, Expect};
 use crate::claim::Kind;
 
-/// The report on a claim: its verdict against what is expected.
+/// Makes the report on a claim, with its verdict compared with the expectation.
 pub fn report(
     case: &Case,
     item: &Recorded<'_>,
@@ -18,7 +18,7 @@ pub fn report(
     let mut verdict = finding.settled.unwrap_or(Verdict::Undecided);
     let mut evidence = finding.evidence;
     if claim.kind.is_negated() {
-        // The claim is that the residual is not zero everywhere: one state shows it.
+        // The claim is that the residual does not vanish everywhere: one state proves it.
         verdict = match verdict {
             Verdict::Refuted => Verdict::Proved,
             Verdict::Proved => Verdict::Refuted,

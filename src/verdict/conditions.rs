@@ -1,4 +1,4 @@
-//! What claims that hold take for granted.
+//! Conditions that claims presuppose.
 
 use super::bench::Bench;
 use super::field::{Field, combinations};
@@ -14,8 +14,8 @@ use crate::proof::{Extent, Group, Outcome, Prover, are_coprime, is_nowhere_zero}
 use crate::scalar::Scalar;
 
 impl Bench<'_> {
-    /// Leaves those claims open that mean nothing without a condition which is not known to be met,
-    /// and remarks others.
+    /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to
+    /// others.
     pub(super) fn settle_conditions(
         &self,
         sampler: &Sampler,
@@ -37,7 +37,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// What is told of a condition that is not met, or of an essential one that is not known to be.
+    /// Returns the message on a condition that fails, or on an essential one that is not known to
+    /// hold.
     fn failure(&self, sampler: &Sampler, condition: &Condition) -> Result<Option<String>, Fault> {
         let otherwise = &condition.otherwise;
         match &condition.need {
@@ -61,7 +62,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Whether a claim about new variables is proved for all values of theirs, related or not.
+    /// Whether a claim about new variables is proved for all their values, related or not.
     fn holds_of_all_values(&self, item: &Recorded<'_>) -> Result<bool, Fault> {
         let model = &self.case.model;
         let Some(variables) = model.variables.as_deref() else { return Ok(false) };
@@ -90,8 +91,8 @@ impl Bench<'_> {
         Ok(true)
     }
 
-    /// Whether a factor is known to have a value at almost every zero of a function: what it divides
-    /// by has no factor in common with the function, or no zero.
+    /// Whether a factor is known to have a value at almost every zero of a function: its
+    /// denominator has no common factor with the function, or no zero.
     fn has_value_on_zeros(
         &self,
         sampler: &Sampler,
@@ -111,7 +112,7 @@ impl Bench<'_> {
                 sampler.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
             let group = groups.concat();
             let (function, poles) = (group[0], &group[2..]);
-            // In lowest terms it may divide by less than is written.
+            // In lowest terms the denominator may be smaller than written.
             if are_coprime(&graph, &group[..2], self.options.seed) {
                 continue;
             }
@@ -129,7 +130,7 @@ impl Bench<'_> {
     }
 }
 
-/// The values that must not be 0 where another has a value that is bounded nearby.
+/// Lists the values that must not be 0 for another value to be bounded nearby.
 fn poles(graph: &Graph, value: Expr) -> Vec<Expr> {
     let reached = graph.reached([value]);
     let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);

@@ -1,4 +1,4 @@
-//! Does a parametrisation fill the level set? The rank of its derivative tells.
+//! Coverage of the level set by a parametrisation, by the rank of its derivative.
 
 use num_dual::Dual;
 use num_traits::{One, Zero};
@@ -10,12 +10,12 @@ use crate::mechanics::Draws;
 use crate::number::Domain;
 use crate::number::precise::{Approximation, Precise};
 
-/// States at which the rank is looked at, and the bits in which it is.
+/// Number of states at which the rank is computed, followed by the precision in bits.
 const STATES: u64 = 8;
 const BITS: u32 = 512;
 
-/// A lower bound on the rank of the chart's derivative by its inputs: what enclosures prove at some
-/// state.
+/// Bounds from below the rank of the chart's derivative with respect to its inputs, by enclosures
+/// at some state.
 pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Result<usize, Fault> {
     let model = &case.model;
     let inputs = draws.len() - parameter_draws;
@@ -48,13 +48,13 @@ pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Re
     Ok((0..STATES).map(rank_at).max().unwrap_or(0))
 }
 
-/// How many pivots of an elimination are known not to be 0.
+/// Number of pivots of an elimination that are known not to be 0.
 fn proved_rank(mut rows: Vec<Vec<Approximation>>) -> usize {
     let width = rows.first().map_or(0, Vec::len);
     let mut rank = 0;
     let mut columns: Vec<usize> = (0..width).collect();
     while rank < rows.len() {
-        // The largest entry that is known not to be 0.
+        // Choose the largest entry known not to be 0.
         let size = |x: &Approximation| if x.excludes_zero() { x.enclosure().0.abs() } else { -1.0 };
         let entries = (rank..rows.len()).flat_map(|i| columns.iter().map(move |j| (i, *j)));
         let best = entries.max_by(|a, b| size(&rows[a.0][a.1]).total_cmp(&size(&rows[b.0][b.1])));

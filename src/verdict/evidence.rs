@@ -1,4 +1,4 @@
-//! What is known about a claim in the end, and on what grounds.
+//! Verdicts on claims, and the evidence for them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -7,22 +7,22 @@ use serde::Serialize;
 
 use crate::proof::Certificate;
 
-/// The answer to a claim.
+/// Verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// True, by exact reasoning.
     Proved,
-    /// Zero to rounding at every state that was tried.
+    /// Zero within rounding at every state tried.
     Confirmed,
     /// False: at a state the residual's enclosure excludes 0.
     Refuted,
-    /// Neither, for the reason given.
+    /// Neither proved nor refuted, for the reason given.
     Undecided,
 }
 
 impl Verdict {
-    /// The word used in reports.
+    /// Returns the word used in reports.
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Proved => "proved",
@@ -33,34 +33,34 @@ impl Verdict {
     }
 }
 
-/// A state at which a claim fails, in the form in which `eval` takes it.
+/// A state at which a claim fails, in the form read by `eval`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Witness {
-    /// The number of the state under the run's seed; none for one that was looked for.
+    /// Index of the state under the run's seed; `None` for a state found by search.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub index: Option<u64>,
-    /// The values of the parameters that were drawn, for `--set`.
+    /// Values of the drawn parameters, for `--set`.
     pub parameters: BTreeMap<String, String>,
-    /// The state, for `--state`.
+    /// Values of the state variables, for `--state`.
     pub state: String,
-    /// The residual there.
+    /// Residual at the state.
     pub residual: f64,
-    /// A bound on the residual's error; less than its magnitude, unless that is beyond f64.
+    /// Bound on the residual's error; less than its magnitude, unless that is beyond f64.
     pub error_bound: f64,
-    /// The residual to a few digits, where f64 cannot tell it from 0 or from infinity.
+    /// Residual to a few digits, where f64 cannot distinguish it from 0 or from infinity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<String>,
 }
 
-/// How an integral relates to what every case conserves.
+/// Relation of an integral to the integrals common to all cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Independence {
-    /// Its gradient is independent of those of the level functions and the energy.
+    /// Gradient independent of those of the level functions and the energy.
     Independent,
-    /// It depends on the level functions and the energy.
+    /// Function of the level functions and the energy.
     General,
-    /// It is constant on the level: true, and says nothing.
+    /// Constant on the level: true, but trivial.
     Constant,
 }
 
@@ -70,9 +70,9 @@ pub enum Independence {
 pub enum Sign {
     /// Positive at every state tried.
     Positive,
-    /// Negative at every state tried: its negative is a measure.
+    /// Negative at every state tried: its negative is the density of a measure.
     Negative,
-    /// It changes sign at fixed parameters, so it has zeros or poles: invariant, but no positive
+    /// Sign change at fixed parameters, and so zeros or poles: invariant, but not a positive
     /// measure across them.
     Changes,
 }
@@ -80,17 +80,17 @@ pub enum Sign {
 /// A proof in prime fields.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Proof {
-    /// Random primes.
+    /// Number of random primes.
     pub primes: usize,
-    /// Random points, all primes together, at which the residual is 0.
+    /// Number of random points, all primes together, at which the residual is 0.
     pub points: usize,
-    /// Points that were drawn; some have no value.
+    /// Number of points drawn, some of them without a value.
     pub draws: u64,
-    /// A bound on the degree of the residual's numerator.
+    /// Bound on the degree of the residual's numerator.
     pub degree: f64,
-    /// Square roots and roots of odd index in it.
+    /// Number of square roots and roots of odd index in it.
     pub roots: usize,
-    /// Log₂ of the probability that the residual is no identity all the same.
+    /// Log₂ of the probability that the residual is nevertheless not an identity.
     pub error_log2: f64,
 }
 
@@ -123,111 +123,113 @@ impl fmt::Display for Proof {
     }
 }
 
-/// What a rung of the ladder found.
+/// Result of one rung of the ladder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rung {
-    /// `folding`, `ball`, `prime field`, `double-double ball`, `ball of many bits`.
+    /// Name of the rung: `folding`, `ball`, `prime field`, `double-double ball`, `ball of many
+    /// bits`.
     pub rung: &'static str,
-    /// In words.
+    /// Description of the result.
     pub found: String,
 }
 
-/// A number that was measured on a motion.
+/// A quantity measured on a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
-    /// What it is.
+    /// Name of the quantity.
     pub quantity: String,
-    /// Its value.
+    /// Measured value.
     pub value: f64,
-    /// An estimate of its error, from the computation itself.
+    /// Estimate of the error, from the computation itself.
     pub error: f64,
-    /// What the claim states, as it is typed.
+    /// Value stated by the claim, as written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stated: Option<String>,
 }
 
-/// The grounds of a verdict.
+/// Evidence for a verdict.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// The rung that settled it. `folding`: the residual became the constant 0, or another, while it
-    /// was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, with twice
-    /// its digits, with more. `ball at numerical states`: where the level set has no parametrisation.
-    /// `prime field`: an identity tested modulo random primes. `motion`: numbers from motions.
+    /// Rung that decided the claim. `folding`: the residual became a constant, 0 or another, while
+    /// it was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, in
+    /// double-double, in higher precision. `ball at numerical states`: where the level set has no
+    /// parametrisation. `prime field`: an identity tested modulo random primes. `motion`: numbers
+    /// from motions.
     pub method: &'static str,
-    /// The proof, where there is one.
+    /// Proof, if there is one.
     #[serde(flatten)]
     pub proof: Option<Proof>,
-    /// Why prime fields have nothing to say.
+    /// Reason why prime fields decide nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub silence: Option<String>,
-    /// States at which the residual was computed.
+    /// Number of states at which the residual was computed.
     pub samples: usize,
-    /// The largest |residual| where the claim holds.
+    /// Largest |residual| where the claim holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_residual: Option<f64>,
-    /// The largest |residual| over its own error bound; at most 1 where the claim holds.
+    /// Largest |residual| relative to its error bound; at most 1 where the claim holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_scaled_residual: Option<f64>,
-    /// Operations of the residual a state.
+    /// Number of operations of the residual for each state.
     pub operations: usize,
-    /// The places where it was seen to hold, widest first: `everywhere`, an equation, `level`.
+    /// Places where the claim was seen to hold, widest first: `everywhere`, an equation, `level`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub holds: Vec<String>,
-    /// For integrals that hold.
+    /// Independence, for integrals that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub independence: Option<Independence>,
-    /// For densities that hold.
+    /// Sign, for densities that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sign: Option<Sign>,
-    /// Whether that sign is proved at all states, rather than seen at those that were tried.
+    /// Whether the sign is proved at all states rather than observed at those tried.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_proved: bool,
-    /// What a density on a level set refers to.
+    /// Volume form to which a density on a level set refers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,
-    /// What else follows where a claim holds.
+    /// Consequence of a claim that holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
-    /// Where a claim is refuted; where functions are independent.
+    /// Witness of a refutation, or of the independence of functions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
-    /// For claims about motion: what was measured.
+    /// Measured quantities, for claims about motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
-    /// All rungs, in order.
+    /// Results of all rungs, in order.
     pub climb: Vec<Rung>,
-    /// Why a claim is undecided, or what its verdict leaves open.
+    /// Reason why a claim is undecided, or restriction of its verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// A claim with its verdict.
+/// Report on a claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClaimReport {
-    /// The claim's name in its case.
+    /// Name of the claim in its case.
     pub name: String,
-    /// The formula, if the claim is about one.
+    /// Formula of the claim, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub formula: Option<String>,
-    /// The statement's key in case files: `integral`, `density`, …
+    /// Key of the statement in case files: `integral`, `density`, …
     pub kind: &'static str,
-    /// Equation number, table, section.
+    /// Equation number, table or section.
     pub source: String,
-    /// Where it is claimed.
+    /// Place at which it is claimed.
     #[serde(rename = "where")]
     pub place: String,
-    /// What the file expects.
+    /// Expectation of the file.
     pub expect: &'static str,
-    /// The answer.
+    /// Verdict on the claim.
     pub verdict: Verdict,
-    /// Does the answer agree with what is expected? Always, for a claim declared open.
+    /// Whether the verdict agrees with the expectation; always for a claim declared open.
     pub agrees: bool,
-    /// The row of the paper's table that this fills.
+    /// Table row this claim belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<String>,
-    /// The author's remark.
+    /// Remark of the author.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// The grounds.
+    /// Evidence for the verdict.
     pub evidence: Evidence,
 }

@@ -1,4 +1,4 @@
-//! What the enclosures of a block of states tell about one residual.
+//! Evaluation of one residual by the enclosures of a block of states.
 
 use super::bench::Bench;
 use super::evidence::{Verdict, Witness};
@@ -9,16 +9,17 @@ use super::sampler::Sampler;
 use super::witness::witness;
 use crate::number::Enclosing;
 
-/// The values of a block, and at which lanes there is a state.
+/// Values of a block, with the lanes that contain states.
 pub struct Seen<'v, D: Enclosing> {
-    /// The values.
+    /// Values of the outputs.
     pub values: &'v Values<D>,
-    /// The lanes that count.
+    /// Whether each lane counts.
     pub existing: &'v [bool],
 }
 
 impl Bench<'_> {
-    /// Looks for a state whose enclosure excludes zero; otherwise takes the block into account.
+    /// Refutes by a state whose enclosure excludes zero, if any; otherwise adds the block to the
+    /// evidence.
     pub(super) fn examine<D: Enclosing>(
         &self,
         sampler: &Sampler,
@@ -53,7 +54,7 @@ impl Bench<'_> {
         if start > 0 || evidence.samples == 0 {
             evidence.samples += states;
         }
-        // More digits replace what fewer digits found, more states add to it.
+        // Higher precision replaces earlier results, further states add to them.
         let before = |old: Option<f64>| if start > 0 { old.unwrap_or(0.0) } else { 0.0 };
         evidence.max_residual = Some(before(evidence.max_residual).max(largest));
         evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
@@ -61,7 +62,7 @@ impl Bench<'_> {
         finding.rung(method, format!("0 enclosed at {states} states, at most {largest:.1e}"));
     }
 
-    /// Settles a claim as refuted by the first state whose enclosure excludes zero, if any.
+    /// Refutes a claim by the first state whose enclosure excludes zero, if any.
     pub(super) fn seek_witness<D: Enclosing>(
         &self,
         sampler: &Sampler,
@@ -101,7 +102,7 @@ impl Bench<'_> {
     }
 }
 
-/// The verdict on a claim that no state refuted.
+/// Decides a claim that no state refuted.
 pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
     let kind = item.claim.kind.name();
     if let Some(reason) = finding.undefined.take() {

@@ -1,5 +1,5 @@
-//! States at which it matters that a residual is not zero: a formula that has no value there says
-//! nothing, and a part of the states on which signs are chosen may hold none.
+//! Existence of states at which a residual counts: at a state where a formula is undefined it says
+//! nothing, and a part of the states with given signs may be empty.
 
 use super::antiderivative_value;
 use super::bench::Bench;
@@ -19,14 +19,13 @@ use crate::number::precise::Precise;
 use crate::number::rational::Rational;
 use crate::proof::Part;
 
-/// States without a value in f64 that are looked at more closely.
+/// Largest number of states without a value in f64 that are examined further.
 const MOST_MISSING: usize = 16;
-/// A claim is not confirmed where so large a share of the states is in doubt: one in this many.
+/// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
 impl Bench<'_> {
-    /// Looks more closely at states of the first block at which f64 finds no value of what is
-    /// required: √0 has one.
+    /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
     pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         if sampler.is_numerical() {
             return;
@@ -69,8 +68,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Refutes claims that are no identities in prime fields, once a state is known at which that
-    /// matters; with a witness where one is found.
+    /// Refutes claims that are not identities in prime fields, once a state is known at which they
+    /// count; with a witness if one is found.
     pub(super) fn real_states(
         &self,
         sampler: &Sampler,
@@ -117,8 +116,7 @@ impl Bench<'_> {
         exists
     }
 
-    /// Whether a state that is drawn lies in a part, with all that is required; a witness settles
-    /// the claim.
+    /// Whether a drawn state lies in a part, with all required values; a witness decides the claim.
     fn drawn_state(
         &self,
         item: &Recorded<'_>,
@@ -165,7 +163,7 @@ impl Bench<'_> {
         true
     }
 
-    /// Whether a state is found in a part by dividing the ranges of what is drawn; a witness settles
+    /// Whether a state is found in a part by dividing the ranges of the draws; a witness decides
     /// the claim.
     fn state_inside(
         &self,
@@ -204,7 +202,7 @@ impl Bench<'_> {
     }
 }
 
-/// The signs that make a part of the states.
+/// The signs that define a part of the states.
 struct Membership<'p> {
     part: &'p Part,
     tape: Tape,
@@ -215,7 +213,7 @@ impl<'p> Membership<'p> {
         Self { part, tape: Tape::new(&part.graph, &part.positive) }
     }
 
-    /// Leaves those states that are known to lie in the part.
+    /// Keeps the states that are known to lie in the part.
     fn restrict<D: Enclosing + Clone>(
         &self,
         sampler: &Sampler,

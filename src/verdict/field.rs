@@ -1,4 +1,5 @@
-//! Residuals in prime fields: the claim's graph, from the draws on, handed to the prover.
+//! Proofs of residuals in prime fields: the claim's graph as a function of the draws, passed to the
+//! prover.
 
 use super::bench::Bench;
 use super::sampler::Sampler;
@@ -7,61 +8,61 @@ use crate::mechanics::Draw;
 use crate::number::rational::Rational;
 use crate::proof::{Certificate, Group, Outcome, Parts, Prover};
 
-/// Combinations of listed parameter values that are proved one by one.
+/// Largest number of combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
-/// Why nothing is proved where there are more.
+/// Message for a larger number of combinations.
 pub const TOO_MANY_COMBINATIONS: &str = "the lists of parameter values have too many combinations";
 
-/// The states of one place, as elements of prime fields.
+/// The states of one place, for proofs in prime fields.
 pub struct Field<'a> {
     bench: &'a Bench<'a>,
     sampler: &'a Sampler,
 }
 
-/// Values that are asked about together.
+/// Values to be proved zero together.
 #[derive(Clone, Debug, Default)]
 pub struct Query {
-    /// Whether all of them are zero is asked.
+    /// Values to be proved zero.
     pub outputs: Vec<Expr>,
-    /// What has a value at the states that count, beside what every state has.
+    /// Values that exist at the states that count, besides those that exist at every state.
     pub requirement: Vec<Expr>,
 }
 
 impl Query {
-    /// Values for which all states count.
+    /// Makes a query for which all states count.
     pub fn of(outputs: Vec<Expr>) -> Self {
         Self { outputs, requirement: Vec::new() }
     }
 }
 
-/// The answer to a query.
+/// Answer to a query.
 #[derive(Clone, Debug)]
 pub enum Answer {
     /// All values are zero wherever they exist.
     Zero(Certificate),
-    /// Some value is not zero identically, at any of these.
+    /// Some value is not identically zero, on any of these sets of states.
     NonZero(Vec<Where>),
-    /// Neither, and the reason.
+    /// Undecided, with the reason.
     Silent(String),
-    /// All values are zero wherever they exist, and that is not wherever all that is written has a
-    /// value.
+    /// All values are zero wherever they exist, but do not exist everywhere that the written
+    /// formulas do.
     Partial,
-    /// There are no states at which all values exist.
+    /// All values exist together at no state.
     Void,
 }
 
-/// Where a value is not zero identically.
+/// A set of states on which a value is not identically zero.
 #[derive(Clone, Debug)]
 pub struct Where {
-    /// The choice of listed parameter values.
+    /// Choice of listed parameter values.
     pub fixed: Vec<Option<Rational>>,
     /// Parts of the states.
     pub parts: Parts,
 }
 
 impl Answer {
-    /// Whether it says that some value is not zero identically, on all of the states for some choice
-    /// of listed values; that is so if there are states at all.
+    /// Whether some value is not identically zero on all of the states for some choice of listed
+    /// values, provided that there are states.
     pub fn is_nonzero(&self) -> bool {
         let is_whole = |found: &Where| found.parts.proper().is_none();
         matches!(self, Answer::NonZero(found) if found.iter().any(is_whole))
@@ -69,12 +70,12 @@ impl Answer {
 }
 
 impl<'a> Field<'a> {
-    /// The field side of a place.
+    /// Makes the prime-field side of a place.
     pub fn new(bench: &'a Bench<'a>, sampler: &'a Sampler) -> Self {
         Self { bench, sampler }
     }
 
-    /// Is each group of values zero at all states of the place, whatever the parameters?
+    /// Tests whether each group of values is zero at all states of the place, for all parameters.
     pub fn test(&self, queries: &[Query]) -> Result<Vec<Answer>, Fault> {
         let silent = |reason: &str| Ok(vec![Answer::Silent(reason.to_string()); queries.len()]);
         if queries.is_empty() {
@@ -103,7 +104,7 @@ impl<'a> Field<'a> {
             for ((all, one), group) in answers.iter_mut().zip(outcomes).zip(&groups) {
                 let is_void = group.required.iter().any(|value| graph.is_nowhere_defined(*value));
                 let one = match one {
-                    // For these values of lists there is no state.
+                    // For these listed values there is no state.
                     _ if is_void => Answer::Void,
                     Outcome::Zero(certificate) => Answer::Zero(certificate),
                     Outcome::NonZero(parts) => {
@@ -122,8 +123,8 @@ impl<'a> Field<'a> {
         Ok(answers.into_iter().flatten().collect())
     }
 
-    /// The ranks of the first `n` rows of a matrix of values, for each n in `heights`, at a random
-    /// state of the place; the least over listed parameter values.
+    /// Finds the ranks of the first `n` rows of a matrix of values, for each n in `heights`, at a
+    /// random state of the place; the least over listed parameter values.
     pub fn ranks(
         &self,
         rows: &[Vec<Expr>],
@@ -148,7 +149,8 @@ impl<'a> Field<'a> {
     }
 }
 
-/// What holds of two choices of listed values together; one for which nothing exists says nothing.
+/// Combines the answers for two choices of listed values; a choice for which nothing exists is
+/// ignored.
 fn both(a: Answer, b: Answer) -> Answer {
     match (a, b) {
         (Answer::Void, other) | (other, Answer::Void) => other,
@@ -163,7 +165,7 @@ fn both(a: Answer, b: Answer) -> Answer {
     }
 }
 
-/// Every choice of listed values: a proof speaks of one choice at a time.
+/// Lists all choices of listed values: a proof is for one choice at a time.
 pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
     let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
     for recipe in recipes {
@@ -196,7 +198,7 @@ mod tests {
     use crate::verdict::Options;
     use crate::verdict::recorded::Common;
 
-    /// What fields say about the claims of a case that are expected to fail.
+    /// Returns the answers of prime fields on the claims of a case that are expected to fail.
     fn outcomes_of_false_claims(case: &Case) -> Vec<(String, Answer)> {
         let model = &case.model;
         let inputs = model.free_components() + model.dimension();
@@ -212,7 +214,7 @@ mod tests {
         let bench = Bench { case, common: &common, options: &options, graph: &graph, inputs };
         let mut found = Vec::new();
         for (claim, residual) in case.claims.iter().zip(residuals) {
-            // What is claimed to be independent fails where the residual does vanish.
+            // A claim of independence fails where the residual does vanish.
             if claim.expect == Expect::Fails && !claim.kind.is_negated() {
                 let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
                 let outcome =

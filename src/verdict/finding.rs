@@ -1,4 +1,4 @@
-//! What is known of a claim while the ladder is climbed.
+//! State of a claim on the ladder.
 
 use std::ops::Range;
 
@@ -10,38 +10,38 @@ use super::sampler::LANES;
 use crate::graph::{Expr, Graph};
 use crate::number::Enclosing;
 
-/// A claim is confirmed by no fewer states of the first block than one in this many.
+/// Smallest share of states of the first block that confirms a claim: one in this many.
 const MIN_SHARE: usize = 4;
-/// Nor where it has no value at more of the states that count than one in this many.
+/// Largest share of states that count without a value of the residual: one in this many.
 const MOST_LACKING: usize = 16;
-/// Bits of the residual's scale that its error bound must leave for a state to count: what is
-/// blurred more than this could hide a term.
+/// Number of bits of the residual's scale that must exceed its error bound for a state to count: a
+/// larger error could hide a term.
 const RESOLVED_BITS: i32 = 16;
 
-/// Why an ∫ means nothing.
+/// Message for an ∫ that is undefined.
 pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of its variable alone";
 
-/// What is known of a claim while the ladder is climbed.
+/// State of a claim on the ladder.
 #[derive(Default)]
 pub struct Finding {
     pub settled: Option<Verdict>,
     pub evidence: Evidence,
-    /// Where prime fields show that the residual is no identity.
+    /// Sets of states on which prime fields show that the residual is not an identity.
     pub nonzero: Vec<Where>,
-    /// Is the residual zero in prime fields?
+    /// Whether the residual is zero in prime fields.
     pub is_zero: bool,
-    /// Has something no value, as far as the digits used so far can tell?
+    /// Description of a value that is undefined in the precisions used so far.
     pub undefined: Option<String>,
-    /// Did rounding blur the residual, and how?
+    /// Description of the rounding that blurred the residual.
     pub blurred: Option<String>,
-    /// Has the residual no value on a part of the states that count, and of what kind is it?
+    /// Message that the residual has no value on a part of the states that count, if so.
     pub partial: Option<String>,
-    /// Lanes of the first block at which f64 finds no state, or no value of what is required.
+    /// Lanes of the first block at which f64 finds no state, or no required value.
     pub missing: Vec<usize>,
 }
 
 impl Finding {
-    /// Notes what a rung found.
+    /// Records the result of a rung.
     pub fn rung(&mut self, rung: &'static str, found: String) {
         match self.evidence.climb.last_mut() {
             Some(last) if last.rung == rung => last.found = found,
@@ -49,18 +49,18 @@ impl Finding {
         }
     }
 
-    /// Whether a prime field shows that the residual is no identity.
+    /// Whether a prime field shows that the residual is not an identity.
     pub fn is_nonzero(&self) -> bool {
         !self.nonzero.is_empty()
     }
 
-    /// Does the claim hold, as far as is known?
+    /// Whether the claim holds, as far as is known.
     pub fn holds(&self) -> bool {
         matches!(self.settled, Some(Verdict::Confirmed | Verdict::Proved))
     }
 }
 
-/// A residual that became a constant settles its claim without a state.
+/// Decides a claim whose residual became a constant, without a state.
 pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
     let constants: Option<Vec<_>> =
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
@@ -69,7 +69,7 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
         finding.rung("folding", "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
         if zero && !are_zero(graph, &item.context.quadrature_defects) {
-            // Whether there are such integrals is still to be seen.
+            // The existence of such integrals is not yet decided.
             return;
         }
         finding.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
@@ -80,13 +80,14 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
     }
 }
 
-/// Were all these values folded to 0?
+/// Whether all these values were folded to 0.
 pub fn are_zero(graph: &Graph, values: &[Expr]) -> bool {
     values.iter().all(|value| graph.constant_value(*value).is_some_and(|value| value.is_zero()))
 }
 
-/// What the first block tells beside the residual: does the formula have a value, are the
-/// quadratures functions of their variable, is the residual resolved, is the integral new?
+/// Records the results of the first block other than the residual: whether the formula is defined,
+/// the quadratures are functions of their variables, the residual is resolved, and the integral is
+/// new.
 pub fn weigh<D: Enclosing>(
     item: &Recorded<'_>,
     span: &Span,
@@ -142,27 +143,27 @@ pub fn weigh<D: Enclosing>(
     finding.blurred = residual.blur(kind);
 }
 
-/// What a block of states shows of a residual.
+/// Result of a block of states for a residual.
 pub struct Look {
-    /// States looked at.
+    /// Number of states examined.
     states: usize,
-    /// Those at which all that is required has a value.
+    /// Number of states at which all required values exist.
     existing: usize,
-    /// States at which it has an enclosure.
+    /// Number of states at which the residual has an enclosure.
     defined: usize,
-    /// Those at which the enclosure is narrow against the residual's scale.
+    /// Number of states at which the enclosure is narrow against the residual's scale.
     resolved: usize,
-    /// Does some enclosure exclude 0?
+    /// Whether some enclosure excludes 0.
     excludes_zero: bool,
 }
 
 impl Look {
-    /// Has it no value at all states?
+    /// Whether the residual is undefined at all states.
     pub fn is_nowhere_defined(&self) -> bool {
         self.defined == 0
     }
 
-    /// Looks at a residual, and the square of its scale, at the lanes that hold a state.
+    /// Examines a residual, and the square of its scale, at the lanes that contain a state.
     pub fn at<D: Enclosing>(
         residuals: &[&D::Block],
         scale: Option<&D::Block>,
@@ -191,17 +192,17 @@ impl Look {
         look
     }
 
-    /// Is 0 enclosed everywhere, and narrowly enough at enough states?
+    /// Whether all enclosures contain 0, and enough of them are narrow.
     pub fn is_zero(&self) -> bool {
         !self.excludes_zero && self.resolved * MIN_SHARE >= self.states && !self.is_partial()
     }
 
-    /// Has it no value at many of the states at which all that is required has one?
+    /// Whether the residual is undefined at many of the states at which all required values exist.
     fn is_partial(&self) -> bool {
         (self.existing - self.defined) * MOST_LACKING > self.existing
     }
 
-    /// Why zeros in these enclosures would not mean much, if that is so.
+    /// Returns the reason why zeros in these enclosures would not be significant, if there is one.
     pub fn blur(&self, kind: &str) -> Option<String> {
         if !self.excludes_zero && self.is_partial() {
             return Some(format!(
@@ -220,18 +221,18 @@ impl Look {
         })
     }
 
-    /// Has the residual a value at some state?
+    /// Whether the residual is defined at some state.
     pub fn has_value(&self) -> bool {
         self.defined > 0
     }
 
-    /// Does some enclosure exclude 0?
+    /// Whether some enclosure excludes 0.
     pub fn excludes_zero(&self) -> bool {
         self.excludes_zero
     }
 }
 
-/// Settles a claim as undecided, for a reason.
+/// Decides a claim as undecided, with a reason.
 pub fn undecide(finding: &mut Finding, reason: String) {
     finding.settled = Some(Verdict::Undecided);
     finding.evidence.reason = Some(reason);

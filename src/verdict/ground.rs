@@ -1,4 +1,4 @@
-//! The ground that claims stand on: states are on the level, and the motion stays there.
+//! Premises of all claims: states are on the level, and the motion stays there.
 
 use super::bench::Bench;
 use super::field::{Field, Query};
@@ -29,7 +29,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Tells which equation does not hold, or is left, where the ground is known not to be zero.
+    /// Returns the error that names a violated or non-invariant equation, if a premise is known not
+    /// to vanish.
     pub(super) fn name_the_error(
         &self,
         place: &Place,
@@ -57,7 +58,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// A value that is not identically zero, at a state where it is seen not to be.
+    /// Prints a value that is not identically zero, at a state where it is seen not to vanish.
     fn magnitude(&self, sampler: &Sampler, value: Expr) -> String {
         let run = self.run(&[value]);
         for bits in BITS {
@@ -72,7 +73,7 @@ impl Bench<'_> {
         format!("less than {} bits tell from 0", BITS[BITS.len() - 1])
     }
 
-    /// What must vanish for states to be on the level and to stay there.
+    /// Returns the values that must vanish for states to be on the level and to stay there.
     pub(super) fn ground(&self, place: &Place) -> Vec<Expr> {
         let kept = |all: &[Expr]| -> Vec<Expr> {
             let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);

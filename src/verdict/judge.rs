@@ -1,4 +1,5 @@
-//! All claims of a case: record once, then climb the ladder until each claim is settled.
+//! Judgement of all claims of a case: recorded once, then taken up the ladder until each is
+//! decided.
 
 use super::bench::Bench;
 use super::conclude::report;
@@ -13,25 +14,25 @@ use crate::graph::{Fault, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
 
-/// How thoroughly to judge.
+/// Options of a judgement.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// The seed of all states.
+    /// Seed of all states.
     pub seed: u64,
-    /// How many states a claim must survive, in steps of 64.
+    /// Number of states that a claim must survive, in steps of 64.
     pub states: u64,
-    /// What is asked of a verdict that a claim holds.
+    /// Required strength of evidence for a claim that holds.
     pub trust: Trust,
-    /// Are true formulas to be perturbed, to see whether each mutant is refuted?
+    /// Whether true formulas are perturbed, to check that each mutant is refuted.
     pub mutants: bool,
 }
 
-/// What is asked of a verdict that a claim holds.
+/// Required strength of evidence for a claim that holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trust {
-    /// Rounding that is accounted for, at enough states: no proof is tried.
+    /// Enclosures at enough states; no proof is attempted.
     Float,
-    /// A proof where there is one, else as `Float`.
+    /// A proof if possible, otherwise as `Float`.
     #[default]
     Best,
     /// A proof: without one the claim does not agree with an expectation that it holds.
@@ -44,74 +45,74 @@ impl Default for Options {
     }
 }
 
-/// A case with the verdicts on its claims.
+/// Report on a case: the verdicts on its claims.
 #[derive(Clone, Debug)]
 pub struct CaseReport {
-    /// One report a claim, in the order of the file.
+    /// One report for each claim, in the order of the file.
     pub claims: Vec<ClaimReport>,
-    /// What is physically impossible about the states that were drawn.
+    /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
-    /// What became of mutants, if they were asked for.
+    /// Results of the mutants, if requested.
     pub mutants: Option<MutationReport>,
-    /// How many claims about motion were left alone.
+    /// Number of claims about motion that were left out.
     pub motions_left: usize,
 }
 
-/// Why a case cannot be judged.
+/// The reason why a case cannot be judged.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum JudgeError {
-    /// A formula asked a recorded value for its magnitude.
+    /// A formula needed the magnitude of a recorded value.
     #[error(transparent)]
     Fault(#[from] Fault),
     /// No state could be drawn.
     #[error("no state on the level set was found among {0} starts")]
     Unreachable(u64),
-    /// Numbers beyond the range of f64.
+    /// The numbers of the states are beyond the range of f64.
     #[error("none of {0} states could be drawn: their numbers are beyond the range of f64")]
     Overflow(u64),
-    /// A parametrisation that makes states off the level.
+    /// The parametrisation leads to points off the level.
     #[error("the chart is not on the level set: `{equation}` is off by {by}")]
     OffLevel {
-        /// The equation that does not hold.
+        /// Equation that is violated.
         equation: String,
-        /// Left minus right, at a state.
+        /// Left minus right side, at a state.
         by: String,
     },
-    /// A parametrisation that leaves out directions of the level.
+    /// The parametrisation misses directions of the level.
     #[error("the chart covers {found} of the {dimension} dimensions of the level set")]
     PartialChart {
-        /// The rank of its derivative.
+        /// Rank of its derivative.
         found: usize,
-        /// The dimension of the level.
+        /// Dimension of the level.
         dimension: usize,
     },
-    /// Level equations that are not independent.
+    /// The level equations are not independent.
     #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
-    /// An ∫ of the equations of motion or of `[variables]` that is none.
+    /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
     #[error("an ∫ in `{0}` has an integrand of more than its variable")]
     Quadrature(String),
-    /// An inertia tensor that is not symmetric.
+    /// The inertia tensor is not symmetric.
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
-    /// A bracket of Hamilton's equations that is not skew.
+    /// The bracket of Hamilton's equations is not skew.
     #[error("the bracket of [hamiltonian] is not skew")]
     NotSkew,
-    /// The field is nowhere defined.
+    /// The field is defined nowhere.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
-    /// The level set is left by the motion.
+    /// The motion leaves the level set.
     #[error("the level set is not invariant: along the motion `{equation}` changes at rate {rate}")]
     NotInvariant {
-        /// The equation that is left.
+        /// Equation that is not invariant.
         equation: String,
-        /// Its rate at a state.
+        /// Rate of the equation at a state.
         rate: String,
     },
 }
 
 impl JudgeError {
-    /// What to do about it.
+    /// Suggests a remedy.
     pub fn help(&self) -> &'static str {
         match self {
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
@@ -144,7 +145,8 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case but those about motion, which [`observe`](crate::observe) looks at.
+/// Judges all claims of a case except those about motion, which are left to
+/// [`observe`](crate::observe).
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();

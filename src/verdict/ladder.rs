@@ -1,4 +1,4 @@
-//! The ladder: from the cheapest rung to the surest, until each claim is settled.
+//! The ladder of decision methods, from the cheapest to the most certain.
 //!
 //! ```text
 //! folding             the residual became a constant while it was recorded
@@ -23,15 +23,15 @@ use crate::number::ball::Ball;
 use crate::number::precise::Precise;
 use crate::number::twofold::TwofoldBall;
 
-/// Precisions of the last rung.
+/// Precisions of the last rung in bits.
 pub const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
-/// States that are tried with each of them.
+/// Number of states tried in each of these precisions.
 pub const PRECISE_STATES: u64 = 4;
 
 pub type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
 
 impl Bench<'_> {
-    /// Settles the claims made at one place.
+    /// Decides the claims made at one place.
     pub fn climb<'f, 'r: 'f>(
         &self,
         place: &Place,
@@ -56,7 +56,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Climbs until each claim is settled.
+    /// Climbs until each claim is decided.
     fn settle(
         &self,
         place: &Place,
@@ -84,7 +84,7 @@ impl Bench<'_> {
             if finding.settled.is_none() {
                 conclude(item, finding);
             }
-            // What holds at the states that there are need not hold on what they leave out.
+            // A claim that holds at the computed states need not hold on the part they miss.
             if let (Some(reason), true) = (missed, finding.holds()) {
                 finding.evidence.proof = None;
                 undecide(finding, reason.to_string());
@@ -93,8 +93,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Claims that something does *not* vanish, for each choice of listed values by itself: one at
-    /// which it does is enough to be wrong.
+    /// Decides claims that something does *not* vanish, separately for each choice of listed
+    /// values: one choice for which it vanishes refutes the claim.
     fn climb_each(
         &self,
         place: &Place,
@@ -129,7 +129,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Balls over f64 at the first block, with what tells rounding from truth.
+    /// Evaluates balls over f64 at the first block, with the scales that separate rounding from
+    /// truth.
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let (run, layout) = self.lay_out(sampler, open.iter().map(|(item, _)| *item), true);
         let values = run.at(&Ball::<LANES>, &sampler.balls(0));
@@ -144,7 +145,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Prime fields: what is zero there is proved.
+    /// Tests residuals in prime fields: those that are zero there are proved.
     fn fields(
         &self,
         place: &Place,
@@ -223,7 +224,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Balls over f64 at the other blocks, for claims that the fields did not settle.
+    /// Evaluates balls over f64 at the other blocks, for claims that the fields did not decide.
     fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let mut laid_out: Option<(Run, Layout, usize)> = None;
         for blocks in waves(1..self.blocks()) {
@@ -256,7 +257,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Balls with ever more digits, for claims that are still open.
+    /// Evaluates balls in increasing precision, for claims that are still open.
     fn more_digits(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let mut left: Vec<_> =
             open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
@@ -286,7 +287,7 @@ impl Bench<'_> {
             let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let span = &layout.spans[0];
             let before = finding.evidence.method;
-            // Where the fields are silent there may be nothing to find.
+            // Where the fields are silent a refutation may not exist.
             let precisions = if finding.is_nonzero() { &BITS[..] } else { &BITS[..1] };
             for bits in precisions {
                 let domain = Precise::new(*bits);
@@ -307,7 +308,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Have formula and residual a value that only numbers of 64 bits are too small for?
+    /// Whether formula and residual are defined, but out of the range of f64.
     fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
         let mut outputs = self.common.required_at(sampler.kept());
         let parts = [&item.requirement, &item.residual, &item.context.value];
@@ -320,7 +321,7 @@ impl Bench<'_> {
         item.context.quadrature_defects.is_empty() && (0..PRECISE_STATES).any(is_defined)
     }
 
-    /// One tape for some claims.
+    /// Lays out one tape for some claims.
     pub(super) fn lay_out<'r>(
         &self,
         sampler: &Sampler,

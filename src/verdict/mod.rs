@@ -1,9 +1,9 @@
 //! From residuals to verdicts: sampling on level sets, the ladder, evidence.
 //!
-//! A residual is judged against the rounding error that this very computation can make at this very
-//! state: a ball that excludes 0 refutes, with the state as witness; a claim is confirmed when the
-//! balls of all states contain 0 and are narrow against the terms that were added up. Nothing is
-//! compared with a fixed tolerance.
+//! A residual is judged against the rounding error that its computation can make at the state: a
+//! ball that excludes 0 refutes, with the state as witness; a claim is confirmed when the balls of
+//! all states contain 0 and are narrow against the terms that were added. There is no fixed
+//! tolerance.
 
 mod bench;
 mod branches;
@@ -43,9 +43,9 @@ pub use state::{StateError, read_state};
 
 use crate::number::rational::Rational;
 
-/// The value that an antiderivative is given at a state, its constant being free.
+/// Returns the value given to an antiderivative at a state, whose constant is free.
 ///
-/// A fixed one makes residuals reproducible; 0 would hide terms in which it is a factor.
+/// A fixed value makes residuals reproducible; 0 would hide terms in which it is a factor.
 pub fn antiderivative_value(number: usize) -> Rational {
     Rational::new(37 + 11 * number as i64, 100)
 }

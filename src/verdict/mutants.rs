@@ -1,10 +1,10 @@
-//! Who guards the verifier? True formulas are perturbed, and each mutant must be refuted.
+//! Mutation test of the verifier: true formulas are perturbed, and each mutant must be refuted.
 //!
-//! A mutant that is proved to hold is *equivalent* when it tells nothing new: its gradient depends
-//! on those of the level, the energy and the integrals that are known to hold (for a density, the
-//! gradient of ln ρ'/ρ does, since the quotient of two densities is an integral). Otherwise it is a
-//! *discovery*. What is neither refuted nor proved has survived: a defect of the sampling, or of
-//! the claim.
+//! A mutant that is proved to hold is *equivalent* if it follows from known invariants: its
+//! gradient depends on those of the level, the energy and the integrals that are known to hold (for
+//! a density, the gradient of ln ρ'/ρ does, since the quotient of two densities is an integral).
+//! Otherwise it is a *discovery*. A mutant that is neither refuted nor proved has survived: a
+//! defect of the sampling, or of the claim.
 
 use serde::Serialize;
 
@@ -26,38 +26,38 @@ use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::twofold::TwofoldBall;
 
-/// What became of the mutants of a case.
+/// Results of the mutants of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct MutationReport {
-    /// Refuted, or without any value.
+    /// Number of mutants refuted, or without any value.
     pub killed: usize,
-    /// True, and nothing new.
+    /// Number of mutants that are true and follow from known invariants.
     pub equivalent: usize,
-    /// Neither refuted nor proved.
+    /// Mutants neither refuted nor proved.
     pub survived: Vec<MutantReport>,
-    /// Proved, and independent of what is known.
+    /// Mutants proved, and independent of known invariants.
     pub discovered: Vec<MutantReport>,
 }
 
-/// A mutant that is to be shown.
+/// A mutant for the report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MutantReport {
-    /// The claim it was made from.
+    /// Claim from which it was made.
     pub claim: String,
-    /// Its formula.
+    /// Formula of the mutant.
     pub formula: String,
-    /// What was changed.
+    /// Description of the change.
     pub change: String,
 }
 
-/// A mutant on the bench.
+/// A mutant under judgement.
 struct Candidate<'c> {
     claim: &'c Claim,
     mutant: Mutant,
     residual: Vec<Expr>,
 }
 
-/// Mutates every formula that is expected to hold, and does.
+/// Mutates every formula that is expected to hold and does.
 pub fn mutate(
     case: &Case,
     reports: &[ClaimReport],
@@ -125,7 +125,7 @@ impl Candidate<'_> {
 }
 
 impl Bench<'_> {
-    /// Refutes what can be refuted; gives the others, and whether they are proved.
+    /// Refutes mutants; returns the others, and whether they are proved.
     fn kill<'k, 'c>(
         &self,
         sampler: &Sampler,
@@ -158,7 +158,8 @@ impl Bench<'_> {
         Ok(proved)
     }
 
-    /// Those whose residual is enclosed with 0 at all states of a block, and has a value at one.
+    /// Selects those whose residual is enclosed with 0 at all states of a block, and is defined at
+    /// one.
     fn not_refuted<'k, 'c, D: Enclosing + Clone>(
         &self,
         domain: &D,
@@ -181,7 +182,7 @@ impl Bench<'_> {
     }
 }
 
-/// Does a true mutant tell nothing that its original and the other integrals do not?
+/// Whether a true mutant follows from its original and the other integrals.
 fn depends(
     case: &Case,
     held: &[&Claim],
@@ -194,7 +195,7 @@ fn depends(
     let (graph, (rows, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = Jet::new(Phase::new(model, parameters, state));
-        // Where the level functions are integrals everywhere, all of them are known to be.
+        // If the level functions are integrals everywhere, all of them are known integrals.
         let all = vec![true; model.level.len()];
         let known = if model.system.conserves_level() { &all } else { &claim.place.kept };
         let mut rows = jet.level_gradients(known);
@@ -214,7 +215,8 @@ fn depends(
         }
         (rows, Common::of(&jet))
     })?;
-    // What is no integral and no density is equivalent to whatever else is true in its place.
+    // A mutant that is neither an integral nor a density is equivalent to any other true statement
+    // in its place.
     if rows.len() == known_rows {
         return Ok(true);
     }

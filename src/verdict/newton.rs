@@ -1,8 +1,8 @@
-//! States on a level set that has no parametrisation: Newton's method in f64.
+//! States on a level set without parametrisation: Newton's method in f64.
 //!
-//! The state found lies near the level, not on it. It is handed on as a box in which Krawczyk's operator
-//! proves that there is a point of the level; where it does not, there is no state. What such boxes
-//! refute is refuted; what holds at all of them is not proved by that.
+//! The state found lies near the level, not on it. It is passed on as a box in which Krawczyk's
+//! operator proves that there is a point of the level; if it does not, there is no state. A claim
+//! refuted on such boxes is refuted; a claim that holds on all of them is not thereby proved.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,15 +13,15 @@ use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 
-/// Quadratic convergence needs far fewer; a start that takes more is given up.
+/// Largest number of Newton steps; quadratic convergence needs far fewer.
 const MAX_STEPS: usize = 60;
-/// Boxes that are tried about a point, each wider than the one before.
+/// Number of boxes tried around a point, each wider than the last.
 const BOXES: usize = 6;
 const WIDER: f64 = 8.0;
-/// A radius above 0, where a point is on the level to the last digit.
+/// A positive radius for points that are on the level to the last digit.
 const SMALLEST: f64 = 1e-300;
 
-/// The level functions and their gradients on a tape.
+/// Level functions and their gradients on a tape.
 #[derive(Clone)]
 pub struct Newton {
     tape: Tape,
@@ -31,7 +31,7 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// Prepares the equations that `kept` selects.
+    /// Prepares the equations selected by `kept`.
     pub fn new(model: &Model, kept: &[bool]) -> Result<Self, Fault> {
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let functions: Vec<&LevelFunction> = model
@@ -75,7 +75,7 @@ impl Newton {
         }
     }
 
-    /// A point near the level, from `start`.
+    /// Finds a point near the level, from `start`.
     fn solve(&self, start: &[f64]) -> Option<Vec<f64>> {
         let mut point = start.to_vec();
         let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
@@ -88,7 +88,7 @@ impl Newton {
             for (x, dx) in point[self.parameters..].iter_mut().zip(step.iter()) {
                 *x -= dx;
             }
-            // Steps shrink until rounding stops them.
+            // Steps shrink until they reach rounding errors.
             if size == 0.0 || (size >= last && size < f64::EPSILON.sqrt() * self.norm(&point)) {
                 return Some(point[self.parameters..].to_vec());
             }
@@ -101,7 +101,7 @@ impl Newton {
         DVector::from_column_slice(&point[self.parameters..]).norm()
     }
 
-    /// The step J⁺F.
+    /// Computes the step J⁺F.
     fn step(&self, outputs: &[f64]) -> Option<DVector<f64>> {
         let (values, slopes) = outputs.split_at(self.equations);
         let jacobian = DMatrix::from_row_slice(self.equations, self.dimension, slopes);
@@ -111,10 +111,12 @@ impl Newton {
         step.iter().all(|x| x.is_finite()).then_some(step)
     }
 
-    /// The radii of a box about a state in which there is exactly one point of the level with the same
-    /// other coordinates: as many of these are moved as there are equations.
+    /// Finds the radii of a box around a state that contains exactly one point of the level with
+    /// the same remaining coordinates; the number of coordinates that move is the number of
+    /// equations.
     ///
-    /// With C ≈ J⁻¹ for the coordinates that move, −C F(x) + (1 − C J(X)) (X − x) lies inside X − x.
+    /// With C ≈ J⁻¹ for the coordinates that move, −C F(x) + (1 − C J(X)) (X − x) lies inside X −
+    /// x.
     fn box_about(&self, parameters: &[Balls<1>], state: &[f64]) -> Option<Vec<f64>> {
         let mut evaluator = Evaluator::new(&self.tape, Ball::<1>);
         let mut at = |radii: &[f64]| -> Option<Vec<Balls<1>>> {
@@ -135,7 +137,7 @@ impl Newton {
         let magnitude = |i: usize, of: &dyn Fn(usize) -> f64| -> f64 {
             (0..self.equations).map(|k| inverse[(i, k)].abs() * of(k)).sum()
         };
-        // Twice what rounding may add to a sum of so many products.
+        // Twice the rounding error of a sum of this many products.
         let slack = 1.0 + 4.0 * (self.equations + 4) as f64 * f64::EPSILON;
         let offset: Vec<f64> = (0..self.equations)
             .map(|i| magnitude(i, &|k| functions[k].mid[0].abs() + functions[k].rad[0]) * slack)
@@ -168,7 +170,7 @@ impl Newton {
     }
 }
 
-/// As many columns as there are rows, each the largest of what those before it leave.
+/// Selects one column for each row, each the largest after elimination of the earlier ones.
 fn leading_columns(matrix: &DMatrix<f64>) -> Option<Vec<usize>> {
     let mut rest = matrix.clone();
     let mut chosen = Vec::new();

@@ -1,6 +1,6 @@
-//! Is an integral more than a function of what every case conserves?
+//! Independence of an integral from the integrals common to all cases.
 //!
-//! An enclosure that excludes 0 shows that it is; that it is *not* takes a proof, as any identity.
+//! An enclosure that excludes 0 shows independence; dependence takes a proof, like any identity.
 
 use super::bench::Bench;
 use super::evidence::{Independence, Verdict};
@@ -11,8 +11,8 @@ use super::recorded::Recorded;
 use super::sampler::Sampler;
 
 impl Bench<'_> {
-    /// For proved integrals whose gradient no enclosure shows to be independent of those of the
-    /// level functions and the energy: is it a combination of them, or is that not known?
+    /// Decides, for proved integrals not shown by enclosures to be independent of the level
+    /// functions and the energy, whether they are functions of these.
     pub(super) fn settle_novelty(
         &self,
         sampler: &Sampler,
@@ -27,7 +27,7 @@ impl Bench<'_> {
                     && !seen
             })
             .collect();
-        // An enclosure may have shown already that it is not constant on the level.
+        // An enclosure may already have shown that it is not constant on the level.
         let asked = |item: &Recorded<'_>, known: Option<Independence>| {
             let level = (known != Some(Independence::General)).then_some(&item.novelty.off_level);
             let general = Some(&item.novelty.off_general).filter(|group| !group.is_empty());

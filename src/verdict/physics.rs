@@ -1,4 +1,4 @@
-//! What is physically impossible but mathematically meaningful runs, with a warning.
+//! Warnings for states that are physically impossible but mathematically meaningful.
 
 use nalgebra::{Matrix3, Vector3};
 use num_traits::One;
@@ -9,7 +9,7 @@ use crate::graph::Expr;
 use crate::mechanics::{Phase, System};
 use crate::number::ball::Balls;
 
-/// The quantities that are looked at: m, I by rows, R₁ + R₂, R₁R₂, 1 + k(R₁+R₂) + k²R₁R₂, R, c.
+/// Returns the quantities to be checked: m, I by rows, R₁ + R₂, R₁R₂, 1 + k(R₁+R₂) + k²R₁R₂, R, c.
 pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let at = &phase.configuration;
     let named = |name: &str| at.named(name);
@@ -34,7 +34,8 @@ pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     outputs
 }
 
-/// Is I different from its transpose at some state? No equation of motion is meant then.
+/// Whether I differs from its transpose at some state, for which the equations of motion are not
+/// meant.
 pub fn is_asymmetric(values: &[&Balls<LANES>]) -> bool {
     let pairs = [(2, 4), (3, 7), (6, 8)];
     values.len() > 9
@@ -47,7 +48,7 @@ pub fn is_asymmetric(values: &[&Balls<LANES>]) -> bool {
         })
 }
 
-/// One warning for each kind of impossibility, with how often it occurred.
+/// Returns one warning for each kind of impossibility, with the number of states.
 pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
     let mut counts = [0usize; KINDS.len()];
     let mut defined = 0;
@@ -72,7 +73,7 @@ pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
         .collect()
 }
 
-/// Places among the outputs.
+/// Index among the outputs.
 const SUM_OF_RADII: usize = 10;
 const PRODUCT_OF_RADII: usize = 11;
 const DETERMINANT: usize = 12;
@@ -112,14 +113,14 @@ enum Inertia {
 }
 
 impl Inertia {
-    /// Is there a body with the symmetric part of `tensor` for its inertia?
+    /// Classifies the symmetric part of `tensor`: whether some body has it as its inertia.
     fn of(tensor: &Matrix3<f64>) -> Self {
         let inertia = (tensor + tensor.transpose()) * 0.5;
         if inertia.cholesky().is_none() {
             return Self::Indefinite;
         }
-        // I_k ≤ tr I - I_k for each k: tr I - 2I = 2∫ρρᵀdm has no negative eigenvalue. A plate or a
-        // rod has one that is 0, and rounding may make it negative.
+        // I_k ≤ tr I - I_k for each k: tr I - 2I = 2∫ρρᵀdm has no negative eigenvalue. That of a
+        // plate or a rod has an eigenvalue 0, which rounding may make negative.
         let sum = inertia.trace() * (1.0 + 64.0 * f64::EPSILON);
         match (Matrix3::from_diagonal_element(sum) - inertia * 2.0).cholesky() {
             Some(_) => Self::Possible,

@@ -1,4 +1,4 @@
-//! Everything about a case at one state: what `eval` shows.
+//! Evaluation of all quantities of a case at one state, for `eval`.
 
 use super::sampler::Sampler;
 use super::{JudgeError, antiderivative_value};
@@ -20,42 +20,43 @@ pub type Named = (String, Vec<String>);
 /// Decimal digits of a number; `None` where it is undefined.
 pub type Digits = Option<String>;
 
-/// A case at one state, its numbers as enclosures or as digits.
+/// All quantities of a case at one state, as enclosures or as digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointReport<N = Enclosed> {
-    /// The free parameters with the values they had.
+    /// Free parameters with their values.
     pub parameters: Vec<Named>,
-    /// The state.
+    /// State variables with their values.
     pub state: Vec<Named>,
-    /// The level equations with the value of left minus right.
+    /// Level equations with the difference of their sides.
     pub level: Vec<(String, N)>,
-    /// The time derivatives of the state's components.
+    /// Time derivatives of the state's components.
     pub field: Vec<N>,
-    /// Σ ∂v_i/∂x_i in all components.
+    /// Divergence Σ ∂v_i/∂x_i over all components.
     pub divergence: N,
-    /// The same less the cofactors of the level functions.
+    /// Divergence minus the cofactors of the level functions.
     pub level_divergence: N,
-    /// χ with div v = (χ,ω), for the rubber systems.
+    /// Covector χ with div v = (χ,ω), for the rubber systems.
     pub chi: Option<[N; 3]>,
-    /// The criterion, for systems that have one.
+    /// Criterion for a density of the configuration, for systems that have one.
     pub criterion: Option<N>,
-    /// ½(ω,Ĩω) + U, for bodies.
+    /// Energy ½(ω,Ĩω) + U, for bodies.
     pub energy: Option<N>,
-    /// What was put in for antiderivatives, whose constants are free.
+    /// Values chosen for antiderivatives, whose constants are free.
     pub antiderivatives: Vec<String>,
-    /// Name, value and residual of each claim, by components; a claim may be about no formula.
+    /// Name, value and residual of each claim, by components; a claim without a formula has no
+    /// value.
     pub claims: Vec<(String, Vec<N>, Vec<N>)>,
 }
 
-/// Bits in which enclosures are computed: near misses of 10⁻²⁰ and less show.
+/// Precision in bits of enclosures: near misses of 10⁻²⁰ and less are visible.
 const BITS: u32 = 160;
-/// Bits a decimal digit takes, and those that are granted beside.
+/// Number of bits for a decimal digit, followed by the number of spare bits.
 const BITS_PER_DIGIT: f64 = 3.33;
 const SPARE_BITS: u32 = 64;
-/// Each try has twice the bits of the one before.
+/// Number of attempts, each with twice the precision of the last.
 const TRIES: u32 = 5;
 
-/// Evaluates everything at `state`, or at state `index` of the seed where it is not given; free
+/// Evaluates all quantities at `state`, or at state `index` of the seed without one; free
 /// parameters have the values of that index.
 pub fn evaluate(
     case: &Case,
@@ -68,9 +69,9 @@ pub fn evaluate(
     Ok(scene.report(values.iter().map(|value| Some(value.as_ref()?.enclosure())).collect()))
 }
 
-/// The same to `wanted` significant decimal digits, all of them right.
+/// Evaluates all quantities to `wanted` significant decimal digits, all of them correct.
 ///
-/// A number that many times as many bits do not tell from 0 is written as `0`.
+/// A number that the highest precision cannot separate from 0 is written as `0`.
 pub fn evaluate_digits(
     case: &Case,
     state: Option<&[Rational]>,
@@ -96,7 +97,7 @@ pub fn evaluate_digits(
         bits *= 2;
         for (value, digits) in values.iter().zip(&mut found) {
             let Some(value) = value.as_ref().filter(|_| digits.is_none()) else { continue };
-            // So near to 0, or to the middle of two decimals, as to be there.
+            // The value is 0, or midway between two decimals, as far as the precision shows.
             *digits = match value.excludes_zero() {
                 false => Some("0".to_string()),
                 true => value.midpoint().decimal(wanted),
@@ -106,13 +107,13 @@ pub fn evaluate_digits(
     Ok(scene.report(found))
 }
 
-/// A case at a state: what is to be computed, and from which numbers.
+/// A case at a state: the quantities to be computed, and the input numbers.
 struct Scene<'c> {
     case: &'c Case,
     point: Vec<Rational>,
     tape: Tape,
     inputs: usize,
-    /// How many outputs each part of the report has.
+    /// Number of outputs of each part of the report.
     counts: Vec<usize>,
 }
 
@@ -128,7 +129,7 @@ impl<'c> Scene<'c> {
         let sampler = Sampler::new(case, &level, seed)?;
         let free = model.free_components();
         let drawn = sampler.printed(index, f64::MANTISSA_DIGITS);
-        // A state that is given may exist where the one that is drawn does not.
+        // A given state may exist where the drawn one does not.
         let drawn = &drawn[..if state.is_some() { free } else { drawn.len() }];
         let mut point: Vec<Rational> = drawn
             .iter()
@@ -175,7 +176,7 @@ impl<'c> Scene<'c> {
         evaluator.outputs().cloned().collect()
     }
 
-    /// The report with these values of the outputs; what a claim lacks is the default.
+    /// Makes the report from the values of the outputs; missing values of a claim are the default.
     fn report<N: Clone + Default>(&self, values: Vec<N>) -> PointReport<N> {
         let model = &self.case.model;
         let mut values = values.into_iter();
@@ -210,7 +211,7 @@ impl<'c> Scene<'c> {
     }
 }
 
-/// Values in the order of a tape's inputs, by the names of parameters and of state variables.
+/// Groups values in the order of a tape's inputs by the names of parameters and of state variables.
 pub(crate) fn named(model: &Model, values: &[String]) -> (Vec<Named>, Vec<Named>) {
     let mut rest = values;
     let mut take = |name: &str, count: usize| {

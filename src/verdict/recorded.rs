@@ -1,4 +1,4 @@
-//! What is recorded about a case before any state is drawn.
+//! Expressions recorded for a case before any state is drawn.
 
 use std::ops::Range;
 
@@ -14,11 +14,11 @@ use crate::mechanics::calculus::{Jet, rejection};
 use crate::mechanics::{LevelEquation, LevelFunction, Origin, Phase, System};
 use crate::number::Enclosing;
 
-/// A claim with everything recorded about it.
+/// A claim with all expressions recorded for it.
 pub struct Recorded<'c> {
     pub claim: &'c Claim,
     pub residual: Vec<Expr>,
-    /// What the claim's formulas are as they are written: they have a value where a state counts.
+    /// Values of the claim's formulas as written, which exist where a state counts.
     pub requirement: Vec<Expr>,
     pub context: Context,
     pub novelty: Novelty,
@@ -26,8 +26,8 @@ pub struct Recorded<'c> {
     pub wider: Vec<Wider>,
 }
 
-/// The components of formulas, with a value exactly where all that is written has one; those that
-/// have one everywhere are left out.
+/// Records the components of formulas so that they are defined exactly where everything written is;
+/// components that are defined everywhere are omitted.
 fn literal_values<'f>(
     phase: &Phase<'_, Expr>,
     formulas: impl IntoIterator<Item = &'f Formula>,
@@ -36,7 +36,7 @@ fn literal_values<'f>(
     values.filter(|value| !value.is_always_defined()).collect()
 }
 
-/// A wider place than the claim's own, with what vanishes if the claim holds there too.
+/// A wider place than the claim's, with the values that vanish if the claim holds there too.
 pub struct Wider {
     pub place: Place,
     pub residual: Vec<Expr>,
@@ -44,7 +44,7 @@ pub struct Wider {
 }
 
 impl<'c> Recorded<'c> {
-    /// Records the residual of a claim, there and in wider places, and its context.
+    /// Records the residual of a claim, at its place and in wider ones, and its context.
     pub fn new(claim: &'c Claim, jet: &Jet<'_, Expr>) -> Self {
         let residual = |place: &Place| claim.kind.residual(jet, &place.kept);
         let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
@@ -56,7 +56,7 @@ impl<'c> Recorded<'c> {
             residual: residual(&claim.place),
             requirement: {
                 let mut values = literal_values(&jet.phase, claim.kind.formulas());
-                // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) has no value.
+                // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
                 if let Kind::Density(density) = &claim.kind {
                     let density = jet.phase.evaluate_literally(&density.0).components();
                     values.extend(density.iter().map(|value| literally(|| value.recip())));
@@ -81,29 +81,29 @@ impl<'c> Recorded<'c> {
     }
 }
 
-/// What is asked of every case, whatever it claims.
+/// Expressions that are needed for every case, whatever it claims.
 pub struct Common {
     pub field: Vec<Expr>,
-    /// The formulas of the system as they are written: without a value of theirs there is no state.
+    /// Formulas of the system as written: without their values there is no state.
     requirement: Vec<Expr>,
-    /// Those of the level functions.
+    /// Formulas of the level functions as written, by equation.
     level_requirement: Vec<Vec<Expr>>,
-    /// The level functions, zero on the level.
+    /// Level functions, zero on the level.
     pub level: Vec<Expr>,
-    /// Their rates along the motion.
+    /// Rates of the level functions along the motion.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
-    /// P + Pᵀ of the bracket of Hamilton's equations, zero where it is one.
+    /// P + Pᵀ for the bracket of Hamilton's equations, zero where it is skew.
     pub symmetric: Vec<Expr>,
-    /// The formulas with an ∫ among the equations of motion and the new variables, each with what is
-    /// zero exactly when its ∫ are functions of their variables.
+    /// Formulas with an ∫ among the equations of motion and the new variables, each with values
+    /// that vanish exactly when its ∫ are functions of their variables.
     pub quadratures: Vec<(String, Vec<Expr>)>,
-    /// For each level function of the user's: its gradient less its part along those before it.
+    /// For each level function of the user, its gradient minus the projection on those before it.
     pub dependence: Vec<Vec<Expr>>,
 }
 
 impl Common {
-    /// Records it.
+    /// Records these expressions.
     pub fn of(jet: &Jet<'_, Expr>) -> Self {
         let rate = |function| jet.lie_derivative(|at| at.level_function(function));
         let phase = &jet.phase;
@@ -153,7 +153,7 @@ impl Common {
 }
 
 impl Common {
-    /// What has a value wherever there is a state at which these equations of the level hold.
+    /// Returns the values that exist at every state at which these equations of the level hold.
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
         let level = level.flat_map(|(values, _)| values);
@@ -163,20 +163,20 @@ impl Common {
 
 /// The outputs of a tape for some claims.
 pub struct Layout {
-    /// What has a value wherever there is a state.
+    /// Values that exist at every state.
     pub common: Range<usize>,
-    /// The outputs of each claim.
+    /// Outputs of each claim.
     pub spans: Vec<Span>,
 }
 
 impl Layout {
-    /// At which lanes there is a state, with all that a claim requires.
+    /// Whether each lane contains a state with all values that a claim requires.
     pub fn existing<D: Enclosing>(&self, values: &Values<D>, span: &Span) -> Vec<bool> {
         values.existing(&[self.common.clone(), span.requirement.clone()])
     }
 }
 
-/// Where a claim's outputs stand in a tape; what is not asked for is an empty range.
+/// Positions of a claim's outputs in a tape; outputs that are not needed have an empty range.
 pub struct Span {
     pub residual: Range<usize>,
     pub requirement: Range<usize>,
@@ -189,7 +189,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// Appends a claim's outputs, with its context where that is asked for.
+    /// Appends a claim's outputs, with its context if requested.
     pub fn lay_out(item: &Recorded<'_>, with_context: bool, outputs: &mut Vec<Expr>) -> Self {
         let mut extend = |some: &[Expr]| {
             let start = outputs.len();

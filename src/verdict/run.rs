@@ -1,4 +1,4 @@
-//! A tape of residuals, run over blocks of states in any number domain.
+//! Evaluation of a tape of residuals over blocks of states in any number domain.
 
 use std::ops::Range;
 
@@ -14,15 +14,15 @@ use super::sampler::{LANES, Maker, Sampler};
 /// Balls over f64, the first domain of the ladder.
 pub type Doubles = Ball<LANES>;
 
-/// The values of some outputs of a graph at one block of states.
+/// Values of some outputs of a graph at one block of states.
 pub struct Values<D: Domain> {
     blocks: Vec<D::Block>,
-    /// Parameters and states.
+    /// Values of parameters and states.
     states: Vec<D::Block>,
 }
 
 impl<D: Enclosing> Values<D> {
-    /// At which lanes there is a state, with all outputs of some ranges.
+    /// Whether each lane contains a state with all outputs of some ranges defined.
     pub fn existing(&self, ranges: &[Range<usize>]) -> Vec<bool> {
         let outputs = ranges.iter().flat_map(|range| &self.blocks[range.clone()]);
         let mut existing = vec![true; D::LANES];
@@ -36,21 +36,21 @@ impl<D: Enclosing> Values<D> {
 }
 
 impl<D: Domain> Values<D> {
-    /// Output `index`.
+    /// Returns output `index`.
     pub fn output(&self, index: usize) -> &D::Block {
         &self.blocks[index]
     }
 
-    /// The outputs of a range.
+    /// Returns the outputs of a range.
     pub fn range(&self, range: Range<usize>) -> Vec<&D::Block> {
         self.blocks[range].iter().collect()
     }
 }
 
-/// Blocks that are computed together at most: enough for many threads, few to be kept.
+/// Largest number of blocks computed together: enough for many threads, few enough to keep.
 const MOST_BLOCKS: u64 = 64;
 
-/// Blocks in runs to be computed together, ever longer: what is settled early should cost little.
+/// Divides blocks into waves of increasing length, so that claims decided early cost little.
 pub fn waves(blocks: Range<u64>) -> impl Iterator<Item = Range<u64>> {
     let (mut next, mut length) = (blocks.start, 1);
     std::iter::from_fn(move || {
@@ -60,26 +60,26 @@ pub fn waves(blocks: Range<u64>) -> impl Iterator<Item = Range<u64>> {
     })
 }
 
-/// Evaluates `outputs` of `graph` at each block of inputs.
+/// A tape that evaluates `outputs` of `graph` at blocks of inputs.
 pub struct Run {
     tape: Tape,
     antiderivatives: usize,
 }
 
 impl Run {
-    /// Lays out the tape; `inputs` are the parameters and the state, antiderivatives follow them.
+    /// Lays out the tape; `inputs` are the parameters and the state, followed by antiderivatives.
     pub fn new(graph: &Graph, outputs: &[Expr], inputs: usize) -> Self {
         let antiderivatives = graph.inputs().saturating_sub(inputs);
         Self { tape: Tape::new(graph, outputs), antiderivatives }
     }
 
-    /// The outputs at one block of parameters and states.
+    /// Computes the outputs at one block of parameters and states.
     pub fn at<D: Domain + Clone>(&self, domain: &D, states: &[D::Block]) -> Values<D> {
         self.with(&mut Evaluator::new(&self.tape, domain.clone()), domain, states)
     }
 
-    /// The outputs at some blocks of states as balls, computed by all threads, in the order of the
-    /// blocks: `make` gives the states of a block.
+    /// Computes the outputs at some blocks of states as balls, on all threads, in the order of the
+    /// blocks; `make` returns the states of a block.
     pub fn at_blocks(
         &self,
         sampler: &Sampler,

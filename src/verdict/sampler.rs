@@ -1,4 +1,5 @@
-//! States at a place: random draws, turned into parameters and a state inside the number domain.
+//! Sampling of states at a place: random draws, from which the number domain computes parameters
+//! and a state.
 
 use std::sync::Arc;
 
@@ -20,35 +21,35 @@ use crate::scalar::Scalar;
 use super::newton::Newton;
 use super::{JudgeError, coverage};
 
-/// What is granted beside the bits and digits of a printed state.
+/// Number of spare bits in a printed state, followed by the number of spare digits.
 const SPARE_BITS: u32 = 64;
 const SPARE_DIGITS: usize = 8;
-/// States a run of a tape treats at once.
+/// Number of states in one run of a tape.
 pub const LANES: usize = 64;
 
-/// Draws that are tried for a state that has to lie in given ranges.
+/// Number of draws tried for a state that has to lie in given ranges.
 const ATTEMPTS: u32 = 64;
 
-/// Makes the inputs of a case's tapes at one place.
+/// A sampler of the inputs of a case's tapes at one place.
 #[derive(Clone)]
 pub struct Sampler {
     seed: u64,
     draws: Draws,
     recipes: Vec<Draw>,
-    /// From draws to parameters and state.
+    /// Parameters and state as functions of the draws.
     graph: Arc<Graph>,
     made: Vec<Expr>,
-    /// How the level is solved, and what must not vanish, lest a part of it is left out.
+    /// Solution of the level, with the values that must not vanish, or a part of it is missed.
     solution: Option<Arc<Solution>>,
     pivots: Arc<[Pivot]>,
-    /// How many of the draws make the parameters.
+    /// Number of draws for the parameters.
     parameter_draws: usize,
     dimension: usize,
-    /// The level equations that hold.
+    /// Whether each level equation holds at the states.
     kept: Vec<bool>,
-    /// Makes parameters and state, without a value where they are out of range.
+    /// Tape for parameters and state, undefined where they are out of range.
     tape: Tape,
-    /// Makes them wherever it can.
+    /// Tape for parameters and state wherever they exist.
     unguarded: Tape,
     /// Whether some draws lead to no state.
     is_guarded: bool,
@@ -56,13 +57,13 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// A sampler of states at `place`.
+    /// Makes a sampler of states at `place`.
     pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
         let (model, kept) = (&case.model, &place.kept);
         let some = kept.iter().any(|kept| *kept);
         let is_charted = match &case.chart {
             Chart::Rolling | Chart::Sphere | Chart::Free => true,
-            // A chart of the whole level knows nothing of its equations one by one.
+            // A chart of the whole level does not give its equations separately.
             Chart::Given(_) => kept.iter().all(|kept| *kept),
             Chart::Equations => false,
         };
@@ -117,39 +118,39 @@ impl Sampler {
         })
     }
 
-    /// Are the states found numerically, with an estimated rather than a proved distance from the
-    /// level?
+    /// Whether the states are found numerically, with an estimated rather than a proved distance
+    /// from the level.
     pub fn is_numerical(&self) -> bool {
         self.newton.is_some()
     }
 
-    /// Which of the level's equations hold at the states.
+    /// Whether each of the level's equations holds at the states.
     pub fn kept(&self) -> &[bool] {
         &self.kept
     }
 
-    /// Parameters and state of the states `start..start + LANES`, as balls.
+    /// Computes parameters and state of the states `start..start + LANES`, as balls.
     pub fn balls(&self, start: u64) -> Vec<Balls<LANES>> {
         self.maker().balls(start)
     }
 
-    /// What makes many blocks of balls.
+    /// Makes a reusable source of many blocks of balls.
     pub(super) fn maker(&self) -> Maker<'_> {
         Maker { sampler: self, evaluator: Evaluator::new(&self.tape, Ball::<LANES>) }
     }
 
-    /// The same for `lanes` states in another domain; states found numerically are known in f64
-    /// only.
+    /// Computes parameters and state for `lanes` states in another domain; states found numerically
+    /// are known in f64 only.
     pub fn states<D: Domain + Clone>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
         self.made_in(domain, &self.numbers(lanes, start))
     }
 
-    /// The draws of `lanes` states in a domain.
+    /// Returns the draws of `lanes` states in a domain.
     pub fn drawn<D: Domain>(&self, domain: &D, lanes: usize, start: u64) -> Vec<D::Block> {
         self.columns(domain, &self.numbers(lanes, start))
     }
 
-    /// Parameters and one state made from given numbers in place of draws.
+    /// Computes parameters and one state from given numbers instead of draws.
     pub fn made_from<D: Domain + Clone>(&self, domain: &D, numbers: &[Rational]) -> Vec<D::Block> {
         self.made_in(domain, &[numbers.to_vec()])
     }
@@ -160,9 +161,9 @@ impl Sampler {
         attempts.into_iter().enumerate().map(state).collect()
     }
 
-    /// For each of some states, the first attempt at which the draws lead to a state, by enclosures
-    /// in f64; the first of all where none does. With few parameter sets, each state has those of
-    /// its set.
+    /// Finds, for each of some states, the first attempt at which the draws lead to a state, by
+    /// enclosures in f64; the first of all if none does. With few parameter sets, each state uses
+    /// those of its set.
     fn attempts(&self, start: u64, lanes: usize, sets: Option<usize>) -> Vec<u32> {
         let mut attempts = vec![0; lanes];
         if !self.is_guarded {
@@ -198,7 +199,7 @@ impl Sampler {
         attempts
     }
 
-    /// The draws of a state in f64, with the parameters of its set where there are few.
+    /// Returns the draws of a state in f64, with the parameters of its set if there are few.
     fn nearest(&self, index: u64, attempt: u32, sets: Option<usize>) -> Vec<(f64, bool)> {
         let mut own = self.draws.nearest(self.seed, index, attempt);
         if let Some(sets) = sets {
@@ -209,17 +210,17 @@ impl Sampler {
         own
     }
 
-    /// Where each of the numbers that are drawn can be.
+    /// Returns the range of each drawn number.
     pub fn extents(&self) -> Vec<Extent> {
         self.recipes.iter().map(extent).collect()
     }
 
-    /// Is a number drawn from a list of several?
+    /// Whether some number is drawn from a list of several.
     pub fn has_lists(&self) -> bool {
         self.recipes.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
     }
 
-    /// The same states with the listed numbers fixed.
+    /// Makes a sampler of the same states with the listed numbers fixed.
     pub fn with(&self, fixed: &[Option<Rational>]) -> Self {
         let one = |(draw, fixed): (&Draw, &Option<Rational>)| match fixed {
             Some(value) => Draw::OneOf(vec![value.clone()]),
@@ -229,7 +230,7 @@ impl Sampler {
         Self { draws: Draws::new(&recipes), recipes, ..self.clone() }
     }
 
-    /// The parameters that are drawn from lists, with the values they have at every state.
+    /// Lists the parameters drawn from lists, with the values they have at every state.
     pub fn listed(&self, case: &Case) -> String {
         let mut draws = self.recipes.iter();
         let mut listed = Vec::new();
@@ -251,13 +252,13 @@ impl Sampler {
         listed.join(", ")
     }
 
-    /// How each of the numbers is drawn.
+    /// Returns the distribution of each number.
     pub fn recipes(&self) -> &[Draw] {
         &self.recipes
     }
 
-    /// Values of `graph`, which starts from parameters and states, as values of a graph that starts
-    /// from draws, those in `fixed` replaced by constants.
+    /// Composes values of `graph`, a function of parameters and states, with the map from draws,
+    /// replacing the draws in `fixed` by constants.
     ///
     /// Further inputs of `graph` (antiderivatives) follow the draws.
     pub fn compose(
@@ -278,7 +279,7 @@ impl Sampler {
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
     }
 
-    /// The same for groups of values; states, too, have a value wherever the values matter.
+    /// Composes groups of values; states, too, are defined wherever the values matter.
     pub fn compose_groups(
         &self,
         graph: &Graph,
@@ -291,7 +292,7 @@ impl Sampler {
                 graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
             };
             let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
-            // √x √x is x where x ≥ 0, and what is required has no value elsewhere.
+            // √x √x is x where x ≥ 0, and the required value is undefined elsewhere.
             let required = literally(|| {
                 values_of(&mut groups.iter().flat_map(|group| &group.required).copied())
             });
@@ -308,7 +309,8 @@ impl Sampler {
         groups.map(|groups| (composed, groups)).ok_or(Fault::ForeignValue)
     }
 
-    /// Parameters, states and further inputs of `graph` from draws, and all values on the way.
+    /// Records parameters, states and further inputs of `graph` as functions of draws, with all
+    /// intermediate values.
     fn inputs_from(
         &self,
         graph: &Graph,
@@ -328,27 +330,27 @@ impl Sampler {
         Some((inputs, values))
     }
 
-    /// From draws to parameters and states.
+    /// Returns the graph from draws to parameters and states.
     pub fn graph(&self) -> &Graph {
         &self.graph
     }
 
-    /// What must not vanish at a state, lest a part of the place is left out.
+    /// Returns the values that must not vanish at a state, or a part of the place is missed.
     pub fn pivots(&self) -> &[Pivot] {
         &self.pivots
     }
 
-    /// How the level is solved, if it is.
+    /// Returns the solution of the level, if there is one.
     pub fn solution(&self) -> Option<&Solution> {
         self.solution.as_deref()
     }
 
-    /// How many of the draws make the parameters.
+    /// Number of draws for the parameters.
     pub fn parameter_draws(&self) -> usize {
         self.parameter_draws
     }
 
-    /// What each of the draws is in a field.
+    /// Returns the distribution of each draw in a field.
     pub fn sources(&self) -> Vec<Source> {
         let source = |draw: &Draw| match draw {
             Draw::Sign => Source::Sign,
@@ -357,7 +359,7 @@ impl Sampler {
         self.recipes.iter().map(source).collect()
     }
 
-    /// Checks that a parametrisation typed by the user fills the level set.
+    /// Checks that a parametrisation given by the user fills the level set.
     pub fn check_coverage(&self, case: &Case) -> Result<(), JudgeError> {
         let Chart::Given(_) = &case.chart else { return Ok(()) };
         let dimension = self.dimension.saturating_sub(case.model.level.len());
@@ -368,7 +370,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// States in another domain with few parameter sets: one for every `LANES / sets` states.
+    /// Computes states in another domain with few parameter sets: one for every `LANES / sets`
+    /// states.
     pub fn states_sharing_parameters<D: Domain + Clone>(
         &self,
         domain: &D,
@@ -386,7 +389,7 @@ impl Sampler {
         self.made_in(domain, &numbers)
     }
 
-    /// One of those states in a domain of one lane.
+    /// Computes one of these states in a domain of one lane.
     pub fn state_sharing_parameters<D: Domain + Clone>(
         &self,
         domain: &D,
@@ -400,7 +403,8 @@ impl Sampler {
         self.made_in(domain, &[values])
     }
 
-    /// States in another domain near the ends of ranges and near 0, with few parameter sets.
+    /// Computes states in another domain near the ends of ranges and near 0, with few parameter
+    /// sets.
     pub fn states_at_edges<D: Domain + Clone>(
         &self,
         domain: &D,
@@ -416,7 +420,7 @@ impl Sampler {
         self.made_in(domain, &(0..LANES).map(state).collect::<Vec<_>>())
     }
 
-    /// The draws of some states, a block each.
+    /// Converts the draws of some states to a domain, one block for each draw.
     fn columns<D: Domain>(&self, domain: &D, lanes: &[Vec<Rational>]) -> Vec<D::Block> {
         (0..self.draws.len())
             .map(|k| {
@@ -426,14 +430,14 @@ impl Sampler {
             .collect()
     }
 
-    /// Parameters and states made from draws.
+    /// Computes parameters and states from draws.
     fn made_in<D: Domain + Clone>(&self, domain: &D, lanes: &[Vec<Rational>]) -> Vec<D::Block> {
         let mut evaluator = Evaluator::new(&self.tape, domain.clone());
         evaluator.run(&self.columns(domain, lanes));
         evaluator.outputs().cloned().collect()
     }
 
-    /// Parameters and state of one state, exact where they are rational.
+    /// Computes parameters and state of one state, exact where they are rational.
     pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
         self.exact_from(self.numbers(1, index).swap_remove(0))
     }
@@ -449,8 +453,8 @@ impl Sampler {
             .collect()
     }
 
-    /// The same as text, for what is not rational so many digits that states of `bits` bits are
-    /// told apart: with them a residual that was computed from as many bits is found again.
+    /// Prints parameters and state; irrational numbers with enough digits to distinguish states of
+    /// `bits` bits, so that a residual computed in this precision can be reproduced.
     pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
         if bits > f64::MANTISSA_DIGITS {
             return self.printed_from(&self.numbers(1, index).swap_remove(0), bits);
@@ -465,7 +469,7 @@ impl Sampler {
         self.exact(index).into_iter().enumerate().map(text).collect()
     }
 
-    /// A state made from given numbers as text, with digits for `bits` bits.
+    /// Prints a state made from given numbers, with digits for `bits` bits.
     pub fn printed_from(&self, numbers: &[Rational], bits: u32) -> Vec<String> {
         let domain = Precise::new(bits + SPARE_BITS);
         let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
@@ -479,19 +483,19 @@ impl Sampler {
     }
 }
 
-/// Where a number that is drawn can be.
+/// Returns the range of a drawn number.
 pub fn extent(draw: &Draw) -> Extent {
     match draw {
         Draw::Within(range) => Extent::between(&range.low, &range.high),
         Draw::Of(Line::All, _) => Extent::ALL,
         Draw::Of(Line::Positive, _) => Extent::POSITIVE,
-        // Each value is put in before anything is proved.
+        // Each value is substituted before anything is proved.
         Draw::OneOf(_) => Extent::ALL,
         Draw::Sign => Extent::SIGN,
     }
 }
 
-/// The differences of components that a level determines from the ends of their ranges.
+/// Returns the distances of components determined by a level from the ends of their ranges.
 fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     let (parameters, state) = made.split_at(case.model.free_components());
     let recipes = case.model.parameter_draws();
@@ -510,7 +514,7 @@ fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     ends.flatten().collect()
 }
 
-/// Parameters and state that have no value where some values are negative: √x has none for x < 0.
+/// Makes parameters and state undefined where some values are negative: √x is undefined for x < 0.
 fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
     let mut guarded = made.to_vec();
     literally(|| {
@@ -524,19 +528,19 @@ fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
     guarded
 }
 
-/// Makes blocks of balls, with memory of its own.
+/// A source of blocks of balls with its working memory.
 pub struct Maker<'s> {
     sampler: &'s Sampler,
     evaluator: Evaluator<'s, Ball<LANES>>,
 }
 
 impl Maker<'_> {
-    /// Parameters and state of the states `start..start + LANES`.
+    /// Computes parameters and state of the states `start..start + LANES`.
     pub fn balls(&mut self, start: u64) -> Vec<Balls<LANES>> {
         self.made(start, None)
     }
 
-    /// The same with few parameter sets and many states: one set for every `LANES / sets` states.
+    /// Computes states with few parameter sets: one set for every `LANES / sets` states.
     pub fn balls_sharing_parameters(&mut self, start: u64, sets: usize) -> Vec<Balls<LANES>> {
         self.made(start, Some(sets))
     }

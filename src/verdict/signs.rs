@@ -1,4 +1,4 @@
-//! The signs of densities that hold.
+//! Signs of densities that hold.
 
 use std::ops::Range;
 
@@ -17,26 +17,27 @@ use crate::number::mixed::Mixed;
 use crate::number::twofold::TwofoldBall;
 use crate::proof::{self, Group};
 
-/// Parameter sets over which the sign of a density is observed.
+/// Number of parameter sets for which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
-/// States near the ends of ranges, and states in exact numbers, at which it is observed.
+/// Number of states near the ends of ranges, and number of states in exact numbers, at which it is
+/// observed.
 const EDGES: usize = 2 * LANES;
 const EXACT_STATES: usize = 16;
 
-/// The signs seen of a density, negative and positive, by parameter set.
+/// Observed signs of a density, negative and positive, by parameter set.
 type Signs = [[bool; 2]; PARAMETER_SETS];
 
-/// What was seen of a density.
+/// Observations of a density.
 #[derive(Clone, Default)]
 struct Seen {
     signs: Signs,
-    /// Is there a lane at which no state is known to exist?
+    /// Whether some lane contains no state known to exist.
     is_lacking: bool,
 }
 
 impl Bench<'_> {
-    /// The signs of the densities among claims that hold, over all states for each of a few
-    /// parameter sets; a density that is nowhere known to be non-zero is none.
+    /// Finds the signs of the densities among claims that hold, over all states for each of a few
+    /// parameter sets; a density that is nowhere known to be nonzero is rejected.
     pub(super) fn settle_signs<'f, 'r: 'f>(
         &self,
         sampler: &Sampler,
@@ -98,8 +99,8 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Observes signs near the ends of ranges; with twice the digits where none is known; and exactly
-    /// where f64 knows of no state, as a root may be 0.
+    /// Observes signs near the ends of ranges; in double-double where none is known; and in exact
+    /// numbers where f64 finds no state, as a root may be 0.
     fn look_closely(
         &self,
         run: &Run,
@@ -133,7 +134,7 @@ impl Bench<'_> {
         }
     }
 
-    /// The signs that are proved, by enclosures over all states.
+    /// Proves signs by enclosures over all states.
     fn proved_signs(
         &self,
         sampler: &Sampler,
@@ -159,7 +160,7 @@ impl Bench<'_> {
     }
 }
 
-/// Notes the signs of a block of values where there is a state, by parameter set.
+/// Records the signs of a block of values at states, by parameter set.
 fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Seen]) {
     for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
         let existing = values.existing(required);
@@ -176,7 +177,7 @@ fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], see
     }
 }
 
-/// Notes the sign of one value, if it is known.
+/// Records the sign of one value, if it is known.
 fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) {
     if D::excludes_zero(block, lane)
         && let Some((mid, _)) = D::enclosure(block, lane)
@@ -185,12 +186,13 @@ fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) {
     }
 }
 
-/// One sign from what was seen, negative and positive, at each set of parameters.
+/// Combines observations, negative and positive, over the parameter sets.
 fn sign(seen: &[[bool; 2]]) -> Option<Sign> {
     if seen.contains(&[true, true]) {
         return Some(Sign::Changes);
     }
-    // Another sign for other parameters is one measure for each of them, up to a factor -1.
+    // Different signs for different parameters give one measure for each of them, up to a factor
+    // -1.
     let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
     match (positive, negative) {
         (true, _) => Some(Sign::Positive),

@@ -1,40 +1,40 @@
-//! A state as a user types it.
+//! States as typed by a user.
 
 use crate::case::Case;
 use crate::formula::canonical_name;
 use crate::number::rational::{Rational, RationalError};
 
-/// Why a state cannot be used.
+/// The reason why a state cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StateError {
-    /// Not of the form `name=value`.
+    /// The text is not of the form `name=value`.
     #[error("`{0}` is not of the form name=value, such as ω=[3/7,0,-1/2] or x=0.5")]
     Malformed(String),
-    /// A name that is no state variable.
+    /// The name is not a state variable.
     #[error("`{name}` is no state variable; this system has {known}")]
     Unknown {
-        /// The name.
+        /// Name that was given.
         name: String,
-        /// Those that are.
+        /// Names of the state variables.
         known: String,
     },
-    /// A variable with two values.
+    /// The variable has two values.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// A variable without value.
+    /// The variable has no value.
     #[error("the state has no value for `{0}`")]
     Missing(String),
-    /// A list of another length.
+    /// The list has the wrong length.
     #[error("`{name}` has {expected} components, not {found}")]
     Length {
-        /// The variable.
+        /// Name of the variable.
         name: String,
-        /// How many it has.
+        /// Number of its components.
         expected: usize,
-        /// How many were given.
+        /// Number of values given.
         found: usize,
     },
-    /// Not a number.
+    /// The text is not a number.
     #[error("{0}")]
     Number(String),
 }
@@ -58,7 +58,7 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
             let known: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             StateError::Unknown { name: name.clone(), known: known.join(", ") }
         })?;
-        // The rows of a matrix may stand in brackets of their own.
+        // The rows of a matrix may have separate brackets.
         let list = list.replace(['[', ']'], " ");
         let numbers: Result<Vec<Rational>, _> = list.split(',').map(|x| x.trim().parse()).collect();
         let numbers =
@@ -79,7 +79,7 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
     Ok(state)
 }
 
-/// What stands in the bracket that opens a text, and what follows it.
+/// Splits a text after its opening bracket into the bracket's contents and the rest.
 fn bracketed(text: &str) -> Option<(&str, &str)> {
     let mut depth = 0;
     for (place, letter) in text.char_indices() {

@@ -1,8 +1,8 @@
-//! Where else a claim holds that holds at its own place.
+//! Extends the domain on which a proved or confirmed claim holds.
 //!
-//! A proof goes no further than a proof does: beside `proved` only places stand where the residual is
-//! a constant 0, or zero in prime fields. What enclosures show adds places to what is confirmed by
-//! them, and never contradicts that a claim holds in one place only.
+//! For a proved claim, only places where the residual is a constant 0, or zero in prime fields, are
+//! added. Enclosures add places for confirmed claims, and never contradict that a claim holds in
+//! one place only.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use crate::graph::Expr;
 use crate::number::ball::Ball;
 
 impl Bench<'_> {
-    /// Finds out in which wider places the claims hold that hold at their own.
+    /// Finds the wider places in which claims hold as well.
     pub fn widen(
         &self,
         recorded: &[Recorded<'_>],

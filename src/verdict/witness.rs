@@ -1,12 +1,13 @@
-//! A state at which a claim fails, written down so that it can be typed in again.
+//! Witness of a refutation: a state at which a claim fails, printed so that it can be typed in
+//! again.
 
 use super::evidence::Witness;
 use super::point::named;
 use crate::case::Case;
 use crate::formula::Type;
 
-/// A state as it is printed, with its number under the seed if it has one, the residual that was
-/// found there, and a bound on its error.
+/// Makes a witness from a printed state, with its index under the seed if it has one, the residual
+/// there, and a bound on its error.
 pub fn witness(
     case: &Case,
     index: Option<u64>,
@@ -27,7 +28,7 @@ pub fn witness(
     Witness { index, parameters, state: state.join(" "), residual, error_bound, digits: None }
 }
 
-/// A value as `--set` and `--state` take it: a number, a list, rows of lists.
+/// Writes a value as `--set` and `--state` read it: a number, a list, or rows of lists.
 fn listed(kind: Type, components: &[String]) -> String {
     kind.listed(components, ["[", ",", "]"])
 }

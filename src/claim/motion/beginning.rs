@@ -1,4 +1,4 @@
-//! Where a motion starts that a claim is about.
+//! Initial states of the motions in claims.
 
 use super::{Stated, point};
 use crate::claim::Reader;
@@ -8,9 +8,9 @@ use crate::claim::point::read_point;
 /// The start of a motion.
 #[derive(Clone, Debug)]
 pub enum Beginning {
-    /// The state over (l, L/G) on the section of the case, at its energy.
+    /// State over (l, L/G) on the section of the case, at its energy.
     Section([Stated; 2]),
-    /// A state by its variables.
+    /// State given by its variables.
     State(Components),
 }
 
@@ -33,7 +33,7 @@ impl Beginning {
         point(from, "start")?.map(Beginning::Section).ok_or_else(|| from.missing("start"))
     }
 
-    /// How a report names it.
+    /// Returns the name of the start in reports.
     pub fn text(&self) -> String {
         match self {
             Beginning::Section([l, z]) => format!("({}, {})", l.text, z.text),

@@ -1,4 +1,4 @@
-//! Motions whose crossings stay in a part of the section, all or most of them.
+//! Motions whose section crossings stay in a part of the section, all or most of them.
 
 use super::{Beginning, Motional, Stated, count, number, stated};
 use crate::claim::Reader;
@@ -6,28 +6,29 @@ use crate::claim::Reader;
 /// A coordinate of the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// l
+    /// Angle l.
     L,
-    /// L/G
+    /// Ratio L/G.
     Z,
 }
 
-/// After some crossings, those that follow lie between two bounds, or a share of them does.
+/// The claim that, after some crossings, those that follow lie between two bounds, or a share of
+/// them does.
 #[derive(Clone, Debug)]
 pub struct Confined {
-    /// As it is typed.
+    /// Text of the claim as typed.
     text: String,
-    /// Which coordinate.
+    /// Coordinate that is bounded.
     pub axis: Axis,
-    /// The bounds.
+    /// Lower and upper bound.
     pub between: [Stated; 2],
-    /// The least share of the crossings that is to lie there.
+    /// Smallest share of the crossings that must lie between the bounds.
     pub share: f64,
-    /// Where the motion starts.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// How many crossings are looked at, and how many are left out before them.
+    /// Number of crossings to test.
     pub crossings: usize,
-    /// See there.
+    /// Number of crossings to skip before them.
     pub skip: usize,
 }
 

@@ -1,25 +1,26 @@
-//! What happens at a one-sided constraint, and when.
+//! Events at a one-sided constraint, and their times.
 
 use super::{Beginning, Motional, Stated, stated, time};
 use crate::claim::Reader;
 
-/// Something that happens at the constraint.
+/// An event at the constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touch {
-    /// The motion arrives, and stays.
+    /// Arrival of the motion, which then stays.
     Arrives,
-    /// It is free again.
+    /// Departure of the motion.
     Leaves,
 }
 
-/// The motion arrives at the constraint and leaves it at these times, and at no others.
+/// The claim that the motion arrives at the constraint and leaves it at these times, and at no
+/// others.
 #[derive(Clone, Debug)]
 pub struct Contacts {
-    /// What happens, in order.
+    /// Events with their times, in order.
     pub events: Vec<(Touch, Stated)>,
-    /// Where the motion starts.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// How long it is followed.
+    /// Length of the motion in time.
     pub time: f64,
 }
 

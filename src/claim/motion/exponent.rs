@@ -3,25 +3,25 @@
 use super::{Beginning, Motional, Stated, number, time, word};
 use crate::claim::Reader;
 
-/// Whether neighbouring motions part exponentially.
+/// Growth of the distance between neighbouring motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growth {
-    /// Chaos.
+    /// Exponential growth: chaos.
     Positive,
-    /// A regular motion, or one that is drawn to such.
+    /// No exponential growth: a regular motion, or one attracted by such.
     Zero,
 }
 
-/// The largest exponent is positive, or not; and has a value, if one is given.
+/// The claim that the largest exponent is positive, or not, with a value if one is given.
 #[derive(Clone, Debug)]
 pub struct Exponent {
-    /// Which sign is claimed.
+    /// Sign of the exponent.
     pub growth: Growth,
-    /// In the time of the equations.
+    /// Value of the exponent, in the time of the equations.
     pub value: Option<Stated>,
-    /// Where the motion starts.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// How long it is followed.
+    /// Length of the motion in time.
     pub time: f64,
 }
 

@@ -1,18 +1,18 @@
-//! Motions that tend to a periodic one.
+//! Motions that tend to a periodic motion.
 
 use super::{Beginning, Motional, Stated, count, point};
 use crate::claim::Reader;
 
-/// The crossings tend to a cycle of the section map.
+/// The claim that the crossings tend to a cycle of the section map.
 #[derive(Clone, Debug)]
 pub struct LimitCycle {
-    /// How many points the cycle has.
+    /// Number of points of the cycle.
     pub period: usize,
-    /// One of them.
+    /// One point of the cycle.
     pub point: Option<[Stated; 2]>,
-    /// Where the motion starts.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// For how many crossings it is followed.
+    /// Number of crossings to follow.
     pub crossings: usize,
 }
 

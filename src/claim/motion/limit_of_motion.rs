@@ -1,24 +1,25 @@
-//! How motions tend to a limit with a parameter.
+//! Convergence of motions to a limit as a parameter tends to 0.
 
 use super::{Beginning, Motional, Stated, count, number, time};
 use crate::claim::Reader;
 use crate::claim::limit::scalar_parameter;
 use crate::formula::Formula;
 
-/// After a time, |F at ε - F at ε = 0| = C ε^order + o(ε^order), with C as given, if it is.
+/// The claim that at a given time |F at ε - F at ε = 0| = C ε^order + o(ε^order), with the constant
+/// C if one is given.
 #[derive(Clone, Debug)]
 pub struct LimitOfMotion {
-    /// F, at the end of the motion.
+    /// Function F, at the end of the motion.
     pub function: Formula,
-    /// ε, as a component of the free parameters; `None` where it has a fixed value.
+    /// Parameter ε, as a component of the free parameters; `None` if it has a fixed value.
     pub component: Option<usize>,
-    /// The order of the error.
+    /// Order of the error.
     pub order: usize,
-    /// C
+    /// Constant C.
     pub constant: Option<Stated>,
-    /// The start of the motions.
+    /// Start of the motions.
     pub beginning: Beginning,
-    /// Their length.
+    /// Length of the motions in time.
     pub time: f64,
 }
 

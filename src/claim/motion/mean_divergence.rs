@@ -1,29 +1,29 @@
-//! The mean of div v along a motion.
+//! Mean of div v along a motion.
 
 use super::{Beginning, Motional, Stated, number, time, word};
 use crate::claim::Reader;
 
-/// What becomes of volumes along a motion.
+/// Behaviour of volumes along a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tendency {
-    /// They shrink: the motion is drawn to an attractor.
+    /// Contraction: the motion is attracted by an attractor.
     Negative,
-    /// They are kept on average.
+    /// Conservation on average.
     Zero,
-    /// They grow.
+    /// Expansion.
     Positive,
 }
 
-/// The mean of the divergence on the level has a sign; and a value, if one is given.
+/// The claim that the mean of the divergence on the level has a sign, with a value if one is given.
 #[derive(Clone, Debug)]
 pub struct MeanDivergence {
-    /// Which sign is claimed.
+    /// Sign of the mean.
     pub tendency: Tendency,
-    /// In the time of the equations.
+    /// Value of the mean, in the time of the equations.
     pub value: Option<Stated>,
-    /// Where the motion starts.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// How long it is followed.
+    /// Length of the motion in time.
     pub time: f64,
 }
 

@@ -1,7 +1,7 @@
-//! Claims about motion: what long orbits, periodic points and limits of orbits show.
+//! Claims about motion: long orbits, periodic points and limits of orbits.
 //!
-//! They have no residual that could be proved to vanish. They are observed: confirmed or refuted by
-//! numbers with their errors. Each kind is one file that says what is claimed; `observe` looks.
+//! They have no residual that could be proved to vanish, but are observed: confirmed or refuted by
+//! numbers with errors. Each kind is one file that defines the claim; `observe` measures.
 
 mod beginning;
 mod confined;
@@ -25,37 +25,37 @@ pub use mean_divergence::{MeanDivergence, Tendency};
 pub use periodic_point::{PeriodicPoint, Stability};
 pub use stated::Stated;
 
-/// A kind of claim about motion: how it is read.
+/// A kind of claim about motion, with its syntax.
 pub trait Motional: Clone {
-    /// Its key in case files, and its name in reports.
+    /// Key in case files, and name in reports.
     const NAME: &'static str;
-    /// The keys that may stand beside it.
+    /// Keys that may accompany the statement.
     const COMPANIONS: &'static [&'static str];
 
-    /// Reads it.
+    /// Reads the statement.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
 
-    /// Where the motion starts.
+    /// Returns the start of the motion.
     fn beginning(&self) -> &Beginning;
 
-    /// What is stated, in a few words.
+    /// Returns the statement in a few words.
     fn text(&self) -> String;
 }
 
 /// Lists the kinds of claims about motion; each is one [`Motional`], written in one file.
 macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
-        /// What is claimed of motions.
+        /// A claimed statement about motions, by kind.
         #[derive(Clone, Debug)]
         pub enum Motion {
             $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
         }
 
-        /// What a claim about motion can state: the keys under which the statements stand.
+        /// Keys of the statements that a claim about motion can make.
         pub const MOTIONS: &[&str] = &[$($kind::NAME),*];
 
         impl Motion {
-            /// Reads the statement that stands under `key`, one of [`MOTIONS`].
+            /// Reads the statement of `key`, one of [`MOTIONS`].
             pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
                 match key {
                     $(_ if key == $kind::NAME => Some($kind::read(from).map(Motion::$kind)),)*
@@ -63,7 +63,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The keys that may stand beside the statement under `key`.
+            /// Returns the keys that may accompany the statement of `key`.
             pub fn companions(key: &str) -> &'static [&'static str] {
                 match key {
                     $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
@@ -71,17 +71,17 @@ macro_rules! kinds {
                 }
             }
 
-            /// The kind's name in case files and reports.
+            /// Returns the kind's name in case files and reports.
             pub fn name(&self) -> &'static str {
                 match self { $(Motion::$kind(_) => $kind::NAME,)* }
             }
 
-            /// Where the motion starts.
+            /// Returns the start of the motion.
             pub fn beginning(&self) -> &Beginning {
                 match self { $(Motion::$kind(claim) => claim.beginning(),)* }
             }
 
-            /// What is stated, in a few words.
+            /// Returns the statement in a few words.
             pub fn text(&self) -> String {
                 match self { $(Motion::$kind(claim) => claim.text(),)* }
             }
@@ -99,13 +99,13 @@ kinds! {
     Contacts,
 }
 
-/// The number under a key.
+/// Reads the number of a key.
 fn number<R: Reader>(from: &R, key: &'static str) -> Result<Option<Stated>, R::Error> {
     let Some(text) = from.text(key)? else { return Ok(None) };
     stated(from, key, &text).map(Some)
 }
 
-/// The number that must stand under a key.
+/// Reads the number of a required key.
 fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::Error> {
     number(from, key)?.ok_or_else(|| from.missing(key))
 }
@@ -117,7 +117,7 @@ fn stated<R: Reader>(from: &R, key: &'static str, text: &str) -> Result<Stated, 
     })
 }
 
-/// The point [l, L/G] under a key.
+/// Reads the point [l, L/G] of a key.
 fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, R::Error> {
     let Some(texts) = from.texts(key)? else { return Ok(None) };
     let numbers =
@@ -129,10 +129,10 @@ fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, 
     })
 }
 
-/// No motion is followed for more crossings, and no cycle is longer.
+/// Largest number of crossings, and largest length of a cycle.
 const MOST: usize = 1_000_000_000;
 
-/// A whole number from 1 on.
+/// Reads a positive integer.
 fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Error> {
     let Some(text) = from.text(key)? else { return Ok(None) };
     match text.parse() {
@@ -145,7 +145,7 @@ fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Err
     }
 }
 
-/// How long a motion is followed: a positive time.
+/// Reads the length of the motion, a positive time.
 fn time<R: Reader>(from: &R) -> Result<f64, R::Error> {
     let time = required_number(from, "time")?;
     match time.value > 0.0 {
@@ -157,7 +157,7 @@ fn time<R: Reader>(from: &R) -> Result<f64, R::Error> {
     }
 }
 
-/// One of some words.
+/// Reads one of some words.
 fn word<R: Reader, T: Copy>(
     from: &R,
     key: &'static str,

@@ -3,21 +3,21 @@
 use super::{Beginning, Motional, Stated, count, number, point, word};
 use crate::claim::Reader;
 
-/// What the multipliers of a periodic point say.
+/// Stability of a periodic point, by its multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
-    /// Two conjugate multipliers of modulus 1.
+    /// Two complex conjugate multipliers of modulus 1.
     Elliptic,
-    /// Two real ones, one beyond 1 and one below.
+    /// Two real multipliers, one above 1 and one below in modulus.
     Hyperbolic,
-    /// Both below 1 in modulus.
+    /// Both multipliers below 1 in modulus.
     Sink,
-    /// Both beyond 1.
+    /// Both multipliers above 1 in modulus.
     Source,
 }
 
 impl Stability {
-    /// All, with their names.
+    /// All kinds, with their names.
     pub const ALL: [(&'static str, Self); 4] = [
         ("elliptic", Stability::Elliptic),
         ("hyperbolic", Stability::Hyperbolic),
@@ -26,26 +26,26 @@ impl Stability {
     ];
 }
 
-/// A point of the section comes back to itself; its orbit has these properties where they are given.
+/// The claim that a point of the section is periodic; its orbit has the given properties.
 #[derive(Clone, Debug)]
 pub struct PeriodicPoint {
-    /// The point; Newton's method starts there.
+    /// Start of Newton's method for the point.
     pub beginning: Beginning,
-    /// The point's coordinates l and L/G.
+    /// Coordinates l and L/G of the point.
     pub at: [Stated; 2],
-    /// After how many crossings.
+    /// Number of crossings of a period.
     pub period: usize,
-    /// After what time.
+    /// Length of the period in time.
     pub time: Option<Stated>,
-    /// What the multipliers say.
+    /// Stability of the point.
     pub stability: Option<Stability>,
-    /// The product of the multipliers.
+    /// Product of the multipliers.
     pub product: Option<Stated>,
-    /// The modulus and the argument of complex multipliers.
+    /// Modulus of complex multipliers.
     pub modulus: Option<Stated>,
-    /// See there.
+    /// Argument of complex multipliers.
     pub argument: Option<Stated>,
-    /// The larger of two real ones.
+    /// Larger one of two real multipliers.
     pub multiplier: Option<Stated>,
 }
 

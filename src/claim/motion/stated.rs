@@ -1,27 +1,27 @@
-//! Numbers as a case states them, with the accuracy that their digits claim.
+//! Numbers stated in a case, with the accuracy implied by their digits.
 
 use std::f64::consts::PI;
 
 use crate::number::rational::Rational;
 
-/// A number with what its spelling says about its accuracy.
+/// A number with the accuracy implied by its notation.
 ///
-/// `1`, `3/7`, `π/2` are exact; `0.0331941` is right up to one unit in its last place; `0.035 ± 0.003`
-/// has a standard error.
+/// `1`, `3/7`, `π/2` are exact; `0.0331941` is correct to one unit in its last place; `0.035 ±
+/// 0.003` has a standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
-    /// As it is typed.
+    /// Text as typed.
     pub text: String,
     /// The nearest f64.
     pub value: f64,
     /// One unit in the last place of a decimal; 0 for an exact number.
     pub unit: f64,
-    /// The standard error, where one is given.
+    /// Standard error, if one is given.
     pub error: f64,
 }
 
 impl Stated {
-    /// Reads a number; `None` where it is none.
+    /// Reads a number; `None` if the text is not a number.
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim().replace("pi", "π").replace('−', "-");
         let (number, error) = match text.split_once('±') {
@@ -39,7 +39,7 @@ impl Stated {
     }
 }
 
-/// f π/d
+/// Computes f π/d.
 fn multiple_of_pi(factor: &str, divisor: &str) -> Option<f64> {
     let factor = match factor.trim_end_matches('*') {
         "" => 1.0,
@@ -54,7 +54,7 @@ fn multiple_of_pi(factor: &str, divisor: &str) -> Option<f64> {
     Some(factor * PI / divisor)
 }
 
-/// One unit in the last place of a decimal.
+/// Returns one unit in the last place of a decimal.
 fn unit(number: &str) -> f64 {
     let (digits, exponent) = match number.split_once(['e', 'E']) {
         Some((digits, exponent)) => (digits, exponent.parse().unwrap_or(0)),

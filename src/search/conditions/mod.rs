@@ -1,7 +1,7 @@
 //! Polynomial conditions on the parameters under which a claim that fails in general holds.
 //!
 //! ```text
-//! line      where on a random line of parameters does the residual vanish for all states?
+//! line      points on a random line of parameters where the residual vanishes for all states
 //! variety   the equations of least degree at the points found on many lines
 //! small     conditions of codimension two, met by chance in small fields
 //! minors    values of one parameter for which there are more integrals
