@@ -1,6 +1,7 @@
-//! The unbalanced ball to t = 1000: `orbit` in f64 and in double-double, beside DOP853 of
-//! differential-equations on the field written by hand, and beside a floor: the multiply-adds of the
-//! Cauchy products alone, as straight dot products in the cache. Only ratios within one run mean anything.
+//! The unbalanced ball to t = 1000: `orbit` in f64 and in double-double, compared with DOP853 of
+//! differential-equations on a handwritten field, and with a floor: the multiply-adds of the Cauchy
+//! products alone, as contiguous dot products in the cache. Only ratios within one run are
+//! significant.
 
 use std::hint::black_box;
 
@@ -28,10 +29,10 @@ integral = "|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)"
 "#;
 const START: &str = "ω=[0.5,0.7,-0.5] γ=[1/3,2/3,2/3]";
 const TIME: f64 = 1000.0;
-/// Products of two series in the field of the ball.
+/// Number of products of two series in the field of the ball.
 const PRODUCTS: u64 = 87;
 
-/// The same equations by hand: r = -Rγ - c.
+/// The same equations written by hand, with r = -Rγ - c.
 struct Ball;
 
 impl Ball {
@@ -110,7 +111,7 @@ fn motion(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// So many multiply-adds on two arrays that stay in the first-level cache.
+/// Runs `count` multiply-adds on two arrays that stay in the first-level cache.
 fn multiply_adds(count: u64) -> f64 {
     let (x, y) = (black_box([0.5f64; 1024]), black_box([0.25f64; 1024]));
     let mut sums = [0.0; 64];

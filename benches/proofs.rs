@@ -1,4 +1,4 @@
-//! From a case in memory to a proof that L_vF₂ = 0, with an error below 2⁻¹⁰⁰.
+//! Time from a case in memory to a proof that L_vF₂ = 0, with an error below 2⁻¹⁰⁰.
 
 use std::hint::black_box;
 
@@ -29,7 +29,7 @@ fn residual(case: &Case) -> (Graph, Vec<Expr>) {
     .expect("records")
 }
 
-/// Puts the chart in and tests the identity.
+/// Substitutes the chart and tests the identity.
 fn prove(sampler: &Sampler, graph: &Graph, residual: &[Expr]) -> Outcome {
     let fixed = vec![None; sampler.recipes().len()];
     let composed = sampler.compose_groups(graph, &[Group::of(residual.to_vec())], &fixed);

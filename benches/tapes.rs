@@ -1,5 +1,5 @@
-//! The work items W1, W2, W3 of `liouville bench`, each method in each domain. Times are per 64
-//! states; only ratios within one run mean anything.
+//! The work items W1, W2, W3 of `liouville bench`, by each method in each domain. Times are per 64
+//! states; only ratios within one run are significant.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liouville::bench::{Options as Amount, Subject, measure_item, record_residual, work_items};

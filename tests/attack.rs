@@ -1,16 +1,16 @@
-//! Random claims of known truth: no verdict on them is wrong.
+//! Random claims of known truth, on which no verdict may be wrong.
 //!
-//! Scenes and claims are grown, rewritten and spoilt by a generator of its own; what is true of them is
-//! found by an oracle that shares nothing with the verifier: floats of 640 bits with their own notion of
-//! what has a value, at states in every cell of signs that it finds. A wrong verdict is made as small as
-//! possible and printed as a file, with the variables that repeat it.
+//! Scenes and claims are grown, rewritten and spoilt by a separate generator; their truth is found
+//! by an oracle that shares nothing with the verifier: floats of 640 bits with an independent
+//! notion of definedness, at states in every cell of signs that it finds. A wrong verdict is shrunk
+//! and printed as a file, with the variables that reproduce it.
 //!
 //! | variable | |
 //! |---|---|
-//! | `LIOUVILLE_ATTACK=1000000` | so many cases, in place of 8 200 with 10 000 claims |
-//! | `LIOUVILLE_ATTACK_SEED=7` | others |
-//! | `LIOUVILLE_ATTACK_ONLY=123` | one of them |
-//! | `LIOUVILLE_ATTACK_SHOW=10` | how many wrong verdicts of each class are shown |
+//! | `LIOUVILLE_ATTACK=1000000` | number of cases, instead of 8 200 with 10 000 claims |
+//! | `LIOUVILLE_ATTACK_SEED=7` | seed of the cases |
+//! | `LIOUVILLE_ATTACK_ONLY=123` | index of a single case |
+//! | `LIOUVILLE_ATTACK_SHOW=10` | number of wrong verdicts shown for each class |
 
 use std::process::ExitCode;
 
@@ -69,7 +69,7 @@ mod wrong;
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
-    // A panic of the verifier is a finding, not the end.
+    // A panic of the verifier is a finding and does not stop the run.
     std::panic::set_hook(Box::new(|_| {}));
     let trials = vec![
         Trial::test("derivatives are what differences show", own::derivatives),

@@ -1,4 +1,4 @@
-//! `liouville bench`: the form of its reports, and errors in the order that theory gives them. Times
+//! Reports of `liouville bench`: their form, and errors in the order that theory predicts. Times
 //! are reported, never tested.
 
 use std::collections::HashSet;
@@ -139,7 +139,7 @@ fn errors_do_not_depend_on_the_run() {
 
 #[test]
 fn cases_are_measured_claim_by_claim_and_what_cannot_be_is_named() {
-    // A contact map that is not homogeneous does not keep its level: densities there need more.
+    // A contact map that is not homogeneous does not conserve its level: densities there need more.
     let path = scratch("bench-contact.toml");
     let text = "title = 'contact'\nsystem = 'rubber-sphere'\n[parameters]\nm = 1.25\nk = 0.375\n\
         I = [2.5, 3, 3.5]\n[body]\n\

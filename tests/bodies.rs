@@ -1,7 +1,7 @@
 //! Theorems on rubber bodies, at random bodies and random states.
 //!
-//! Borisov, Mamaev, Bizyaev 2013, sections 2 to 4. Every quantity comes with an enclosure: what
-//! vanishes is enclosed, what is equal meets.
+//! Borisov, Mamaev, Bizyaev 2013, sections 2 to 4. Every quantity has an enclosure: zeros are
+//! enclosed, and enclosures of equal quantities meet.
 
 mod common;
 #[path = "common/random.rs"]
@@ -14,12 +14,12 @@ use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use random::{config, inertia, number, numbers, potential, profile, support, vector};
 
-/// The report on a case at the state that belongs to a seed.
+/// Evaluates a case at the state of a seed.
 fn at(case: &Case, seed: u64) -> PointReport {
     evaluate(case, None, seed, 0).expect("a case that can be evaluated")
 }
 
-/// A case text of a rubber body; `k` is the curvature of the support, if it has one.
+/// Writes a case of a rubber body; `k` is the curvature of the support, if it has one.
 fn text(k: Option<&str>, parameters: &[(&str, &str)], body: &str) -> String {
     let system = if k.is_some() { "rubber-sphere" } else { "rubber-plane" };
     let mut text =
@@ -33,7 +33,7 @@ fn text(k: Option<&str>, parameters: &[(&str, &str)], body: &str) -> String {
     text + "[body]\n" + body + "\n"
 }
 
-/// Asserts that an enclosure holds 0 and is narrow against the motion.
+/// Asserts that an enclosure contains 0 and is narrow against the motion.
 fn assert_vanishes(enclosure: Enclosed, report: &PointReport, what: &str) {
     let (mid, radius) = enclosure.unwrap_or_else(|| panic!("{what} is undefined"));
     assert!(mid.abs() <= radius, "{what}: {mid:e} ± {radius:e} excludes 0");
@@ -41,19 +41,19 @@ fn assert_vanishes(enclosure: Enclosed, report: &PointReport, what: &str) {
     assert!(radius <= f64::EPSILON.sqrt() * speed, "{what}: ± {radius:e} could hide anything");
 }
 
-/// An enclosure of x times an exact number.
+/// Encloses x times an exact number.
 fn times(x: Enclosed, factor: &num_rational::BigRational) -> Enclosed {
     let factor = factor.to_f64().expect("a finite factor");
     let (mid, radius) = x?;
     let product = mid * factor;
-    // Rounding of the factor and of the product, and the bound's own.
+    // Rounding of the factor and of the product, and that of the bound.
     Some((
         product,
         (radius * factor.abs() + 2.0 * f64::EPSILON * product.abs()) * (1.0 + 4.0 * f64::EPSILON),
     ))
 }
 
-/// γ₃', by which the claims with a factor e^γ₃ too much fail.
+/// Returns γ₃', by which claims with a spurious factor e^γ₃ fail.
 fn height_rate(report: &PointReport) -> Enclosed {
     report.field[5]
 }

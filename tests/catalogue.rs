@@ -1,8 +1,8 @@
-//! Every claim of every case in `cases/` is a test of its own: `cargo test -- unbalanced` runs
-//! those of the unbalanced balls.
+//! Claims of the catalogue, each a separate test: `cargo test -- unbalanced` runs those of the
+//! unbalanced balls.
 //!
-//! A claim passes when its verdict is what its file expects. A case is judged once, by the first
-//! of its claims that is asked for.
+//! A claim passes when its verdict is the one its file expects. A case is judged once, for the
+//! first of its claims that runs.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -43,7 +43,7 @@ fn main() -> ExitCode {
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 
-/// A case with its report, made when it is first needed.
+/// A case with its report, made on first use.
 struct Judged {
     case: Case,
     report: OnceLock<Result<CaseReport, JudgeError>>,

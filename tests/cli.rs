@@ -1,4 +1,4 @@
-//! The program as its users meet it: commands, exit codes, JSON, wrong input.
+//! The program from the user's side: commands, exit codes, JSON, wrong input.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ fn liouville(arguments: &[&str]) -> Command {
     command
 }
 
-/// A scratch folder of its own for a test.
+/// Makes a separate scratch folder for a test.
 fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&path);
@@ -140,7 +140,7 @@ fn one_bad_file_does_not_stop_the_others() {
         .stdout(contains("1 file could not be judged"));
 }
 
-/// What is wrong, what the message says, and the remedy it offers.
+/// Each case: the mistake, the message, and the remedy it offers.
 #[test]
 fn wrong_input_gets_a_clear_message_and_exit_code_2() {
     let head = "title = 'x'\nsystem = 'rubber-plane'\n";
@@ -527,7 +527,7 @@ fn stress_reports_no_wrong_verdict() {
     assert!(points.iter().all(|point| point["field"].is_number()), "digits lost at each x");
 }
 
-/// A figure of the catalogue.
+/// Returns the path of a figure of the catalogue.
 fn figure(name: &str) -> String {
     format!("{}/cases/figures/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }

@@ -1,8 +1,8 @@
-//! Small files on which a verifier can go wrong, each with the answers that are right.
+//! Small files on which a verifier may fail, each with the correct answers.
 //!
-//! The files in `tests/defects/` are data: a group is a system with claims about it, and beside each
-//! claim stand the verdicts that may be given. Every claim is a test of its own, named by what it shows,
-//! judged alone (or with its whole group, if the group says `together`) at several seeds.
+//! The files in `tests/defects/` are data: a group is a system with claims about it, each with the
+//! verdicts that are allowed. Every claim is a separate test, named by its subject, judged alone
+//! (or with its whole group, if the group says `together`) at several seeds.
 
 use std::process::ExitCode;
 

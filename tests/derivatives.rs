@@ -1,8 +1,8 @@
 //! Derivatives recorded through the graph against num-dual at f64, and against their definitions.
 //!
-//! Both routes carry out the same operations but for those that are folded away exactly, so that
-//! each is off by no more than about the running bound of the other: they differ by at most twice
-//! the radius of the ball.
+//! Both computations carry out the same operations except those folded away exactly, so that each
+//! has an error of about the running bound of the other: they differ by at most twice the radius of
+//! the ball.
 
 mod common;
 
@@ -23,7 +23,7 @@ use num_dual::Dual;
 const TENSOR: &str = "I = [[2.5, 0.25, -0.125], [0.25, 3, 0.375], [-0.125, 0.375, 3.5]]";
 const INTEGRAL: &str = "(Ĩ*ω,ω)*(γ,Ĩ*γ) + |r|*(ω,r') + ω1³";
 
-/// Bodies of every shape: system, parameters beside m and I, lines of `[body]`.
+/// Bodies of every shape: system, parameters besides m and I, lines of `[body]`.
 const BODIES: [(&str, &str, &str); 10] = [
     ("rubber-plane", "R = 1.5\nc = [0.25, -0.5, 0.125]", "shape = \"ball\""),
     (
@@ -61,7 +61,7 @@ fn bodies() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Exact states on the level: γ from Pythagorean quadruples, ω = γ×a.
+/// Makes exact states on the level: γ from Pythagorean quadruples, ω = γ×a.
 fn states() -> Vec<Vec<Rational>> {
     let pairs = [
         (["2/7", "3/7", "6/7"], ["1", "-1/2", "3/5"]),
@@ -87,7 +87,7 @@ fn floats(state: &[Rational]) -> Vec<f64> {
 fn assert_near(direct: f64, recorded: Enclosed, what: &str) {
     let (mid, radius) = recorded.unwrap_or_else(|| panic!("{what} is defined on the tape"));
     let gap = (direct - mid).abs();
-    // The tape was run in 160 bits; what differs is the rounding of the code at f64.
+    // The tape was run in 160 bits; the difference is the rounding of the code in f64.
     let rounding = 2f64.powi(-36) * mid.abs().max(1.0);
     assert!(gap <= rounding, "{what}: {direct} at f64, {mid} ± {radius:e} on the tape");
     let coarsest = f64::EPSILON.sqrt() * mid.abs().max(1.0);
@@ -149,7 +149,7 @@ fn the_divergence_is_linear_in_the_velocity_with_the_coefficients_chi() {
     }
 }
 
-/// χ̄ with div v = (χ̄,γ') on the level: Γᵀχ̂, χ̂_j minus the divergence at ω = γ×e_j.
+/// Computes χ̄ with div v = (χ̄,γ') on the level: Γᵀχ̂, χ̂_j minus the divergence at ω = γ×e_j.
 fn covector<T: Scalar>(case: &Case, gamma: Vector3<T>) -> Vector3<T> {
     let at = |omega: Vector3<T>| {
         let state: Vec<T> = omega.iter().chain(gamma.iter()).copied().collect();
@@ -168,7 +168,7 @@ fn covector<T: Scalar>(case: &Case, gamma: Vector3<T>) -> Vector3<T> {
     turning.transpose() * chi_hat
 }
 
-/// (γ, rot χ̄) by definition.
+/// Computes (γ, rot χ̄) by definition.
 fn criterion<T: Scalar>(case: &Case, gamma: Vector3<T>) -> T {
     let slopes: Matrix3<T> = Matrix3::from_columns(&[0, 1, 2].map(|j| {
         let mut lifted = gamma.map(Dual::from_re);
@@ -179,7 +179,7 @@ fn criterion<T: Scalar>(case: &Case, gamma: Vector3<T>) -> T {
     gamma[0] * rotation(1, 2) + gamma[1] * rotation(2, 0) + gamma[2] * rotation(0, 1)
 }
 
-/// The same in balls, at an exact γ.
+/// Computes (γ, rot χ̄) in balls, at an exact γ.
 fn criterion_in_balls(case: &Case, gamma: &[Rational]) -> Enclosed {
     let build = |inputs: &[Expr]| criterion(case, Vector3::from_column_slice(inputs));
     let (graph, value) = record(3, build).expect("it records");

@@ -1,9 +1,9 @@
-//! What the documents show runs: every complete case in the guide is judged, and agrees.
+//! The guide's examples: every complete case in it is judged, and agrees.
 
 use liouville::case::Case;
 use liouville::verdict::{Options, judge};
 
-/// The contents of the fenced blocks of a language.
+/// Returns the contents of the fenced blocks of a language.
 fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
     let fence = format!("```{language}\n");
     text.split(fence.as_str()).skip(1).filter_map(|rest| rest.split("```").next()).collect()

@@ -1,5 +1,5 @@
-//! Every number domain passes the same suite: field laws, agreement with exact rationals,
-//! containment where the domain encloses, undefined results where there is none.
+//! One suite for every number domain: field laws, agreement with exact rationals, containment where
+//! the domain encloses, undefined results where there are none.
 
 mod common;
 #[path = "common/random.rs"]
@@ -20,25 +20,25 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
 
-/// What a test asks of a domain beside its arithmetic.
+/// Properties of a domain that tests need besides its arithmetic.
 trait Tested: Domain {
-    /// Can this block be the image of the exact number, made from terms of size `scale`?
+    /// Whether the block may be the image of the exact number, made from terms of size `scale`.
     fn stands_for(&self, block: &Self::Block, value: &BigRational, scale: &BigRational) -> bool;
 
-    /// Can two blocks be the same number, as far as the domain can tell? `scale` is the size of the
-    /// terms that went into them.
+    /// Whether two blocks may be the same number, as far as the domain shows; `scale` is the size
+    /// of the terms from which they were made.
     fn may_equal(&self, a: &Self::Block, b: &Self::Block, scale: &BigRational) -> bool;
 
-    /// Has the first lane a value?
+    /// Whether the first lane is defined.
     fn is_defined(&self, block: &Self::Block) -> bool;
 
-    /// Is there an order, so that negative numbers have no root?
+    /// Whether the domain is ordered, so that negative numbers have no root.
     const ORDERED: bool = true;
-    /// Are there moduli?
+    /// Whether the domain has moduli.
     const MODULI: bool = true;
-    /// Does it bound its own error?
+    /// Whether the domain bounds its error.
     const ENCLOSES: bool = true;
-    /// Does the domain round, so that large and small numbers leave its range?
+    /// Whether the domain rounds, so that large and small numbers leave its range.
     const ROUNDS: bool = true;
 }
 
@@ -159,7 +159,7 @@ impl Tested for Prime<4> {
     const ROUNDS: bool = false;
 
     fn stands_for(&self, block: &[u64; 4], value: &BigRational, _: &BigRational) -> bool {
-        // Roots are those that are squares themselves: of either sign.
+        // Roots are those that are themselves squares: of either sign.
         let (image, minus) = (self.constant(&rational(value)), self.constant(&rational(&-value)));
         (0..4).all(|lane| block[lane] == image[lane] || block[lane] == minus[lane])
     }
@@ -210,7 +210,7 @@ impl Tested for Mixed {
     }
 }
 
-/// Midpoint and radius of a number that is exact or enclosed.
+/// Returns midpoint and radius of an exact or enclosed number.
 fn sides(number: &Number) -> (BigRational, BigRational) {
     match number {
         Number::Exact(value) => (exact(&value.to_string()), BigRational::zero()),
@@ -219,7 +219,7 @@ fn sides(number: &Number) -> (BigRational, BigRational) {
     }
 }
 
-/// Numbers at the edges: exact and not, large and small, next to each other.
+/// Numbers at the edges: exact and inexact, large and small, next to each other.
 const VALUES: [&str; 22] = [
     "1",
     "-1",
@@ -273,7 +273,7 @@ impl<D: Tested> Suite<D> {
         out
     }
 
-    /// A result in range stands for the exact one.
+    /// Checks that a result in range agrees with the exact one.
     fn check(&self, block: &D::Block, value: &BigRational, what: &str) {
         self.check_scaled(block, value, &value.abs(), what);
     }
@@ -281,7 +281,7 @@ impl<D: Tested> Suite<D> {
     fn check_scaled(&self, block: &D::Block, value: &BigRational, scale: &BigRational, what: &str) {
         let range = unit(-1000)..unit(1000);
         if D::ROUNDS && !value.is_zero() && !range.contains(&value.abs()) {
-            // Out of the range of f64: undefined, or an enclosure still.
+            // Out of the range of f64: undefined, or still an enclosure.
             assert!(
                 !D::ENCLOSES
                     || !self.domain.is_defined(block)
@@ -301,7 +301,7 @@ impl<D: Tested> Suite<D> {
 
     fn run(&self) {
         let mut values: Vec<BigRational> = VALUES.iter().map(|text| exact(text)).collect();
-        // What is subnormal has no relative error that could be stated.
+        // Subnormal numbers have no bound on the relative error.
         values.retain(|value| D::ENCLOSES || value.abs() > unit(-1000));
         for a in &values {
             self.one(a);
@@ -381,7 +381,7 @@ impl<D: Tested> Suite<D> {
     }
 
     fn equal(&self, a: &D::Block, b: &D::Block, scale: &BigRational, what: &str) {
-        // What left the range of f64 on one of the ways obeys no law.
+        // Values that left the range of f64 on either side obey no law.
         if self.domain.is_defined(a) && self.domain.is_defined(b) {
             let out_of_range = D::ROUNDS && !(unit(-900)..unit(900)).contains(scale);
             let same = self.domain.may_equal(a, b, scale);
@@ -464,7 +464,7 @@ fn fields_pass() {
     Suite { domain: Quadratic::new([p, p, q, q]), name: "quadratic extensions" }.run();
 }
 
-/// Random double-doubles of all sizes, with cancelling partners.
+/// Draws random double-doubles of all sizes, with cancelling partners.
 fn pairs(count: usize) -> impl Iterator<Item = (Rational, Rational)> {
     let mut state = 0x9E37_79B9_7F4A_7C15u64;
     let mut next = move || {

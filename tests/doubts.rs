@@ -1,5 +1,5 @@
-//! What must not pass for a verdict: charts off the level, formulas without a value, quadratures
-//! of something else, places that the motion leaves.
+//! Cases that must not receive a verdict: charts off the level, undefined formulas, quadratures of
+//! other functions, places that the motion leaves.
 
 use liouville::case::Case;
 use liouville::verdict::{
@@ -16,7 +16,7 @@ fn claims(text: &str) -> Vec<ClaimReport> {
     judged(text).expect("it can be judged").claims
 }
 
-/// A rotation about e₃ on the unit sphere, with a chart.
+/// Writes a rotation about e₃ on the unit sphere, with a chart.
 fn on_sphere(chart: &str, rest: &str) -> String {
     format!(
         "title = 'x'\n[state]\nx = 'vector(-1..1)'\n[field]\n\"x'\" = '[0,0,1] × x'\n[level]\n\
@@ -48,7 +48,7 @@ fn dependent_level_equations_are_told() {
     }
 }
 
-/// x' = 1, y' = w, w' = y.
+/// Writes the field x' = 1, y' = w, w' = y.
 fn drift(rest: &str) -> String {
     format!(
         "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nw = '-2..2'\n[field]\n\"x'\" = '1'\n\"y'\" = 'w'\n\
@@ -220,7 +220,7 @@ fn a_level_that_falls_apart_is_told() {
 
 #[test]
 fn a_constant_cannot_be_chosen_for_the_primes() {
-    // The product of four primes between 2⁶⁰ and 2⁶¹ that one seed once gave to every claim.
+    // The product of four primes between 2⁶⁰ and 2⁶¹ that one seed formerly gave to every claim.
     let product = "3794879169967486888276628507938376681881088323365498439445561909460045101";
     let found = claims(&drift(&format!(
         "[[claim]]\nidentity = '(x+y)² + {product}*1e-120*x = x²+2*x*y+y²'\nexpect = 'fails'\n\
@@ -231,7 +231,7 @@ fn a_constant_cannot_be_chosen_for_the_primes() {
     }
 }
 
-/// x' = 0 for x in a range, and a claim about x.
+/// Judges a claim about x with x' = 0, for x in a range.
 fn still(range: &str, claim: &str) -> Verdict {
     let text = format!(
         "title = 'x'\n[state]\nx = '{range}'\n[field]\n\"x'\" = '0*x'\n[[claim]]\n{claim}\nexpect = 'open'\n"
@@ -246,7 +246,7 @@ fn a_sign_at_all_states_that_were_tried_is_none_at_all() {
         ("-2..2", "identity = '√((x − 1.99)²) = 1.99 − x'"),
         ("-0.001..1", "identity = '|x| = x'"),
         ("-0.001..1", "identity = '√(x²) = x'"),
-        // x^1000000 is beyond f64 wherever it is above 1.
+        // x^1000000 is out of the range of f64 for x > 1.
         ("0..2", "identity = '|1 − x^1000000| = 1 − x^1000000'"),
         ("0..2", "identity = '√((1 − x^1000000)²) = 1 − x^1000000'"),
         // An antiderivative has a free constant.
@@ -274,7 +274,7 @@ fn a_range_that_nobody_asked_for_stands_for_all_numbers() {
     }
 }
 
-/// x' = x, y' = y, z' = z, on z = 0.
+/// Writes the field x' = x, y' = y, z' = z, on z = 0.
 fn growth(rest: &str) -> String {
     format!(
         "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\nz = '-1..1'\n[field]\n\"x'\" = 'x'\n\"y'\" = 'y'\n\

@@ -11,7 +11,7 @@ use liouville::number::rational::Rational;
 use liouville::verdict::read_state;
 use nalgebra::{Matrix3, Vector3};
 
-/// The unbalanced ball of the speed comparison, with the start of all peers.
+/// The unbalanced ball of the speed comparison, with the common initial state.
 const BALL: &str = r#"
 title = "unbalanced ball"
 system = "rubber-plane"
@@ -75,7 +75,7 @@ fn a_motion_runs_back_to_its_start() {
     assert!(distance(&back.end, &there.start.state) < 1e-12, "there and back again");
 }
 
-/// γ' = γ × ω and the equations of the ball once more, by hand: r = -Rγ - c.
+/// Computes γ' = γ × ω and the equations of the ball by hand: r = -Rγ - c.
 fn ball_by_hand(state: [f64; 6]) -> [f64; 6] {
     let [w1, w2, w3, g1, g2, g3] = state;
     let (m, radius) = (1.3, 3.0);
@@ -92,7 +92,7 @@ fn ball_by_hand(state: [f64; 6]) -> [f64; 6] {
     [acceleration.x, acceleration.y, acceleration.z, rate.x, rate.y, rate.z]
 }
 
-/// The classical Runge-Kutta method of order 4.
+/// Integrates by the classical Runge-Kutta method of order 4.
 fn runge_kutta(
     field: fn([f64; 6]) -> [f64; 6],
     mut y: [f64; 6],
@@ -128,7 +128,7 @@ fn an_independent_integrator_agrees() {
     assert!(coarse > 1e4 * fine, "an error of order 4: {coarse:e} and {fine:e}");
 }
 
-/// A field of its own with a solution that is known.
+/// Integrates a field with a known solution.
 fn solved(field: &str, begin: &str, time: f64) -> (f64, Pair) {
     let text = format!(
         "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
@@ -141,7 +141,7 @@ fn solved(field: &str, begin: &str, time: f64) -> (f64, Pair) {
 
 #[test]
 fn every_function_has_its_rule() {
-    // Each field with a function V of x that grows at rate 1, or with its solution.
+    // Each field has a function V of x that grows at rate 1, or a known solution.
     let check = |field: &str, begin: &str, time: f64, exact: f64| {
         let (float, pair) = solved(field, begin, time);
         assert!((float - exact).abs() < 4e-15 * exact.abs(), "{field}: {float} and {exact}");
@@ -158,7 +158,7 @@ fn every_function_has_its_rule() {
     check("cos(x)", "x=1/2", 1.0, (0.5f64.sin().atanh() + 1.0).tanh().asin());
     check("(1 + x²)*atan(x)", "x=1/2", 0.5, (0.5f64.atan() * 0.5f64.exp()).tan());
     check("x^x/((1 + ln(x))*x^x)", "x=2", 1.0, {
-        // x ln x grows at rate 1
+        // x ln x grows at rate 1.
         let target = 2.0 * 2f64.ln() + 1.0;
         (0..60).fold(3.0, |x: f64, _| x - (x * x.ln() - target) / (1.0 + x.ln()))
     });
@@ -193,7 +193,7 @@ fn a_modulus_is_refused_by_name() {
     assert!(error.contains("|x|"), "{error}");
 }
 
-/// A case of the catalogue.
+/// Reads a case of the catalogue.
 fn catalogue(path: &str) -> Case {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(path);
     Case::read(&path, &[]).1.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -202,7 +202,7 @@ fn catalogue(path: &str) -> Case {
 #[test]
 fn contact_leaving_and_grazing_at_the_right_times() {
     let case = catalogue("one-sided/motion.toml");
-    // Reference times in 24 digits, by an independent computation in many digits.
+    // Reference times in 24 digits, by an independent computation in high precision.
     let reference = [
         (Contact::Arrives, "2.928150885740918661499363"),
         (Contact::Leaves, "3.814896187257355099547223"),
@@ -264,7 +264,7 @@ fn sections_do_not_depend_on_threads_and_lie_on_level_lines() {
         assert_eq!(orbit.crossings.len(), 40, "each orbit has its crossings");
         assert!(orbit.drift < 1e-14, "energy: {:e}", orbit.drift);
     }
-    // F2 is the same at all crossings of an orbit: put the crossings back on the section.
+    // F2 is the same at all crossings of an orbit: return the crossings to the section.
     let crossings: Vec<[f64; 2]> =
         one[..4].iter().flat_map(|o| &o.crossings).map(|c| c.at).collect();
     let again = SectionRequest { starts: crossings, ..request };
@@ -355,7 +355,7 @@ fn vectors_align_in_chaos_and_stay_apart_on_tori() {
     assert!(aligned.index < 1e-8 && aligned.since.is_some(), "one direction is left: {aligned:?}");
 }
 
-/// A plane of starts in figure 14, and one of parameters.
+/// Makes an axis of a plane of starts in figure 14, or of parameters.
 fn axis(coordinate: Coordinate, from: f64, to: f64, count: usize) -> Axis {
     let read = |value| Rational::from_f64(value).expect("finite");
     Axis { coordinate, from: read(from), to: read(to), count }
@@ -381,7 +381,7 @@ fn a_chart_agrees_with_the_exact_exponents_and_does_not_depend_on_threads() {
         let exact = Variational::new(&case.model, &start).and_then(|one| one.exponents(400.0));
         let (found, exact) = (found.as_ref().expect("a motion"), exact.expect("a motion"));
         let (a, b) = (found.largest, exact.largest);
-        // Chaotic motions part from each other by rounding, and regular ones agree closely.
+        // Chaotic motions diverge by rounding, and regular ones agree closely.
         let bound = if exact.character == Character::Regular { 0.002 } else { 0.1 };
         assert!((a.mean - b.mean).abs() < bound, "{a:?} and {b:?}");
     }
@@ -462,7 +462,8 @@ fn separatrices_of_an_integrable_case_are_level_lines_through_the_saddle() {
     assert!(matches!(elliptic, Err(FlowError::NotHyperbolic { .. })), "(π/2, 0) has none");
 }
 
-/// The Euler top with I33 = 1/ε and its limits, in the example of the catalogue's limit theorem.
+/// Writes the Euler top with I33 = 1/ε and its limits, the catalogue's example of the limit
+/// theorem.
 fn top(field: &str) -> Case {
     parse(&format!(
         "title = 't'\nsystem = 'field'\ncheck-weights = false\n[parameters]\n\
@@ -485,7 +486,7 @@ fn heavy_tops_tend_to_the_vakonomic_motion_at_the_stated_rate() {
          \"n'\" = 'I[1,3]*dw1 + I[2,3]*dw2 + (I[2,2] − I[1,1])*w1*w2 + I[1,2]*(w1² − w2²)'\n",
         "w1=2/3 w2=-4/5 n=0",
     );
-    // Reference values by an independent computation in many digits.
+    // Reference values by an independent computation in high precision.
     let reference = ["0.219175412765153974817361757237", "-0.993768214773554576043339364269"];
     for (value, exact) in vakonomic.iter().zip(reference) {
         let exact: Rational = exact.parse().expect("a number");

@@ -1,7 +1,7 @@
-//! Elementary functions in balls: what a functional equation says is never excluded.
+//! Elementary functions in balls: enclosures never contradict a functional equation.
 //!
-//! Neither side of these equations is rational, so that no exact value is at hand; the ball of the
-//! difference must hold 0 or be undefined, for arguments of every size.
+//! Neither side of these equations is rational, so that no exact value is available; the ball of
+//! the difference must contain 0 or be undefined, for arguments of every size.
 
 mod common;
 #[path = "common/random.rs"]
@@ -21,7 +21,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use random::config;
 
-/// An equation between x and y: its name, and left minus right.
+/// An equation between x and y: its name, and the difference of its sides.
 type Equation = (&'static str, fn(Expr, Expr) -> Expr);
 
 /// Differences that vanish for every x and y > 0.
@@ -42,7 +42,7 @@ const EQUATIONS: [Equation; 12] = [
     ("x^y = e^(y ln x)", |x, y| x.power_of(y) - (y * x.ln()).exp()),
 ];
 
-/// Positive numbers of every size: 2^e (1 + m), with exponents near 0 in half of the cases.
+/// Draws positive numbers of every size: 2^e (1 + m), with exponents near 0 in half of the cases.
 fn positive() -> impl Strategy<Value = f64> {
     let exponent = prop_oneof![-4..4i32, -1073..1023i32];
     (exponent, 0.0..1.0f64).prop_map(|(e, m)| 2f64.powi(e) * (1.0 + m))
@@ -67,7 +67,7 @@ fn functional_equations_hold_in_balls() {
                 mid[0],
                 rad[0]
             );
-            // A ball counts if it would have told an error of a millionth.
+            // A ball counts if it would have shown an error of a millionth.
             count.set(count.get() + u32::from(ball.is_defined(0) && rad[0] < 1e-6 * x.min(1.0)));
         }
         Ok(())

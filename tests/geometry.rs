@@ -10,7 +10,7 @@ fn claims(text: &str) -> Vec<ClaimReport> {
     judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}")).claims
 }
 
-/// Judges claims that stand after `head`, each with the verdict it has to have.
+/// Judges claims after `head`, each with its required verdict.
 #[track_caller]
 fn check(head: &str, expected: &[(Verdict, &str)]) {
     let stated = expected.iter().map(|(_, claim)| format!("[[claim]]\n{claim}\n"));

@@ -1,7 +1,7 @@
-//! Rubber bodies against reference values from 100-digit arithmetic that shares no code with us.
+//! Rubber bodies compared with reference values from independent 100-digit arithmetic.
 //!
-//! The reference lies in the enclosure that the library returns; what is 0 to 50 digits is
-//! enclosed, and what is not 0 is told from it.
+//! The reference lies in the enclosure returned by the library; a value that is 0 to 50 digits is
+//! enclosed, and any other is separated from 0.
 
 mod common;
 #[path = "golden/formulas.rs"]
@@ -17,7 +17,7 @@ use serde_json::Value;
 const PLANE: &str = include_str!("data/plane.json");
 const SPHERE: &str = include_str!("data/sphere.json");
 
-/// Claims that only serve to read off a named quantity: its name and the key of its reference.
+/// Claims that only read a named quantity: its name and the key of its reference.
 const QUANTITIES: [(&str, &str); 4] = [
     ("λ0", "lambda"),
     ("det(Ĩ)*(γ,Ĩ⁻¹*γ)", "detItilde_gItildeinvg"),
@@ -25,7 +25,7 @@ const QUANTITIES: [(&str, &str); 4] = [
     ("(γ,adj(E − Γ)*γ)/k²", "invK"),
 ];
 
-/// The forms of the same body: the reference's extension of r off the sphere and our own.
+/// Returns the forms of the same body: the reference's extension of r off the sphere and ours.
 fn bodies(id: &str, params: &Value) -> Vec<String> {
     let surface = params.get("surface").unwrap_or(params);
     let kind = surface["type"].as_str().or(surface["body"].as_str());
@@ -40,7 +40,7 @@ fn bodies(id: &str, params: &Value) -> Vec<String> {
     }
 }
 
-/// `[parameters]` with every number of the reference's parameters.
+/// Writes `[parameters]` with every number of the reference's parameters.
 fn parameters(id: &str, params: &Value) -> String {
     let mut lines = String::from("[parameters]\n");
     let mut put = |name: &str, value: &Value| match value {
@@ -60,7 +60,7 @@ fn parameters(id: &str, params: &Value) -> String {
     lines
 }
 
-/// The case texts of a reference case, one a form of the body.
+/// Writes the case texts of a reference case, one for each form of the body.
 fn case_texts(reference: &Value, candidates: &[(String, String)], system: &str) -> Vec<String> {
     let (id, params) = (text(&reference["id"]), &reference["params"]);
     let head = format!(
@@ -109,7 +109,7 @@ fn state_of(point: &Value) -> Vec<Rational> {
     omega.iter().chain(&g).map(rational).collect()
 }
 
-/// Compares what every state is given with; returns how many numbers were compared.
+/// Compares all reference values at a state; returns their number.
 fn compare_state(point: &Value, found: &PointReport, what: &str) -> usize {
     let mut compared = 0;
     let mut check = |reference: &Value, enclosure: Enclosed, name: &str| {
@@ -147,7 +147,7 @@ fn compare_state(point: &Value, found: &PointReport, what: &str) -> usize {
     compared
 }
 
-/// χ̂ = γ×χ, the covector with d ln ρ = -χ̂, from the enclosures of χ.
+/// Computes χ̂ = γ×χ, the covector with d ln ρ = -χ̂, from the enclosures of χ.
 fn chi_hat(found: &PointReport, state: &[Rational]) -> [Enclosed; 3] {
     let chi = found.chi.expect("a rubber body has χ").map(|x| x.expect("χ is defined"));
     let gamma: Vec<f64> = state[3..].iter().map(|x| x.to_f64().0).collect();
@@ -225,14 +225,14 @@ fn the_sphere_and_the_flat_base() {
             }
         }
     }
-    // Two balls in two forms each, an ellipsoid, a general body; 16 numbers a state and 2 for each
-    // candidate; the flat base has 4 + 3 numbers a state.
+    // Two balls in two forms each, an ellipsoid, a general body; 16 numbers for each state and 2
+    // for each candidate; the flat base has 4 + 3 numbers for each state.
     let candidates = 2 * 11 + 2 * 8 + 9 + 4 + 5;
     assert_eq!(compared, 3 * (6 * 16 + 7 + 2 * candidates), "nothing was left out");
     assert_eq!(refuted, 3 * (2 * 7 + 2 * 3 + 4 + 1 + 2), "false formulas were told from true ones");
 }
 
-/// All thirty digits of the reference are ours, in every component of the field and every value and
+/// All thirty digits of the reference agree, in every component of the field and every value and
 /// residual of a claim.
 #[test]
 fn thirty_digits_are_right() {

@@ -1,10 +1,10 @@
-//! Systems by Hamilton's equations: the field follows from a function and a bracket.
+//! Systems given by Hamilton's equations: the field follows from a function and a bracket.
 
 use Verdict::{Proved, Refuted};
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options, Verdict, judge};
 
-/// Judges claims that stand after `head`, each with the verdict it has to have.
+/// Judges claims after `head`, each with its required verdict.
 #[track_caller]
 fn check(head: &str, expected: &[(Verdict, &str)]) {
     let stated: String =

@@ -1,8 +1,8 @@
-//! Guards the instructions that the work items take against regressions, counted by valgrind's
-//! callgrind: the count is the same in every run, however busy the machine is.
+//! Guards the instruction counts of the work items against regressions, by valgrind's callgrind:
+//! the count is the same in every run, however busy the machine is.
 //!
-//! Valgrind knows no AVX-512, so this is the code for AVX2. Where there is no valgrind, or another
-//! processor, nothing is counted, and the test says so.
+//! Valgrind does not support AVX-512, so the code for AVX2 is counted. Without valgrind, or on
+//! another processor, nothing is counted, and the test says so.
 
 use std::process::Command;
 
@@ -10,18 +10,18 @@ use liouville::bench::{record_residual, work_items};
 use liouville::engine::{Engine, Means, Row};
 use liouville::graph::Tape;
 
-/// Of a residual: to record and lay it out; to run it at 64 states by the interpreter; by machine
-/// code, the making of it included.
+/// Parts of the work on a residual: recording and layout; a run at 64 states by the interpreter; a
+/// run by machine code, including its generation.
 const PARTS: [&str; 3] = ["record", "interpret", "compile"];
 
-/// For W1, W2, W3, in the order of the parts. To be lowered when a change makes them smaller.
+/// Counts for W1, W2, W3, in the order of the parts. To be lowered when a change reduces them.
 const COUNTS: [[u64; 3]; 3] = [
     [13_789_550, 826_190, 1_135_851],
     [19_496_603, 1_001_116, 1_424_443],
     [15_114_704, 880_119, 1_221_529],
 ];
 
-/// A count may grow by this share, for a compiler of another version.
+/// Percentage by which a count may grow, for a compiler of another version.
 const MARGIN: u64 = 10;
 
 const ITEM: &str = "LIOUVILLE_COUNTED_ITEM";
@@ -55,7 +55,7 @@ fn run(tape: &Tape, means: Means) -> f64 {
     runner.output(0).0[0]
 }
 
-/// What is counted: run by the test below under valgrind, with one of the functions switched on.
+/// The counted work: run by the test below under valgrind, with one of the functions switched on.
 #[test]
 fn workload() {
     let Some(index) = std::env::var(ITEM).ok().and_then(|index| index.parse().ok()) else { return };
@@ -64,7 +64,7 @@ fn workload() {
     assert!(counted_compile(&tape).is_finite(), "by machine code too");
 }
 
-/// Instructions inside a function, or why they cannot be counted.
+/// Counts instructions inside a function; fails with the reason if they cannot be counted.
 fn count(index: usize, part: &str) -> Result<u64, String> {
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let output = Command::new("valgrind")

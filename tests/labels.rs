@@ -1,7 +1,7 @@
-//! Every formula of the papers is a claim: each folder of the catalogue lists the labels of its
-//! formulas in `labels.txt`, and each label stands in the source of a claim.
+//! Coverage of the papers' formulas by claims: each folder of the catalogue lists the labels of its
+//! formulas in `labels.txt`, and each label occurs in the source of a claim.
 //!
-//! An erratum is a pair: what is printed fails, what is meant holds. And every kind of claim is
+//! An erratum is a pair: the printed formula fails, the intended one holds. Every kind of claim is
 //! used both ways, so that none can hold by accident.
 
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use liouville::case::{Case, Expect};
 use liouville::claim::STATEMENTS;
 
-/// The source of each claim in a folder, with what is expected of it.
+/// Returns the source of each claim in a folder, with its expectation.
 fn claims(folder: &Path) -> Vec<(String, Expect, &'static str)> {
     let mut found = Vec::new();
     for path in entries(folder) {
@@ -31,7 +31,7 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
     entries.flatten().map(|entry| entry.path()).collect()
 }
 
-/// Does a source name this label, and not a longer one such as `erratum 10` for `erratum 1`?
+/// Whether a source names this label, and not a longer one such as `erratum 10` for `erratum 1`.
 fn names(source: &str, label: &str) -> bool {
     source.match_indices(label).any(|(start, _)| {
         let next = source[start + label.len()..].chars().next();
@@ -39,7 +39,7 @@ fn names(source: &str, label: &str) -> bool {
     })
 }
 
-/// Folders with their labels: the text of a line before two spaces.
+/// Returns folders with their labels: the text of a line before two spaces.
 fn folders() -> Vec<(PathBuf, Vec<String>)> {
     let listed = |folder: PathBuf| {
         let text = std::fs::read_to_string(folder.join("labels.txt")).ok()?;

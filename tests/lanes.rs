@@ -1,7 +1,8 @@
 //! One recorded computation in three number domains: f64, balls, exact rationals.
 //!
-//! The ball holds the exact value or is undefined, whatever the values: zero, the smallest and the
-//! largest numbers, near-cancelling ones, numbers that are no f64. Its midpoint is the f64 result.
+//! The ball contains the exact value or is undefined, whatever the values: zero, the smallest and
+//! the largest numbers, nearly cancelling ones, numbers that f64 cannot represent. Its midpoint is
+//! the f64 result.
 
 mod common;
 #[path = "common/random.rs"]
@@ -26,15 +27,14 @@ use random::config;
 
 const INPUTS: usize = 4;
 
-/// One operation on values that are there already, each named by a number taken modulo how many
-/// there are.
+/// One operation on existing values, each named by a number taken modulo their count.
 #[derive(Clone, Debug)]
 enum Step {
     Add(usize, usize),
     Sub(usize, usize),
     Mul(usize, usize),
     Div(usize, usize),
-    /// √(x²) and |x|: roots that are rational.
+    /// √(x²) and |x|: rational roots.
     RootOfSquare(usize),
     Modulus(usize),
     Power(usize, i32),
@@ -58,7 +58,7 @@ fn step() -> impl Strategy<Value = Step> {
     ]
 }
 
-/// Numbers at the edges: of f64, of what an f64 can be, of cancellation.
+/// Numbers at the edges of f64, of its representable values, and of cancellation.
 const EDGES: [&str; 24] = [
     "0",
     "1",
@@ -86,7 +86,7 @@ const EDGES: [&str; 24] = [
     "-36028797018963967",
 ];
 
-/// Numbers of every size, edges first.
+/// Draws numbers of every size, edges first.
 fn edge() -> impl Strategy<Value = BigRational> {
     let ulp = || dyadic(f64::EPSILON);
     prop_oneof![
@@ -99,7 +99,7 @@ fn edge() -> impl Strategy<Value = BigRational> {
     ]
 }
 
-/// Carries out the steps; each value stays available to those after it.
+/// Carries out the steps; each value stays available to later ones.
 fn run(inputs: &[Expr], steps: &[Step]) -> Vec<Expr> {
     let mut values = inputs.to_vec();
     for step in steps {
@@ -120,7 +120,7 @@ fn run(inputs: &[Expr], steps: &[Step]) -> Vec<Expr> {
     values
 }
 
-/// What every value is in the three domains.
+/// Values in the three domains.
 struct Lanes {
     float: Vec<f64>,
     ball: Vec<Balls<1>>,
@@ -145,13 +145,13 @@ fn lanes(inputs: &[Rational], build: impl FnOnce(&[Expr]) -> Vec<Expr>) -> Lanes
     }
 }
 
-/// The library's number as one that is computed with here.
+/// Converts the library's number for computations here.
 fn big(value: &Rational) -> BigRational {
     let (above, below) = value.parts();
     BigRational::new(above.clone(), below.clone())
 }
 
-/// Asserts that the ball holds the exact value if it claims to hold anything; was there both?
+/// Asserts that a defined ball contains the exact value; returns whether both exist.
 fn assert_contained(lanes: &Lanes, index: usize) -> Result<bool, TestCaseError> {
     let ball = &lanes.ball[index];
     let (mid, radius) = (ball.mid[0], ball.rad[0]);
@@ -172,7 +172,7 @@ fn assert_contained(lanes: &Lanes, index: usize) -> Result<bool, TestCaseError> 
 }
 
 /// Runs random computations on random inputs and checks every value; at least half of the values
-/// must exist exactly and in balls, or little would have been checked.
+/// must exist exactly and in balls, or too little would have been checked.
 fn check(inputs: impl Strategy<Value = BigRational>, steps: std::ops::Range<usize>) {
     let strategy = (prop::collection::vec(inputs, INPUTS), prop::collection::vec(step(), steps));
     let (all, compared) = (Cell::new(0u32), Cell::new(0u32));
@@ -209,7 +209,7 @@ proptest! {
         assert_contained(&lanes(&[rational(&value)], <[Expr]>::to_vec), 0)?;
     }
 
-    /// (1 + x)(1 - x) - 1 + x²: what cancels to nothing is not told from 0, a perturbation is.
+    /// (1 + x)(1 - x) - 1 + x²: exact cancellation is not separated from 0, a perturbation is.
     #[test]
     fn cancellation_widens_the_ball_and_no_more(a in 1i64..1000, b in 1i64..1000) {
         let lanes = lanes(&[Rational::new(a, b)], |x| {
@@ -219,8 +219,8 @@ proptest! {
         });
         prop_assert!(assert_contained(&lanes, 0)? && assert_contained(&lanes, 1)?);
         prop_assert!(!lanes.ball[0].excludes_zero(0), "it is 0: {:?}", lanes.ball[0]);
-        // x is off by εx at most, which enters through terms of slope below 4(1 + x) in all; then
-        // seven roundings of terms below (1 + x)².
+        // x has an error of at most εx, which enters through terms of slope below 4(1 + x) in all;
+        // then seven roundings of terms below (1 + x)².
         let size = (1.0 + a as f64 / b as f64).powi(2);
         let bound = 8.0 * f64::EPSILON * size;
         prop_assert!(lanes.ball[0].rad[0] <= bound, "{:?} is wider than {bound:e}", lanes.ball[0]);

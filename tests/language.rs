@@ -5,7 +5,7 @@
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};
 
-/// Judges a case, asserts that all is as expected, and gives the words of the verdicts.
+/// Judges a case, asserts that all is as expected, and returns the verdicts.
 #[track_caller]
 fn judged(text: &str) -> Vec<Verdict> {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -17,7 +17,7 @@ fn judged(text: &str) -> Vec<Verdict> {
     report.claims.iter().map(|claim| claim.verdict).collect()
 }
 
-/// Judges a case whose claims all have to be settled by proof or by a witness.
+/// Judges a case whose claims must all be decided by a proof or a witness.
 #[track_caller]
 fn settled(text: &str) {
     let verdicts = judged(text);

@@ -1,5 +1,5 @@
-//! Merging by value: what is merged has the same values, what differs stays apart, and the short
-//! formulas of the mechanics are proved equal to the definitions by the tool itself.
+//! Merging by value: merged nodes have the same values, different ones stay apart, and the closed
+//! formulas of the mechanics are proved equal to the definitions by the tool.
 
 mod common;
 
@@ -16,7 +16,7 @@ use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 use num_dual::DualNum;
 
-/// The operations before and after, and the values of both at a point.
+/// Returns the operations before and after, and the values of both at a point.
 fn merged<const N: usize>(
     point: [f64; N],
     build: impl FnOnce(&[Expr]) -> Vec<Expr>,
@@ -88,7 +88,7 @@ fn a_division_by_zero_is_left_alone() {
     assert!(!pairs[0].1.is_finite(), "and it is as undefined as before");
 }
 
-/// Bodies on a plane, with the claims whose residuals the short formulas make.
+/// Makes bodies on a plane, with the claims whose residuals contain the closed formulas.
 fn bodies() -> Vec<Case> {
     let body = |parameters: &str, body: &str| {
         let claim = |name: &str, what: &str| {
@@ -150,7 +150,7 @@ fn short_formulas_are_proved_equal_to_the_definitions() {
 
 #[test]
 fn the_work_items_take_few_operations() {
-    // As counted; no more than what vectors take by hand, 236, 251 and 1032.
+    // As counted; at most the counts for handwritten vectors, 236, 251 and 1032.
     for (item, most) in work_items().expect("cases").iter().zip([260, 235, 215]) {
         let claim = &item.case.claims[0];
         let (recorded, _) = record_residual(&item.case, claim).expect("records");

@@ -1,4 +1,4 @@
-//! Claims about motion: the catalogue's that take no long runs, wrong input, and what is told.
+//! Claims about motion: those of the catalogue that take no long runs, wrong input, and reports.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn catalogue(path: &str) -> Case {
     Case::read(&path, &[]).1.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The reports on the claims of a case for which `wanted` holds.
+/// Returns the reports on the claims of a case for which `wanted` holds.
 fn reports(mut case: Case, wanted: impl Fn(&Motion) -> bool) -> Vec<ClaimReport> {
     case.motions.retain(|claim| wanted(&claim.kind));
     assert!(!case.motions.is_empty(), "{}: nothing to look at", case.title);
@@ -73,7 +73,7 @@ fn every_kind_is_used_and_fails_somewhere() {
     }
 }
 
-/// A balanced ball, whose section map is integrable.
+/// Reads a balanced ball, whose section map is integrable.
 fn ball(claim: &str) -> Result<Case, String> {
     let text = format!(
         "title = \"balanced ball\"\nsystem = \"rubber-plane\"\n[parameters]\nm = 1\nR = 3\n\
@@ -98,7 +98,7 @@ fn numbers_that_are_wrong_are_refuted() {
         let found = reports(case.expect("a case"), |_| true);
         let [claim] = &found[..] else { panic!("one claim") };
         let refuted = claim.verdict == Verdict::Refuted;
-        // A return time that is off by one unit of the last digit is what was stated.
+        // A return time with an error of one unit of the last digit agrees with the stated one.
         assert_eq!(refuted, !companions.starts_with("time"), "{companions}: {:?}", claim.evidence);
         assert!(!claim.evidence.measured.is_empty(), "a verdict shows its numbers");
     }
@@ -109,7 +109,7 @@ fn numbers_that_are_wrong_are_refuted() {
 
 #[test]
 fn a_share_of_the_crossings_may_go_beyond() {
-    // A curve around (π/2, 0) that is its own mirror image in l = π/2.
+    // A curve around (π/2, 0) that is symmetric about l = π/2.
     for (share, verdict) in
         [("1", Verdict::Refuted), ("0.6", Verdict::Refuted), ("0.4", Verdict::Confirmed)]
     {

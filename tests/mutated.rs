@@ -1,4 +1,4 @@
-//! Files with random changes never panic, and their mistakes have places in the text.
+//! Files with random changes: they never cause a panic, and their mistakes have places in the text.
 
 use std::path::{Path, PathBuf};
 
@@ -43,7 +43,7 @@ M = "matrix(i, 1..n, j, 1..n, if(i = j, x[i], A[j]))"
 integral = "product(i, 1..n, x[i]) + 0*tr(M)"
 "#;
 
-/// What is put in: pieces of the language, and odd ones.
+/// Inserted pieces: of the language, and odd ones.
 const PIECES: [&str; 44] = [
     "\"",
     "'",

@@ -1,7 +1,7 @@
-//! Every built-in field against the raw Newton–Euler equations with multipliers.
+//! Built-in fields compared with the raw Newton–Euler equations with multipliers.
 //!
 //! Energy, γ² and (ω,γ) are conserved also by a field with the central inertia tensor in its
-//! gyroscopic term; nothing but the equations themselves tells the two apart.
+//! gyroscopic term; only the equations themselves distinguish the two.
 
 #[path = "newton_euler/bodies.rs"]
 mod bodies;
@@ -17,8 +17,9 @@ use nalgebra::{Matrix3, Vector3};
 
 const STATES: u64 = 16;
 
-/// γ' of a rolling body. The contact moves equally fast along both surfaces: γ/k is the way from
-/// the centre of the fixed ball to the contact, so that (γ' + ω×γ)/k = r', with r' = (∂r/∂γ)γ'.
+/// Computes γ' of a rolling body. The contact moves equally fast along both surfaces: γ/k is the
+/// vector from the centre of the fixed ball to the contact, so that (γ' + ω×γ)/k = r', with r' =
+/// (∂r/∂γ)γ'.
 fn rolling(
     slope: &Matrix3<f64>,
     k: f64,
@@ -29,8 +30,8 @@ fn rolling(
     turning.lu().solve(&gamma.cross(omega)).expect("the radii of curvature do not agree")
 }
 
-/// The moment that a potential exerts: its power is that of U along every motion, so that
-/// (M,ω) = -(∂U/∂γ,γ') for each ω. Its part along γ is taken up by the constraint.
+/// Computes the moment exerted by a potential: its power is that of U along every motion, so that
+/// (M,ω) = -(∂U/∂γ,γ') for each ω. Its component along γ is taken up by the constraint.
 fn moment(
     slope: &Matrix3<f64>,
     k: f64,
@@ -66,7 +67,7 @@ fn moment_of(body: &Body, at: &Drawn) -> Moment {
     }
 }
 
-/// Asserts that what the library computes lies within both errors of ours.
+/// Asserts that the library's results agree within both errors.
 fn assert_same(at: &Drawn, first: usize, ours: &[f64], error: f64, what: &str) {
     for (i, expected) in ours.iter().enumerate() {
         let (found, radius) = at.report.field[first + i].expect("the field is defined");
@@ -137,7 +138,7 @@ fn the_flat_base_solves_newtons_and_eulers_equations() {
     }
 }
 
-/// What a field with the tensor T in its gyroscopic term does, with bounds on the errors.
+/// Rates of a field with the tensor T in its gyroscopic term, with bounds on the errors.
 struct Variant {
     rate: Vector3<f64>,
     rate_error: f64,
@@ -145,7 +146,7 @@ struct Variant {
     power_error: f64,
 }
 
-/// Ĩω' = Tω×ω - m r×(ω×r') + λγ, and the rate of ½(ω,Ĩω).
+/// Computes Ĩω' = Tω×ω - m r×(ω×r') + λγ, and the rate of ½(ω,Ĩω).
 fn variant(moment: &Moment, tensor: &Matrix3<f64>) -> Variant {
     let Moment { mass, omega, gamma, r, r_rate, .. } = moment;
     let at_contact = contact_inertia(moment);
@@ -157,7 +158,7 @@ fn variant(moment: &Moment, tensor: &Matrix3<f64>) -> Variant {
     let multiplier = -(torque.dot(&along) + omega.dot(&moment.gamma_rate)) / gamma.dot(&along);
     let rate = solve(&(torque + gamma * multiplier));
     let changing = omega.norm_squared() * r.dot(r_rate) - omega.dot(r) * omega.dot(r_rate);
-    // |δω'| ≤ |Ĩ⁻¹| (what the terms of Ĩω' and the solution have lost to rounding)
+    // |δω'| ≤ |Ĩ⁻¹| (rounding errors of the terms of Ĩω' and of the solution).
     let sizes = tensor.norm() * omega.norm_squared()
         + slide.norm()
         + multiplier.abs()

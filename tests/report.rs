@@ -1,4 +1,4 @@
-//! Reports on bodies without candidate formulas: the class, what is found, and how it is written.
+//! Reports on bodies without candidate formulas: the class, the findings, and their presentation.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use liouville::survey::{Class, Integrals, Measure, Survey, survey};
 use liouville::verdict::Options;
 use predicates::str::contains;
 
-/// A body with parameters m and I, and what else is given.
+/// Writes a body with parameters m and I, and further ones.
 fn body(system: &str, parameters: &str, body: &str) -> String {
     format!(
         "title = \"a body\"\nsystem = \"{system}\"\n[parameters]\nm = \"0.5..2\"\n{parameters}\n[body]\n{body}\n"
@@ -29,7 +29,7 @@ const OFFSET: &str = "R = \"1..3\"\nc = \"vector(-0.5..0.5)\"\n";
 const ALONG: &str = "R = \"1..3\"\nc3 = \"0.1..0.5\"\nc = \"[0, 0, c3]\"\n";
 const AXES: &str = "B = \"diag(1..4)\"\n";
 
-/// What a body is, and what is expected of it: class, measure, formulas of integrals.
+/// A body with its expected report: class, measure, formulas of integrals.
 struct Expected {
     body: String,
     class: Class,
@@ -189,7 +189,7 @@ fn a_density_by_quadrature_agrees_with_its_closed_form() {
             let density: f64 = (0..3).map(|k| gamma[k] * gamma[k] * inverse[k]).sum();
             let exact = (density / inverse[0]).ln() / 2.0;
             let value = value.expect("a value");
-            // The grid is told to a hundredth of a degree, the values to six digits.
+            // The grid is printed to a hundredth of a degree, the values to six digits.
             let slack = 2e-5 + 1e-5 * exact.abs();
             assert!(
                 (value - exact).abs() < slack,
@@ -199,7 +199,7 @@ fn a_density_by_quadrature_agrees_with_its_closed_form() {
     }
 }
 
-/// Every tag is closed, in order; what has no content closes itself.
+/// Asserts that every tag is closed, in order; a tag without content closes itself.
 fn assert_well_formed(page: &str) {
     let mut open: Vec<&str> = Vec::new();
     let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");

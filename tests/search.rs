@@ -1,5 +1,5 @@
-//! Search: what the papers state is found with their formulas hidden, counted, excluded, and bounded by
-//! conditions on the parameters.
+//! Searches: the results of the papers are found with their formulas hidden, counted, excluded, and
+//! bounded by conditions on the parameters.
 
 use std::path::Path;
 
@@ -43,7 +43,7 @@ fn integrals_of_the_papers_are_found_and_proved() {
         let found: Vec<_> = report.found.iter().filter(|found| found.kind == "integral").collect();
         assert_eq!(found.len(), 1, "{path}: {found:?}");
         assert_eq!(found[0].verdict, Verdict::Proved, "{path}: {}", found[0].formula);
-        // The library knows neither the claim nor its form: the two are shown to be dependent.
+        // The library contains neither the claim nor its form: the two are shown to be dependent.
         let known = found[0].known.as_deref().unwrap_or("");
         assert!(known.starts_with(name), "{path}: {} comes from `{known}`", found[0].formula);
         assert!(report.opinions.iter().all(|opinion| opinion.agrees()), "{path}: singular values");
@@ -132,7 +132,7 @@ fn potentials_that_separate_keep_an_integral() {
         let report = report.expect("it can be searched");
         assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral], "{potential}");
     }
-    // A generating function of them, with a term of the user's.
+    // A generating function of them, with a user's term.
     let text = format!("{body}'a/(γ,inverse(J − l*E)*γ)'");
     let mut effort = effort(2);
     effort.terms = vec!["U*(γ,adj(J)*(inverse(J − l*E)*γ))".to_string()];
@@ -178,7 +178,7 @@ fn a_force_that_is_no_potential_makes_no_false_theorem() {
          kinetic = \"x'²/2\"\npotential = 'x²/2'\nforces = { x = '-x' }\n",
     );
     let report = search(&oscillator, &effort(2), &mut |_| {}).expect("it can be searched");
-    // The energy is no integral, 2x² + x'² is one.
+    // The energy is not an integral, 2x² + x'² is.
     let found: Vec<&str> = report.formulas("integral").collect();
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(report.excluded.iter().all(|excluded| !excluded.theorem.contains("energy")));
@@ -193,7 +193,7 @@ fn conditions_on_parameters_are_found() {
          I = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
     );
     let report = search(&ellipsoid, &wanted, &mut |_| {}).expect("it can be searched");
-    // (3.8), multiplied out
+    // (3.8), expanded.
     let condition = "B11*I1*I2 − B11*I1*I3 − B22*I1*I2 + B22*I2*I3 + B33*I1*I3 − B33*I2*I3 − m*B11*B22*I1 + \
                      m*B11*B22*I2 + m*B11*B33*I1 − m*B11*B33*I3 − m*B22*B33*I2 + m*B22*B33*I3 = 0";
     let equations = &report.conditions[0].equations;
@@ -252,7 +252,7 @@ fn a_claim_that_fails_in_general_is_given_its_condition() {
 
 #[test]
 fn potentials_and_rotors_that_keep_an_integral_are_found_and_proved() {
-    // How many potentials and rotors there are in the ansatz.
+    // Numbers of potentials and rotors in the ansatz.
     let cases = [
         ("plane/balanced-ball", 6, 3),
         ("plane/ellipsoid-mb-mu", 6, 0),
@@ -340,7 +340,8 @@ fn densities_that_depend_on_the_velocities_are_counted_and_found() {
     assert_eq!((last.degree, last.alpha, last.dimension), (1, Some(-1), 1));
     assert!(report.excluded.iter().all(|one| !one.theorem.contains("P^(1/α)")), "no theorem");
 
-    // (3.15) is one of the configuration; the unbalanced ball and an ellipsoid have none at all.
+    // (3.15) is a density of the configuration; the unbalanced ball and an ellipsoid have none at
+    // all.
     let balanced = searched("plane/balanced-ball", &effort(1));
     let counted: Vec<(u32, usize)> =
         balanced.multipliers.iter().map(|one| (one.degree, one.dimension)).collect();
@@ -354,7 +355,7 @@ fn densities_that_depend_on_the_velocities_are_counted_and_found() {
     assert!(theorem.contains("for every gyrostat and every potential"), "{theorem}");
 }
 
-/// Searches a field of two or more variables for brackets; the report, and the brackets.
+/// Searches a field of two or more variables for brackets; returns the report and the brackets.
 fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (Report, Vec<String>) {
     let wanted = Effort { poisson: Some(hamiltonians), ..effort(0) };
     let case = case(&format!("title = 'x'\nsystem = 'field'\ncheck-weights = false\n{body}"));

@@ -1,5 +1,5 @@
-//! Sweeps: the same for any number of threads and by every engine, at states that `eval` finds
-//! again, in agreement with the verdicts.
+//! Sweeps: the same results for any number of threads and by every engine, at states that `eval`
+//! reproduces, in agreement with the verdicts.
 
 use liouville::case::Case;
 use liouville::engine::Means;

@@ -1,5 +1,5 @@
-//! The built-in ball on a surface and Lagrangian systems against reference values from 100-digit
-//! arithmetic, in which the same equations of motion were typed out.
+//! The built-in ball on a surface and Lagrangian systems compared with reference values from
+//! 100-digit arithmetic of separately written equations of motion.
 
 mod common;
 
@@ -16,7 +16,7 @@ const TOP: &str = "[parameters]\nI = [[\"5/2\", \"2/5\", \"-3/7\"], [\"2/5\", \"
 struct Pair {
     key: &'static str,
     text: String,
-    /// The components of the built-in state, in order.
+    /// Components of the built-in state, in order.
     state: &'static [&'static str],
 }
 
@@ -93,7 +93,7 @@ fn pairs() -> Vec<Pair> {
     ]
 }
 
-/// The entry of a reference state that a name such as `M.1` or `w1` means.
+/// Returns the entry of a reference state for a name such as `M.1` or `w1`.
 fn entry<'v>(object: &'v Value, name: &str) -> &'v str {
     match name.split_once('.') {
         Some((vector, index)) => {

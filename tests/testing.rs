@@ -1,4 +1,4 @@
-//! `liouville::testing` as a user has it: fields and bodies of one's own, and assertions that can fail.
+//! Use of `liouville::testing`: user-defined fields and bodies, and assertions that can fail.
 
 mod common;
 #[path = "common/random.rs"]
@@ -18,7 +18,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{TestError, TestRunner};
 use random::config;
 
-/// A body that no case file has: a superellipsoid's smooth cousin, h = ⁴√(Σ (aᵢγᵢ)⁴) and a margin.
+/// A body outside the case files: a smooth relative of the superellipsoid, h = ⁴√(Σ (aᵢγᵢ)⁴) and a
+/// margin.
 #[derive(Clone, Debug)]
 struct Pillow {
     axes: [f64; 3],
@@ -37,7 +38,7 @@ fn pillow() -> impl Strategy<Value = Pillow> {
     (state(0.5..2.0), number(0.25..1.0)).prop_map(|(axes, margin)| Pillow { axes, margin })
 }
 
-/// |Ĩω × γ|², an integral of a balanced ball and of few other bodies.
+/// Computes |Ĩω × γ|², an integral of a balanced ball and of few other bodies.
 fn turned_momentum<B: Body, T: Scalar>(rolling: &Rolling<B>, x: [T; 6]) -> T {
     let [w1, w2, w3, g1, g2, g3] = x;
     let [a, b, c] =
@@ -138,13 +139,13 @@ fn balanced(radius: f64, [a, b, c]: [f64; 3]) -> Rolling<Ball> {
     Rolling::on_plane(Ball { radius }, 1.0, inertia)
 }
 
-/// (γ,J⁻¹γ) with J = I + mR²E.
+/// Computes (γ,J⁻¹γ) with J = I + mR²E.
 fn inverse_form<T: Scalar>(x: &[T; 6], moments: [f64; 3], radius: f64) -> T {
     let added = T::from(radius) * radius;
     x[3..].iter().zip(moments).map(|(g, a)| *g * *g / (added + a)).sum()
 }
 
-/// The smaller principal radius of curvature at γ, and h - (γ,∇h).
+/// Computes the smaller principal radius of curvature at γ, and h - (γ,∇h).
 fn radii(body: &impl Body, gamma: [f64; 3]) -> (f64, f64) {
     let second = |i: usize, j: usize| {
         let part = |j: usize, k: usize| if j == k { 1.0 } else { 0.0 };
@@ -152,14 +153,14 @@ fn radii(body: &impl Body, gamma: [f64; 3]) -> (f64, f64) {
         body.support([at(0), at(1), at(2)])
     };
     let slope = Matrix3::from_fn(|i, j| second(i, j).eps.eps);
-    // γ is an eigenvector with eigenvalue 0; it is moved out of the way.
+    // γ is an eigenvector with eigenvalue 0, which is shifted to a large value.
     let normal = nalgebra::Vector3::from(gamma);
     let across = slope + normal * normal.transpose() * 1e3;
     let along: f64 = (0..3).map(|i| gamma[i] * second(i, i).re.eps).sum();
     (across.symmetric_eigenvalues().min(), second(0, 0).re.re - along)
 }
 
-/// The smallest counterexample that proptest finds to a wrong integral of a body of one's own.
+/// The smallest counterexample that proptest finds to a wrong integral of a user-defined body.
 #[test]
 fn a_wrong_integral_is_refuted_and_shrinks() {
     let strategy = (pillow(), inertia_tensor(0.25..2.0), rolling_state());
@@ -193,7 +194,7 @@ fn energy_is_proved_on_the_level_and_a_wrong_integral_is_not() {
     assert!(proof.0.error_log2 < -100.0, "{proof}");
     assert!(proof.to_string().contains("random primes"), "{proof}");
 
-    // At rest nothing moves, and every quantity is conserved there; not on the level.
+    // At rest nothing moves, and every quantity is conserved there, but not on the level.
     let rest = On { level: RollingLevel, coordinates: [0.5, -0.25, 0.0, 0.0, 0.0] };
     let square = quantity!(|x: [_; 6]| x[0] * x[0]);
     rolling.conserves(&square).at(&rest).expect("true at this state");
@@ -243,7 +244,7 @@ fn euler_top<T: DualNum<Primitive = f64> + Copy>([p, q, r]: [T; 3], [a, b, c]: [
     ]
 }
 
-/// Σ aᵏ ωᵢ²: twice the energy for k = 1, the square of the momentum for k = 2.
+/// Computes Σ aᵏ ωᵢ²: twice the energy for k = 1, the square of the momentum for k = 2.
 fn moment<T: DualNum<Primitive = f64> + Copy>(x: [T; 3], moments: [f64; 3], power: i32) -> T {
     x.iter().zip(moments).map(|(x, a)| *x * *x * T::from(a).powi(power)).sum()
 }
@@ -380,7 +381,7 @@ fn what_has_no_meaning_is_no_success() {
     assert!(matches!(failure, Failure::Undefined { .. }), "{failure}");
 }
 
-/// h of degree 2, as one might type the square of a radius.
+/// A support function h of degree 2, such as the square of a radius typed by mistake.
 struct Squared;
 
 impl Body for Squared {

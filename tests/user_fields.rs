@@ -1,7 +1,7 @@
-//! Fields typed by the user against reference values from 100-digit arithmetic.
+//! User-defined fields compared with reference values from 100-digit arithmetic.
 //!
-//! The reference writes its systems in a language close to ours; what differs is listed in
-//! [`translated`], what has no counterpart here in [`SKIPPED`].
+//! The reference writes its systems in a language close to ours; the differences are listed in
+//! [`translated`], entries without a counterpart in [`SKIPPED`].
 
 mod common;
 
@@ -14,11 +14,11 @@ use serde_json::Value;
 
 const OTHERS: &str = include_str!("data/others.json");
 
-/// The kinds of candidates that no claim of ours says, with the reason and how many there are.
+/// Kinds of candidates without a claim here, with their number and the reason.
 const SKIPPED: [(&str, usize, &str); 1] =
     [("no_smooth_measure_witness", 1, "v = 0 ≠ div v there, which is compared at every state")];
 
-/// A formula of the reference in our language: a matrix is written by rows in square brackets.
+/// Translates a formula of the reference: a matrix is written by rows in square brackets.
 fn translated(formula: &str) -> String {
     formula
         .replace("mat((", "mat([")
@@ -26,7 +26,7 @@ fn translated(formula: &str) -> String {
         .replace("))", if formula.starts_with("mat((") { "])" } else { "))" })
 }
 
-/// Equations of the level set that densities on the level refer to.
+/// Returns equations of the level set to which densities refer.
 fn level(system: &str) -> &'static str {
     match system {
         "ball_quadric"
@@ -38,13 +38,13 @@ fn level(system: &str) -> &'static str {
     }
 }
 
-/// Entries of a JSON object in the order of `names`, or its own.
+/// Returns the entries of a JSON object of strings.
 fn entries(object: &Value) -> Vec<(&str, &str)> {
     let object = object.as_object().expect("an object");
     object.iter().map(|(name, value)| (name.as_str(), text(value))).collect()
 }
 
-/// The state variables: `M1, M2, M3` are the vector M where the field gives its rate.
+/// Returns the state variables: `M1, M2, M3` are the vector M where the field gives its rate.
 fn variables(system: &Value) -> Vec<(&str, bool)> {
     let mut names: Vec<(&str, bool)> = Vec::new();
     for component in strings(&system["variables"]) {
@@ -60,7 +60,7 @@ fn variables(system: &Value) -> Vec<(&str, bool)> {
     names
 }
 
-/// Parameters in an order in which each uses only those before it: plain numbers first.
+/// Returns the parameters in an order in which each uses earlier ones only: plain numbers first.
 fn parameters(system: &Value) -> Vec<(&str, &str)> {
     let mut all = entries(&system["parameters"]);
     let depth = |formula: &str| match formula {
@@ -108,8 +108,8 @@ fn candidates(system: &Value) -> &Vec<Value> {
     system["candidates"].as_array().expect("candidates")
 }
 
-/// The claims whose values and residuals make a candidate's residual: kind, place, what follows
-/// the kind in a case file.
+/// Returns the claims whose values and residuals make up a candidate's residual: kind, place, and
+/// the text after the kind in a case file.
 fn claims(candidate: &Value) -> Vec<(&'static str, &'static str, String)> {
     let formula = |key: &str| translated(text(&candidate[key]));
     let quoted = |formula: String| format!("\"{formula}\"");
@@ -132,7 +132,7 @@ fn claims(candidate: &Value) -> Vec<(&'static str, &'static str, String)> {
         "integral" => vec![everywhere(formula("expr"))],
         "density" => vec![("density", "everywhere", quoted(formula("expr")))],
         "density_on_level" => vec![("density", "level", quoted(formula("expr")))],
-        // A root has no enclosure at 0: the square of a norm stands for the norm.
+        // A root has no enclosure at 0: the square of a norm replaces the norm.
         "identity" => match formula("expr").strip_prefix("norm") {
             Some(inside) => vec![everywhere(format!("({inside})^2"))],
             None => vec![everywhere(formula("expr"))],
@@ -146,7 +146,7 @@ fn claims(candidate: &Value) -> Vec<(&'static str, &'static str, String)> {
     }
 }
 
-/// The enclosure of a candidate's residual.
+/// Encloses a candidate's residual.
 fn residual(candidate: &Value, number: usize, found: &PointReport) -> Enclosed {
     let part = |part: usize| claim(found, &format!("{number}, {part}"));
     match text(&candidate["kind"]) {
@@ -160,13 +160,13 @@ fn residual(candidate: &Value, number: usize, found: &PointReport) -> Enclosed {
     }
 }
 
-/// The enclosures of the components of a claim's residual.
+/// Returns the enclosures of the components of a claim's residual.
 fn residuals_of<'r>(found: &'r PointReport, name: &str) -> &'r [Enclosed] {
     let claim = found.claims.iter().find(|(known, _, _)| known == name);
     claim.map_or(&[], |(_, _, residual)| residual)
 }
 
-/// The exact numbers of a state in the order of the variables.
+/// Returns the exact numbers of a state in the order of the variables.
 fn state_of(system: &Value, state: &Value) -> Vec<liouville::number::rational::Rational> {
     let exactly = &state["exact"];
     variables(system)

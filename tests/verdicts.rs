@@ -1,4 +1,4 @@
-//! What verdicts say beside true and false: where, how new, of which sign, and why not.
+//! Details of verdicts besides true and false: place, novelty, sign, and reasons for silence.
 
 use liouville::case::Case;
 use liouville::verdict::{
@@ -21,7 +21,7 @@ I = "inertia(0.5..5)"
 shape = "ball"
 "#;
 
-/// The oscillator x'' = -x, with the level set that the text describes.
+/// Writes the oscillator x'' = -x, with the level set described by the text.
 fn oscillator(rest: &str) -> String {
     format!(
         "title = 'oscillator'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n{rest}"
@@ -150,7 +150,7 @@ fn an_integrand_of_two_variables_has_no_integral() {
 
 #[test]
 fn rounding_that_hides_a_residual_is_admitted() {
-    // 10⁵⁰ (y - y) by a detour that no simplification sees: the error bound swamps L_v x = y.
+    // 10⁵⁰ (y - y) in a form that no simplification cancels: the error bound exceeds L_v x = y.
     let huge = "10^50*((x + y)² − x² − 2*x*y − y²)";
     let text =
         oscillator(&format!("[[claim]]\nintegral = '(x² + y²)*(1 + {huge})'\nexpect = 'open'\n"));

@@ -1,7 +1,7 @@
-//! Balls that are wide: every operation holds what comes of each number in its arguments' balls.
+//! Wide balls: every operation encloses the results for each number in its arguments' balls.
 //!
-//! The number lies on the edge of its ball, where a bound that is too small shows first; operations
-//! are tried at arguments whose results are rational.
+//! The number lies on the edge of its ball, where too small a bound shows first; operations are
+//! tried at arguments with rational results.
 
 mod common;
 #[path = "common/random.rs"]
@@ -38,14 +38,14 @@ const OPERATIONS: [Operation; 9] = [
     ("tⁿ", |x| x[0].power_of(x[4]), |t, _, n| t.pow(n)),
 ];
 
-/// A ball about `x` moved aside by a part `shift` of it, with `x` on its edge.
+/// Makes a ball around `x` moved aside by a fraction `shift` of it, with `x` on its edge.
 fn beside(x: &BigRational, shift: f64) -> Balls<1> {
     let mid = x.to_f64().expect("a finite number") * (1.0 + shift);
     let distance = (dyadic(mid) - x).abs().to_f64().expect("a finite number");
     Balls::new([mid], [distance * (1.0 + 2.0 * f64::EPSILON) + f64::MIN_POSITIVE])
 }
 
-/// Shifts of every size, most of them visible.
+/// Draws shifts of every size, most of them visible.
 fn shift() -> impl Strategy<Value = f64> {
     (0..50i32, -1.0..1.0f64).prop_map(|(e, x)| 2.0 * x * 0.5f64.powi(e / 2))
 }

@@ -1,5 +1,5 @@
-//! Every witness of the catalogue is what it claims to be: at that state, typed in again, the
-//! residual's enclosure excludes 0 and meets the one that was reported.
+//! Witnesses of the catalogue: at each state, typed in again, the residual's enclosure excludes 0
+//! and meets the reported one.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The component of a claim's residual at its witness that is nearest to what was found there:
+/// Finds the component of a claim's residual at its witness that is nearest to the reported value:
 /// midpoint and error bound.
 fn again(path: &Path, claim: &str, witness: &Witness) -> Option<(f64, f64)> {
     let setting =
@@ -39,7 +39,7 @@ fn all_witnesses_are_reproduced() {
     for path in paths {
         let case = Case::read(&path, &[]).1.expect("a case");
         let report = judge(&case, &Options::default()).expect("it can be judged");
-        // Dependent functions are refuted by a proof, and a residual that is a constant by itself.
+        // Dependent functions, and residuals that are constant, are refuted without a state.
         let refuted = |claim: &&ClaimReport| {
             let by_a_state = claim.kind != "independent" && claim.evidence.method != "folding";
             claim.verdict == Verdict::Refuted && by_a_state

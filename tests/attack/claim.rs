@@ -1,4 +1,4 @@
-//! Claims, as text and as what the oracle finds at a state.
+//! Claims, as text and as evaluated by the oracle at a state.
 
 use super::expr::{Tree, neg};
 use super::jet::{Jet, Place};
@@ -15,27 +15,27 @@ pub enum Claim {
     Integral(Tree),
     Rate(Tree, Tree),
     Density(Tree),
-    /// F with its cofactor.
+    /// Function F with its cofactor.
     Relation(Tree, Tree),
     SymmetryField(Vec<(usize, Tree)>),
     Independent(Vec<Tree>),
-    /// A function, its limit, and the parameter that tends to 0 from above.
+    /// Function, its limit, and the parameter that tends to 0 from above.
     Limit(Tree, Tree, usize),
 }
 
-/// What is found at a state.
+/// Result at a state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum At {
-    /// The residual is 0.
+    /// A zero residual.
     Zero,
-    /// It is not, by about so much.
+    /// A nonzero residual of about this size.
     Off(f64),
-    /// There is no residual.
+    /// No residual.
     Without(Lack),
 }
 
 impl Claim {
-    /// The word of the statement.
+    /// Returns the key of the statement.
     pub fn kind(&self) -> &'static str {
         match self {
             Claim::Identity(..) => "identity",
@@ -49,12 +49,12 @@ impl Claim {
         }
     }
 
-    /// Is one state at which the residual is not 0 what is claimed?
+    /// Whether the claim is proved by one state at which the residual is not 0.
     pub fn is_negated(&self) -> bool {
         matches!(self, Claim::Independent(_))
     }
 
-    /// All formulas.
+    /// Returns all formulas.
     pub fn trees(&self) -> Vec<&Tree> {
         match self {
             Claim::Identity(a, b) | Claim::Rate(a, b) | Claim::Relation(a, b) => vec![a, b],
@@ -65,7 +65,7 @@ impl Claim {
         }
     }
 
-    /// The same claim about other formulas.
+    /// Makes the same claim about other formulas.
     pub fn with_trees(&self, trees: &[Tree]) -> Self {
         let tree = |k: usize| trees[k].clone();
         match self {
@@ -83,7 +83,7 @@ impl Claim {
         }
     }
 
-    /// The body of its table.
+    /// Writes the body of the claim's table.
     pub fn body(&self, names: &[String], hand: Hand) -> String {
         let text = |tree: &Tree| hand.text(tree, names);
         match self {
@@ -113,7 +113,7 @@ impl Claim {
         }
     }
 
-    /// What is found at a state with these values of the symbols.
+    /// Evaluates the claim at a state with these values of the symbols.
     pub fn at(&self, scene: &Scene, values: &[Found<Real>]) -> At {
         let found = match self {
             Claim::Limit(a, b, by) => return limit(a, b, *by, scene, values),
@@ -201,13 +201,13 @@ impl Claim {
     }
 }
 
-/// The level functions with their gradients.
+/// Computes the level functions with their gradients.
 fn gradients(scene: &Scene, place: &Place<'_>) -> Found<Vec<Jet>> {
     let equations = scene.level.iter().flat_map(|level| &level.equations);
     equations.map(|(a, b)| place.jet(&super::expr::add(a, &neg(b)))).collect()
 }
 
-/// The rank of some rows.
+/// Computes the rank of some rows.
 fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
     let mut found = 0;
     let columns = rows.first().map_or(0, Vec::len);
@@ -234,19 +234,19 @@ fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
     Ok(found)
 }
 
-/// Does a function tend to its limit, from each side on which it has values?
+/// Tests whether a function tends to its limit, from each side on which it has values.
 fn limit(a: &Tree, b: &Tree, by: usize, scene: &Scene, values: &[Found<Real>]) -> At {
     let sides = [1, -1].map(|side| from_one_side(a, b, (by, side), scene, values));
     match sides {
         [At::Without(Lack::Value), side] | [side, At::Without(Lack::Value)] => side,
         [At::Zero, At::Zero] => At::Zero,
         [At::Off(above), At::Off(below)] => At::Off(above.max(below)),
-        // Sides that differ: which of them is meant is not said.
+        // The sides differ, and the claim does not state which is meant.
         _ => At::Without(Lack::Decision),
     }
 }
 
-/// The same at the steps 10^-12, 10^-24, 10^-36 on one side.
+/// Tests the steps 10^-12, 10^-24, 10^-36 on one side.
 fn from_one_side(
     a: &Tree,
     b: &Tree,

@@ -6,7 +6,7 @@ use super::expr::{
     Expr, Function, Tree, add, div, modulus, mul, neg, of, power, ratio, root, square, sub, whole,
 };
 
-/// The derivative of an expression, each symbol having its own.
+/// Differentiates an expression, given the derivatives of the symbols.
 pub fn derived(tree: &Tree, rates: &dyn Fn(usize) -> Tree) -> Tree {
     let part = |a: &Tree| derived(a, rates);
     match &**tree {

@@ -1,4 +1,4 @@
-//! Case `index` of a seed: a scene with a claim, or with some.
+//! Case `index` of a seed: a scene with one or more claims.
 
 use super::claim::Claim;
 use super::derive::derived;
@@ -13,23 +13,23 @@ use super::rewrite::{Rewritten, rewritten};
 use super::scene::{Origin, Scene, Symbol};
 use super::spoil::{spoilt, unsigned};
 
-/// A claim with what is known of it by the way it was made.
+/// A claim with the facts about it that follow from its construction.
 #[derive(Clone, Debug)]
 pub struct Made {
     pub claim: Claim,
-    /// Does its residual vanish wherever it has a value, by construction?
+    /// Whether its residual vanishes by construction wherever it is defined.
     pub vanishes: bool,
-    /// Is it claimed off the level too?
+    /// Whether it is claimed off the level too.
     pub everywhere: bool,
 }
 
 impl Made {
-    /// A claim at the place where its scene is.
+    /// Makes a claim at the place of its scene.
     pub fn new(claim: Claim, vanishes: bool) -> Self {
         Self { claim, vanishes, everywhere: false }
     }
 
-    /// The body of its table.
+    /// Writes the body of the claim's table.
     pub fn body(&self, names: &[String], hand: Hand) -> String {
         let body = self.claim.body(names, hand);
         if self.everywhere { format!("{body}\nwhere = \"everywhere\"") } else { body }
@@ -45,7 +45,7 @@ pub struct Drawn {
     pub seed: u64,
 }
 
-/// Case `index` of a seed.
+/// Draws case `index` of a seed.
 pub fn drawn(seed: u64, index: u64) -> Drawn {
     let mut stream = Stream::new(seed, index);
     let stream = &mut stream;
@@ -69,7 +69,7 @@ fn number(top: i64, bottom: i64) -> Number {
     Number { top, bottom, tens: 0 }
 }
 
-/// A random range.
+/// Draws a random range.
 pub fn range(stream: &mut Stream) -> (Number, Number) {
     let (a, b) = *stream.pick(&[
         ((1, 1), (2, 1)),
@@ -89,7 +89,7 @@ pub fn range(stream: &mut Stream) -> (Number, Number) {
     (number(a.0, a.1), number(b.0, b.1))
 }
 
-/// State variables and parameters.
+/// Draws state variables and parameters.
 pub fn plain(stream: &mut Stream) -> Scene {
     let mut symbols = Vec::new();
     let count = *stream.pick(&[1, 2, 2, 2, 3]);
@@ -149,7 +149,8 @@ fn parameter(scene: &Scene, stream: &mut Stream) -> Origin {
     }
 }
 
-/// Two expressions that differ in the sign of a symbol alone, beside a root that seems to tell it.
+/// Draws two expressions that differ only in the sign of a symbol, next to a root that seems to
+/// determine it.
 fn shadowed(garden: &Garden<'_>, stream: &mut Stream) -> (Tree, Tree) {
     let u = garden.symbol(stream);
     let factor = garden.one_sided(stream);
@@ -167,7 +168,7 @@ fn shadowed(garden: &Garden<'_>, stream: &mut Stream) -> (Tree, Tree) {
     (with(&modulus(&u)), with(&u))
 }
 
-/// Two expressions that are the same wherever both have values; or nearly.
+/// Draws two expressions that agree wherever both have values, or nearly so.
 pub fn pair(garden: &Garden<'_>, stream: &mut Stream) -> (Rewritten, Rewritten) {
     let ranges = garden.scene.intervals();
     if garden.roots && stream.once_in(16) {
@@ -193,13 +194,13 @@ pub fn pair(garden: &Garden<'_>, stream: &mut Stream) -> (Rewritten, Rewritten) 
     (left, right)
 }
 
-/// A claim of any kind.
+/// Draws a claim of any kind.
 pub fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
     let garden = Garden::new(scene, stream);
     let ranges = scene.intervals();
     let (left, right) = pair(&garden, stream);
     let exact = left.exact && right.exact;
-    // A function that vanishes, or nearly.
+    // A function that vanishes, or nearly so.
     let nothing = match stream.below(4) {
         0 => mul(&garden.atom(stream), &sub(&left.tree, &right.tree)),
         _ => sub(&left.tree, &right.tree),
@@ -236,7 +237,7 @@ pub fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
                 true => {
                     let times = stream.below(4);
                     let slope = rewritten(&derived(&left.tree, &rate), &ranges, stream, times);
-                    // Where the value of a function is 0 on an open set, its rate is as well.
+                    // Where a function is undefined on an open set, so is its rate.
                     made(Claim::Rate(left.tree, slope.tree), slope.exact)
                 }
                 false => {
@@ -273,7 +274,8 @@ pub fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
             let factor = kept(stream);
             let on_axis = field.iter().all(|(_, rate)| rate.is(1));
             let mut vanishes = exact || alone;
-            // Multiples by what is kept commute, but of fields that do not keep it.
+            // Multiples by conserved factors commute; fields that do not conserve them are
+            // excepted.
             if on_axis || scene.field == field {
                 vanishes &= factor.exact;
                 for (_, rate) in &mut field {
@@ -289,7 +291,7 @@ pub fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
     }
 }
 
-/// Functions that depend on each other, or not.
+/// Draws functions that may depend on each other.
 fn independent(
     garden: &Garden<'_>,
     left: Rewritten,

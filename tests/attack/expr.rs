@@ -1,4 +1,4 @@
-//! Expressions of the attack's own: grown, rewritten, evaluated and printed here.
+//! Expressions of the attack, with separate growth, rewriting, evaluation and printing.
 
 use std::rc::Rc;
 
@@ -29,7 +29,7 @@ pub type Tree = Rc<Expr>;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Expr {
     Number(Number),
-    /// A state variable or a parameter, by its place in the scene.
+    /// A state variable or a parameter, by its index in the scene.
     Symbol(usize),
     Neg(Tree),
     Add(Tree, Tree),
@@ -41,21 +41,21 @@ pub enum Expr {
     /// A power with any exponent.
     PowerTo(Tree, Tree),
     Of(Function, Tree),
-    /// The length of a vector.
+    /// The norm of a vector.
     Norm([Tree; 3]),
 }
 
-/// `top/bottom`
+/// Makes `top/bottom`.
 pub fn ratio(top: i64, bottom: i64) -> Tree {
     Rc::new(Expr::Number(Number { top, bottom, tens: 0 }))
 }
 
-/// A whole number.
+/// Makes an integer.
 pub fn whole(n: i64) -> Tree {
     ratio(n, 1)
 }
 
-/// `10^tens`
+/// Makes `10^tens`.
 pub fn ten_to(tens: i32) -> Tree {
     Rc::new(Expr::Number(Number { top: 1, bottom: 1, tens }))
 }
@@ -105,7 +105,7 @@ pub fn modulus(a: &Tree) -> Tree {
 }
 
 impl Expr {
-    /// The parts of an expression, in order.
+    /// Returns the parts of an expression, in order.
     pub fn parts(&self) -> Vec<&Tree> {
         match self {
             Expr::Number(_) | Expr::Symbol(_) => Vec::new(),
@@ -119,7 +119,7 @@ impl Expr {
         }
     }
 
-    /// The same expression of other parts.
+    /// Makes the same expression with other parts.
     pub fn with_parts(&self, parts: &[Tree]) -> Expr {
         let part = |k: usize| parts[k].clone();
         match self {
@@ -136,28 +136,28 @@ impl Expr {
         }
     }
 
-    /// How many nodes there are.
+    /// Number of nodes.
     pub fn size(&self) -> usize {
         1 + self.parts().iter().map(|part| part.size()).sum::<usize>()
     }
 
-    /// Does any node satisfy this?
+    /// Whether some node satisfies a test.
     pub fn any(&self, test: &mut dyn FnMut(&Expr) -> bool) -> bool {
         test(self) || self.parts().iter().any(|part| part.any(test))
     }
 
-    /// Does the symbol occur?
+    /// Whether the symbol occurs.
     pub fn has(&self, place: usize) -> bool {
         self.any(&mut |node| matches!(node, Expr::Symbol(found) if *found == place))
     }
 
-    /// Is it this number?
+    /// Whether the expression is this number.
     pub fn is(&self, n: i64) -> bool {
         matches!(self, Expr::Number(x) if x.tens == 0 && x.bottom == 1 && x.top == n)
     }
 }
 
-/// Node `index` in preorder.
+/// Returns node `index` in preorder.
 pub fn node(tree: &Tree, index: usize) -> Option<Tree> {
     let mut left = index;
     find(tree, &mut left)
@@ -171,7 +171,7 @@ fn find(tree: &Tree, left: &mut usize) -> Option<Tree> {
     tree.parts().into_iter().find_map(|part| find(part, left))
 }
 
-/// The tree with node `index` in preorder replaced.
+/// Replaces node `index` in preorder.
 pub fn replaced(tree: &Tree, index: usize, by: &Tree) -> Tree {
     let mut left = index as isize;
     replace(tree, &mut left, by)
@@ -189,7 +189,7 @@ fn replace(tree: &Tree, left: &mut isize, by: &Tree) -> Tree {
     Rc::new(tree.with_parts(&parts))
 }
 
-/// The tree with each symbol replaced.
+/// Replaces each symbol.
 pub fn substituted(tree: &Tree, by: &dyn Fn(usize) -> Tree) -> Tree {
     if let Expr::Symbol(place) = **tree {
         return by(place);

@@ -1,22 +1,22 @@
-//! Fields whose invariants are known, for claims about motion.
+//! Fields with known invariants, for claims about motion.
 
 use super::expr::{Tree, add, div, mul, neg, square, symbol, whole};
 use super::random::Stream;
 use super::scene::Scene;
 
-/// What is known of a field.
+/// Known invariants of a field.
 pub struct Known {
-    /// Functions that are kept.
+    /// Conserved functions.
     pub integrals: Vec<Tree>,
-    /// An invariant density.
+    /// Invariant density.
     pub density: Tree,
-    /// A function with its cofactor.
+    /// Function with its cofactor.
     pub relation: (Tree, Tree),
-    /// Fields that commute with it.
+    /// Fields that commute with the field.
     pub symmetries: Vec<Vec<(usize, Tree)>>,
 }
 
-/// Gives the scene a field whose invariants are known.
+/// Gives the scene a field with known invariants.
 pub fn flow(scene: &mut Scene, stream: &mut Stream) -> Known {
     let states = scene.states();
     let (x, rest) = (states[0], &states[1..]);

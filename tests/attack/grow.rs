@@ -1,4 +1,5 @@
-//! Random expressions, rich in what can go wrong: roots of squares, of what is one-sided, of constants.
+//! Random expressions with many difficulties: roots of squares, of one-sided expressions, of
+//! constants.
 
 use super::expr::{
     Expr, Function, Tree, add, div, modulus, mul, of, power, ratio, root, square, sub, symbol,
@@ -7,19 +8,19 @@ use super::expr::{
 use super::random::Stream;
 use super::scene::{Origin, Scene};
 
-/// Grows expressions in the symbols of a scene.
+/// A generator of expressions in the symbols of a scene.
 pub struct Garden<'a> {
     pub scene: &'a Scene,
-    /// The symbols that may be used.
+    /// Symbols that may be used.
     pub symbols: Vec<usize>,
-    /// Are exp, log, sin, cos and atan used?
+    /// Whether exp, log, sin, cos and atan may be used.
     pub functions: bool,
-    /// Are roots, moduli and fractional powers used?
+    /// Whether roots, moduli and fractional powers may be used.
     pub roots: bool,
 }
 
 impl<'a> Garden<'a> {
-    /// A garden of all symbols but chart inputs and what tends to 0.
+    /// Makes a generator with all symbols except chart inputs and parameters that tend to 0.
     pub fn new(scene: &'a Scene, stream: &mut Stream) -> Self {
         let usable = |place: &usize| {
             let symbol = &scene.symbols[*place];
@@ -40,7 +41,7 @@ impl<'a> Garden<'a> {
         ratio(top, bottom)
     }
 
-    /// A small number above 0.
+    /// Grows a small positive number.
     fn count(&self, stream: &mut Stream) -> Tree {
         whole(*stream.pick(&[1, 1, 2, 2, 3, 5]))
     }
@@ -49,7 +50,7 @@ impl<'a> Garden<'a> {
         if stream.below(4) < 3 { self.symbol(stream) } else { self.constant(stream) }
     }
 
-    /// An expression of about this depth.
+    /// Grows an expression of about this depth.
     pub fn tree(&self, stream: &mut Stream, depth: usize) -> Tree {
         if depth == 0 {
             return self.atom(stream);
@@ -87,7 +88,7 @@ impl<'a> Garden<'a> {
         }
     }
 
-    /// What is not 0, or seldom.
+    /// Grows an expression that is seldom or never 0.
     fn divisor(&self, stream: &mut Stream) -> Tree {
         match stream.below(3) {
             0 => add(&whole(1), &square(&self.symbol(stream))),
@@ -96,7 +97,7 @@ impl<'a> Garden<'a> {
         }
     }
 
-    /// What has a root on a good part of the range.
+    /// Grows an expression that has a root on a good part of the range.
     pub fn radicand(&self, stream: &mut Stream, depth: usize) -> Tree {
         let a = self.tree(stream, depth.min(1));
         let b = self.symbol(stream);
@@ -123,7 +124,7 @@ impl<'a> Garden<'a> {
         }
     }
 
-    /// A square, multiplied out.
+    /// Grows an expanded square.
     fn expanded_square(&self, stream: &mut Stream) -> Tree {
         let a = self.symbol(stream);
         let b = if stream.once_in(2) { self.symbol(stream) } else { self.count(stream) };
@@ -135,7 +136,7 @@ impl<'a> Garden<'a> {
         }
     }
 
-    /// The root of a number, or of a number with a root.
+    /// Grows the root of a number, or of a number with a root.
     fn number_root(&self, stream: &mut Stream) -> Tree {
         let n = whole(*stream.pick(&[2, 3, 5, 6, 8, 12]));
         match stream.below(4) {
@@ -146,7 +147,8 @@ impl<'a> Garden<'a> {
         }
     }
 
-    /// What is never negative and vanishes on a part of the range, or is the larger of two.
+    /// Grows an expression that is never negative and vanishes on a part of the range, or the
+    /// maximum of two.
     pub fn one_sided(&self, stream: &mut Stream) -> Tree {
         let a = match stream.below(5) {
             0 => sub(&self.symbol(stream), &self.atom(stream)),

@@ -1,4 +1,4 @@
-//! Where an expression can be, by intervals over the declared ranges; for rewriting only.
+//! Ranges of expressions, by intervals over the declared ranges; for rewriting only.
 
 use super::expr::{Expr, Function, Tree};
 
@@ -7,7 +7,7 @@ pub type Interval = (f64, f64);
 
 const ALL: Interval = (f64::NEG_INFINITY, f64::INFINITY);
 
-/// An interval that holds all values of the expression; `None` where it may have no value.
+/// Encloses all values of the expression; `None` where it may be undefined.
 pub fn range(tree: &Tree, symbols: &[Interval]) -> Option<Interval> {
     let at = |part: &Tree| range(part, symbols);
     let found = match &**tree {
@@ -96,18 +96,18 @@ fn squared((l, h): Interval) -> Interval {
     if l <= 0.0 && h >= 0.0 { (0.0, most) } else { ((l * l).min(h * h), most) }
 }
 
-/// A little wider; 0 stays where it is, as sums of squares are not negative.
+/// Widens an interval slightly; 0 stays in place, as sums of squares are not negative.
 fn outward((l, h): Interval) -> Interval {
     let slack = |x: f64| 1e-12 * x.abs();
     (l - slack(l), h + slack(h))
 }
 
-/// Is the expression positive over the ranges, and does it have a value everywhere?
+/// Whether the expression is defined and positive over the ranges.
 pub fn is_positive(tree: &Tree, symbols: &[Interval]) -> bool {
     range(tree, symbols).is_some_and(|(l, _)| l > 1e-9)
 }
 
-/// The same for what may be 0.
+/// Whether the expression is defined and not negative over the ranges.
 pub fn is_nonnegative(tree: &Tree, symbols: &[Interval]) -> bool {
     range(tree, symbols).is_some_and(|(l, _)| l >= 0.0)
 }

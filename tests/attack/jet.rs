@@ -1,4 +1,4 @@
-//! Values and derivatives of expressions, by the oracle's own forward differentiation.
+//! Values and derivatives of expressions, by the oracle's forward differentiation.
 
 use super::expr::{Expr, Function, Tree};
 use super::real::{
@@ -13,22 +13,22 @@ pub struct Jet {
     pub slopes: Vec<Real>,
 }
 
-/// Values of the symbols, and which of them derivatives are taken by.
+/// Values of the symbols, and the symbols of differentiation.
 pub struct Place<'a> {
     pub values: &'a [Found<Real>],
     pub along: &'a [usize],
 }
 
-/// Points beside a state at which a function is looked at that vanishes there.
+/// Number of points next to a state at which a function that vanishes there is tested.
 const BESIDE: i64 = 3;
 
 impl Place<'_> {
-    /// The value alone.
+    /// Evaluates an expression.
     pub fn value(&self, tree: &Tree) -> Found<Real> {
         Place { values: self.values, along: &[] }.jet(tree).map(|jet| jet.value)
     }
 
-    /// Value and derivatives.
+    /// Evaluates an expression with its derivatives.
     pub fn jet(&self, tree: &Tree) -> Found<Jet> {
         match &**tree {
             Expr::Number(known) => Ok(self.constant(number(*known))),
@@ -73,7 +73,7 @@ impl Place<'_> {
                 let (a, b) = both(self.jet(a), self.jet(b))?;
                 match sign(&a.value) {
                     -1 => return Err(Lack::Value),
-                    // 0^b is 0 for b > 0; whether that is a value is a matter of taste.
+                    // 0^b is 0 for b > 0; whether it counts as defined is a convention.
                     0 => return Err(Lack::Decision),
                     _ => {}
                 }
@@ -94,7 +94,8 @@ impl Place<'_> {
         Jet { value, slopes: vec![whole(0); self.along.len()] }
     }
 
-    /// 0 with derivatives 0 where `of` vanishes around the place as well; no derivative otherwise.
+    /// Returns 0 with derivatives 0 where `of` vanishes around the place as well; no derivative
+    /// otherwise.
     fn corner(&self, of: &Tree) -> Found<Jet> {
         if self.along.is_empty() {
             return Ok(self.constant(whole(0)));
@@ -144,7 +145,7 @@ impl Place<'_> {
         Ok(chained(inner, value, &slope))
     }
 
-    /// x^(top/bottom), for x > 0; at 0 too where roots alone make it.
+    /// Computes x^(top/bottom), for x > 0; at 0 too if only roots are taken.
     fn fractional(&self, a: &Tree, inner: &Jet, top: i64, bottom: i64) -> Found<Jet> {
         let x = &inner.value;
         match sign(x) {
@@ -187,7 +188,7 @@ impl Place<'_> {
     }
 }
 
-/// f(a), f' being `slope`.
+/// Applies the chain rule to f(a), with f' given as `slope`.
 fn chained(a: &Jet, value: Real, slope: &Real) -> Jet {
     Jet { value, slopes: a.slopes.iter().map(|by| times(by, slope)).collect() }
 }

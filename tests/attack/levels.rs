@@ -1,4 +1,4 @@
-//! Level sets whose branches the attack knows: graphs, products, spheres, lines, empty ones.
+//! Level sets with known branches: graphs, products, spheres, lines, empty ones.
 
 use std::rc::Rc;
 
@@ -23,7 +23,7 @@ fn wide(n: i64) -> Origin {
     Origin::State(Number { top: -n, bottom: 1, tens: 0 }, Number { top: n, bottom: 1, tens: 0 })
 }
 
-/// A scene on a level, with claims.
+/// Draws a scene on a level, with claims.
 pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
     let own = |name: &str, origin: Origin| Symbol { name: name.to_string(), origin };
     let mut scene = Scene::default();
@@ -46,7 +46,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
         8 => (lines(stream), false),
         _ => (empty(stream), false),
     };
-    // A rotation keeps the circles about the z axis and the spheres.
+    // A rotation preserves the circles about the z axis and the spheres.
     let turns = round && stream.once_in(2);
     if turns {
         scene.field = vec![(X, symbol(Y)), (Y, neg(&symbol(X)))];
@@ -64,7 +64,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
     let count = if stream.once_in(6) { 2 } else { 1 };
     let made = |stream: &mut Stream| {
         let mut made = claim(&scene, &known, stream);
-        // What is true on the level by construction need not be so off it.
+        // A statement true on the level by construction may be false off it.
         if stream.once_in(8) {
             (made.everywhere, made.vanishes) = (true, false);
         }
@@ -74,7 +74,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
     (scene, made)
 }
 
-/// x as a function of y and z, typed in several ways.
+/// Draws x as a function of y and z, written in several ways.
 fn graph(scene: &mut Scene, stream: &mut Stream) -> Level {
     let garden = Garden { scene, symbols: vec![Y, Z], functions: false, roots: true };
     let value = match stream.below(6) {
@@ -97,10 +97,10 @@ fn graph(scene: &mut Scene, stream: &mut Stream) -> Level {
     Level { equations: vec![equation], branches: vec![vec![(X, value)]], chart: None }
 }
 
-/// A product of two factors, each of which may vanish.
+/// Draws a product of two factors, each of which may vanish.
 fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
-    // Where a point is on a circle.
+    // Parameter of a point on a circle.
     let t = symbol(scene.symbols.len());
     if let Origin::State(low, high) = wide(6) {
         let origin = Origin::Input(low, high);
@@ -131,7 +131,7 @@ fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
         2 => circle(0, whole(1)),
         3 => (y.clone(), vec![vec![(Y, whole(0))]]),
         4 => (sub(&y, &whole(1)), vec![vec![(Y, whole(1))]]),
-        // No second branch.
+        // A level without a second branch.
         _ => (add(&whole(1), &square(&y)), Vec::new()),
     };
     branches.push(vec![(X, value.clone())]);
@@ -142,7 +142,7 @@ fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
     Level { equations: vec![equation], branches, chart: None }
 }
 
-/// The unit sphere or a cylinder by its equation, a hyperbola.
+/// Draws the unit sphere, a cylinder or a hyperbola by its equation.
 fn sphere(stream: &mut Stream) -> Level {
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
     let (function, value, rest) = match stream.below(3) {
@@ -157,7 +157,7 @@ fn sphere(stream: &mut Stream) -> Level {
     Level { equations: vec![(function, value)], branches, chart: None }
 }
 
-/// A sphere, a cylinder or a graph with a typed chart.
+/// Draws a sphere, a cylinder or a graph with a given chart.
 fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
     // The image of a chart lies in the declared ranges.
     for symbol in &mut scene.symbols {
@@ -200,7 +200,7 @@ fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
     (Level { equations: vec![equation], branches, chart: Some(chart) }, shape < 2)
 }
 
-/// The plane z = 0 with a chart of a parabola, whose large terms cancel.
+/// Draws the plane z = 0 with a chart by a parabola whose large terms cancel.
 fn curve(u: &Tree, v: &Tree) -> Level {
     let along = add(u, v);
     let nothing =
@@ -211,13 +211,13 @@ fn curve(u: &Tree, v: &Tree) -> Level {
     Level { equations: vec![(symbol(Z), whole(0))], branches: vec![plane], chart: Some(chart) }
 }
 
-/// Two linear equations in the same variables.
+/// Draws two linear equations in the same variables.
 fn lines(stream: &mut Stream) -> Level {
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
     let k = *stream.pick(&[1, 2, 3]);
     let first = add(&add(&x, &mul(&whole(k), &y)), &mul(&whole(3), &z));
     let second = add(&x, &y);
-    // (k − 1) y = −3z; for k = 1 z = 0 is left, and x = −y.
+    // (k − 1) y = −3z; for k = 1 this leaves z = 0 and x = −y.
     let branch = match k {
         1 => vec![(Z, whole(0)), (X, neg(&y))],
         _ => {
@@ -232,7 +232,7 @@ fn lines(stream: &mut Stream) -> Level {
     }
 }
 
-/// No real points, or none in the ranges.
+/// Draws a level without real points, or without points in the ranges.
 fn empty(stream: &mut Stream) -> Level {
     let (x, y) = (symbol(X), symbol(Y));
     let (equation, branches) = match stream.below(3) {
@@ -249,11 +249,11 @@ fn empty(stream: &mut Stream) -> Level {
     Level { equations: vec![equation], branches, chart: None }
 }
 
-/// A claim on the level: in one half of them some variables are replaced by what they are there.
+/// Draws a claim on the level: in half of them some variables are replaced by their values there.
 fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
     if stream.once_in(3) {
         let mut made = super::draw::claim(scene, known, stream);
-        // What commutes in space may leave the level.
+        // Fields that commute in space may leave the level.
         made.vanishes &= !matches!(made.claim, Claim::SymmetryField(_));
         return made;
     }
@@ -282,7 +282,7 @@ fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
     compared(scene, tree, other, &garden, stream)
 }
 
-/// Two expressions that are the same on the level, or nearly.
+/// Draws two expressions that agree on the level, or nearly so.
 fn compared(
     scene: &Scene,
     left: Tree,
@@ -296,11 +296,11 @@ fn compared(
         _ => (right.tree, right.exact),
     };
     let branches = scene.level.as_ref().map_or(&[][..], |level| &level.branches);
-    // What only the oracle draws is not known to claims.
+    // Symbols drawn by the oracle alone are unknown to claims.
     let typed =
         |(_, value): &&(usize, Tree)| (Z + 1..scene.symbols.len()).all(|place| !value.has(place));
     match (stream.below(8), branches.iter().flatten().find(typed)) {
-        // True on one branch.
+        // Equal on one branch.
         (0, Some((place, value))) => {
             Made::new(Claim::Identity(symbol(*place), value.clone()), false)
         }

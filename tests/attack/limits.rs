@@ -1,4 +1,4 @@
-//! Limits of expressions that have no value where they are taken, and of those that have.
+//! Limits of expressions at points where they may be undefined.
 
 use super::claim::Claim;
 use super::draw::{Made, range};
@@ -9,10 +9,10 @@ use super::expr::{
 use super::random::Stream;
 use super::scene::{Origin, Scene, Symbol};
 
-/// An expression with its limit, where that is a number.
+/// An expression with its limit, if that is a number.
 type Tending = (Tree, Option<Tree>);
 
-/// A limit for ε → 0.
+/// Draws a limit for ε → 0.
 pub fn limit(stream: &mut Stream) -> (Scene, Vec<Made>) {
     let positive = (Number { top: 1, bottom: 1, tens: 0 }, Number { top: 2, bottom: 1, tens: 0 });
     let (low, high) = if stream.once_in(3) { range(stream) } else { positive };
@@ -45,7 +45,7 @@ fn claim(stream: &mut Stream) -> Made {
     Made::new(Claim::Limit(tree, to, 2), false)
 }
 
-/// A piece, or something made of pieces.
+/// Draws one or more combined pieces.
 fn composed(stream: &mut Stream) -> Tending {
     let (a, to) = piece(stream);
     let x = symbol(stream.below(2));
@@ -64,7 +64,7 @@ fn composed(stream: &mut Stream) -> Tending {
     }
 }
 
-/// An expression in ε whose limit is known.
+/// Draws an expression in ε with a known limit.
 fn piece(stream: &mut Stream) -> Tending {
     let e = symbol(2);
     let c = match stream.below(3) {

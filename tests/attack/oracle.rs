@@ -10,17 +10,17 @@ use super::real::{self, Lack};
 use super::scene::{Point, Scene};
 use super::scout::{self, Sight};
 
-/// What states show of a claim.
+/// Results at states for a claim.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
-    /// States at which the residual is 0.
+    /// Number of states at which the residual is 0.
     pub zero: usize,
-    /// States at which it is not, and the first of them.
+    /// Number of states at which the residual is not 0, and the first of them.
     pub off: usize,
     pub first: Option<Point>,
-    /// States at which the claim has no value.
+    /// Number of states at which the claim is undefined.
     pub lacking: usize,
-    /// States that are not decided.
+    /// Number of undecided states.
     pub unsure: usize,
 }
 
@@ -38,18 +38,18 @@ impl Survey {
         }
     }
 
-    /// Has the claim no value wherever it was looked at?
+    /// Whether the claim is undefined at all states tested.
     pub fn is_void(&self) -> bool {
         self.zero == 0 && self.off == 0 && self.unsure == 0
     }
 
-    /// The share of the states with a value at which it fails.
+    /// Share of the states with a value at which the claim fails.
     pub fn share(&self) -> f64 {
         self.off as f64 / (self.off + self.zero).max(1) as f64
     }
 }
 
-/// A few states drawn evenly.
+/// Tests a few states drawn evenly.
 pub fn evenly(scene: &Scene, claim: &Claim, stream: &mut Stream, states: usize) -> Survey {
     let mut survey = Survey::default();
     for _ in 0..states {
@@ -59,11 +59,11 @@ pub fn evenly(scene: &Scene, claim: &Claim, stream: &mut Stream, states: usize) 
     survey
 }
 
-/// What states show of a claim in the cells of signs that are found.
+/// Tests states in the cells of signs that are found.
 ///
-/// That something does not vanish is claimed for each choice of listed values by itself: what is said
-/// of such a claim is what is worst among them, less those that leave no state. Branches of a level
-/// that differ leave it open.
+/// A claim that something does not vanish is made separately for each choice of listed values: the
+/// result is the worst among these, without those that leave no state. Different results on the
+/// branches of a level leave it open.
 pub fn searched(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Survey {
     if !claim.is_negated() {
         return in_cells(scene, claim, stream, effort);
@@ -85,7 +85,8 @@ pub fn searched(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
     choices.into_iter().next().unwrap_or_default()
 }
 
-/// States in the middle of each cell of signs that is found, until one fails or effort is used up.
+/// Tests states in the middle of each cell of signs that is found, until one fails or the effort is
+/// used up.
 pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Survey {
     let mut survey = evenly(scene, claim, stream, 8);
     if survey.off > 0 {
@@ -102,7 +103,7 @@ pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
     survey
 }
 
-/// Points of each cell, cells in which all has a value first.
+/// Finds points of each cell, cells without undefined values first.
 fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Vec<Vec<Point>> {
     const EACH: usize = 2;
     let sight = |point: &Point| -> Option<Sight> {
@@ -128,7 +129,7 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
             seen.push((point, found.pattern));
         }
     }
-    // Between states of different cells there are others.
+    // There are further cells between states of different cells.
     for _ in 0..12 * effort {
         if seen.len() < 2 {
             break;
@@ -149,13 +150,13 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
     let mut found: Vec<(bool, Vec<Point>)> =
         order.iter().filter_map(|pattern| cells.remove(pattern)).collect();
     found.sort_by_key(|(defined, _)| !defined);
-    // What f64 takes for undefined may have a value: a few of those are looked at too.
+    // Expressions undefined in f64 may have a value: a few such states are tested too.
     let defined = found.iter().filter(|(defined, _)| *defined).count();
     found.truncate((defined + 10).min(40 * effort));
     found.into_iter().map(|(_, points)| points).collect()
 }
 
-/// At how many of some states an expression is positive, and negative.
+/// Number of states at which an expression is positive, and negative.
 pub fn signs(
     scene: &Scene,
     tree: &Tree,

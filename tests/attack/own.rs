@@ -1,4 +1,4 @@
-//! The instruments themselves: the oracle against differences and against f64, the printer and the
+//! Tests of the instruments: the oracle against differences and against f64, the printer and the
 //! enclosures of the verifier against the oracle.
 
 use libtest_mimic::Failed;
@@ -18,7 +18,7 @@ use super::scene::Scene;
 use super::scout;
 use super::told::read;
 
-/// A random expression with a scene for it.
+/// Grows a random expression with a scene for it.
 fn grown(index: u64) -> (Scene, Tree, Stream) {
     let mut stream = Stream::new(4711, index);
     let scene = plain(&mut stream);
@@ -29,7 +29,7 @@ fn grown(index: u64) -> (Scene, Tree, Stream) {
     (scene, tree, stream)
 }
 
-/// Derivatives are what differences show.
+/// Compares derivatives with differences.
 pub fn derivatives() -> Result<(), Failed> {
     let (mut compared, step) = (0, 2f64.powi(-80));
     for index in 0..600 {
@@ -57,7 +57,7 @@ pub fn derivatives() -> Result<(), Failed> {
     if compared > 500 { Ok(()) } else { Err(Failed::from(format!("only {compared} slopes"))) }
 }
 
-/// In f64 the same values are found, and the same states are without.
+/// Compares with f64, which finds the same values and the same undefined states.
 pub fn two_precisions() -> Result<(), Failed> {
     let (mut compared, mut without) = (0, 0);
     for index in 0..2000 {
@@ -89,8 +89,7 @@ pub fn two_precisions() -> Result<(), Failed> {
     }
 }
 
-/// A formula that is printed and read again has the value that the oracle gives it, inside its
-/// enclosure.
+/// Prints a formula and reads it again: its enclosure contains the oracle's value.
 pub fn enclosures() -> Result<(), Failed> {
     let mut enclosed = 0;
     for index in 0..1500 {
@@ -100,7 +99,7 @@ pub fn enclosures() -> Result<(), Failed> {
         let text = scene.text(&[body], hand);
         let case = match Case::parse(&text, &[]) {
             Ok(case) => case,
-            // A number over 0.
+            // The formula contains a number over 0.
             Err(error) if error.to_string().contains("divides by zero") => continue,
             Err(error) => return Err(Failed::from(format!("{error}\n{text}"))),
         };
@@ -133,7 +132,7 @@ pub fn enclosures() -> Result<(), Failed> {
     if enclosed > 700 { Ok(()) } else { Err(Failed::from(format!("only {enclosed} values"))) }
 }
 
-/// The oracle knows the truth of claims that are told by hand.
+/// Checks the oracle on handwritten claims.
 pub fn known_truths() -> Result<(), Failed> {
     let scene = |low: i64, high: i64| {
         let number = |top| super::expr::Number { top, bottom: 1, tens: 0 };
@@ -171,7 +170,7 @@ pub fn known_truths() -> Result<(), Failed> {
     Ok(())
 }
 
-/// Case i depends on the seed and on i alone, and cases are of all kinds.
+/// Checks that case i depends on the seed and on i alone, and that cases are of all kinds.
 pub fn addresses() -> Result<(), Failed> {
     let mut kinds = std::collections::BTreeSet::new();
     for index in 0..400 {

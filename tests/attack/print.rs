@@ -1,8 +1,8 @@
-//! Expressions in the language of case files, in one of several hands.
+//! Expressions in the language of case files, in one of several notations.
 
 use super::expr::{Expr, Function, Number, Tree};
 
-/// How tightly the text of an expression holds together.
+/// Binding strength of the text of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Hold {
     Sum,
@@ -12,7 +12,7 @@ enum Hold {
     Atom,
 }
 
-/// The hand in which formulas are written: different bits choose different signs for the same.
+/// A notation of formulas: the bits choose among equivalent signs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hand(pub u8);
 
@@ -29,7 +29,7 @@ impl Hand {
         self.0 & 4 != 0
     }
 
-    /// The text of an expression.
+    /// Writes an expression.
     pub fn text(self, tree: &Tree, names: &[String]) -> String {
         self.written(tree, names).0
     }

@@ -1,7 +1,7 @@
 //! Real numbers of the oracle: floats of 640 bits in which a sum that cancels is 0.
 //!
-//! Claims are made of numbers above 10^-40, whose squares can matter. A sum that is more than 2^420 times
-//! smaller than its terms is taken for 0; between that and 2^340 nothing is said.
+//! Claims contain numbers above 10^-40, whose squares can matter. A sum more than 2^420 times
+//! smaller than its terms is taken for 0; between that and 2^340 it is undecided.
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -12,25 +12,25 @@ use super::expr::Number;
 pub type Real = FBig<HalfEven, 2>;
 
 pub const BITS: usize = 640;
-/// A sum that loses more bits is 0.
+/// Number of lost bits above which a sum is 0.
 const ZERO: isize = 420;
-/// A sum that loses fewer bits is not.
+/// Number of lost bits below which a sum is not 0.
 const CLEAR: isize = 340;
-/// Arguments of exp beyond this are not looked at.
+/// Largest argument of exp that is evaluated.
 const STEEP: f64 = 300.0;
 
-/// Why there is no number.
+/// The reason why there is no number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lack {
-    /// The formula has no value.
+    /// The formula is undefined.
     Value,
-    /// It has one, or not: that is not decided here.
+    /// Definedness is not decided here.
     Decision,
 }
 
 pub type Found<T> = Result<T, Lack>;
 
-/// What two parts lack together: a part without value leaves the whole without.
+/// Combines two parts: an undefined part leaves the whole undefined.
 pub fn both<A, B>(a: Found<A>, b: Found<B>) -> Found<(A, B)> {
     match (a, b) {
         (Ok(a), Ok(b)) => Ok((a, b)),
@@ -43,7 +43,7 @@ pub fn whole(n: i64) -> Real {
     Real::from(n).with_precision(BITS).value()
 }
 
-/// The exact value of a finite f64.
+/// Converts a finite f64 exactly.
 pub fn exactly(x: f64) -> Real {
     Real::try_from(x).expect("a finite number").with_precision(BITS).value()
 }
@@ -69,7 +69,7 @@ pub fn is_zero(x: &Real) -> bool {
     x.repr().significand().is_zero()
 }
 
-/// -1, 0 or 1.
+/// Returns -1, 0 or 1.
 pub fn sign(x: &Real) -> i32 {
     match is_zero(x) {
         true => 0,
@@ -78,12 +78,12 @@ pub fn sign(x: &Real) -> i32 {
     }
 }
 
-/// The place of the leading bit; the least of all for 0.
+/// Returns the place of the leading bit; the least of all for 0.
 pub fn height(x: &Real) -> isize {
     if is_zero(x) { isize::MIN / 4 } else { x.repr().exponent() + x.repr().digits() as isize }
 }
 
-/// a + b, or 0 where they cancel.
+/// Computes a + b, or 0 where they cancel.
 pub fn sum(a: &Real, b: &Real) -> Found<Real> {
     if is_zero(a) {
         return Ok(b.clone());
@@ -108,7 +108,7 @@ pub fn modulus(a: &Real) -> Real {
     if sign(a) < 0 { -a } else { a.clone() }
 }
 
-/// The root of what is not negative.
+/// Computes the root of a non-negative number.
 pub fn root(a: &Real) -> Found<Real> {
     match sign(a) {
         -1 => Err(Lack::Value),
@@ -129,7 +129,7 @@ pub fn exp(a: &Real) -> Found<Real> {
     }
 }
 
-/// The logarithm of what is positive.
+/// Computes the logarithm of a positive number.
 pub fn log(a: &Real) -> Found<Real> {
     match sign(a) {
         1 if *a == whole(1) => Ok(whole(0)),
@@ -138,7 +138,7 @@ pub fn log(a: &Real) -> Found<Real> {
     }
 }
 
-/// A whole power.
+/// Computes an integer power.
 pub fn to_the(a: &Real, n: i64) -> Found<Real> {
     if n < 0 && is_zero(a) {
         return Err(Lack::Value);

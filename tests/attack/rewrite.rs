@@ -1,7 +1,7 @@
-//! Rewriting that keeps values.
+//! Rewriting that preserves values.
 //!
-//! Each rule gives an expression that equals the old one wherever both have values. A rule is *exact*
-//! if both have values at the same states; what was rewritten by exact rules alone is the same function.
+//! Each rule gives an expression that equals the old one wherever both have values. A rule is
+//! *exact* if both have values at the same states; exact rules preserve the function.
 
 use super::expr::{
     Expr, Function, Tree, add, div, modulus, mul, neg, node, of, power, replaced, root, square,
@@ -10,17 +10,17 @@ use super::expr::{
 use super::interval::{Interval, is_nonnegative, is_positive};
 use super::random::Stream;
 
-/// An expression, and whether it is the same function as the one it was made from.
+/// An expression, and whether it is the same function as the original.
 #[derive(Clone, Debug)]
 pub struct Rewritten {
     pub tree: Tree,
     pub exact: bool,
 }
 
-/// No expression becomes larger.
+/// Largest size of an expression.
 pub const LARGEST: usize = 70;
 
-/// An expression that was rewritten at some random nodes.
+/// Rewrites an expression at some random nodes.
 pub fn rewritten(tree: &Tree, ranges: &[Interval], stream: &mut Stream, times: usize) -> Rewritten {
     let mut found = Rewritten { tree: tree.clone(), exact: true };
     for _ in 0..times {
@@ -43,7 +43,7 @@ fn loose(tree: Tree, exact: bool) -> Option<Rewritten> {
     Some(Rewritten { tree, exact })
 }
 
-/// A random rule that fits a node.
+/// Applies a random rule that fits a node.
 fn rule(tree: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewritten> {
     let shaped = by_shape(tree, ranges, stream);
     if shaped.is_some() && !stream.once_in(3) {
@@ -52,7 +52,7 @@ fn rule(tree: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewritt
     anywhere(tree, ranges, stream)
 }
 
-/// Rules that fit any expression.
+/// Applies rules that fit any expression.
 fn anywhere(a: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewritten> {
     let sure = is_nonnegative(a, ranges);
     match stream.below(12) {
@@ -61,7 +61,7 @@ fn anywhere(a: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewrit
         3 if sure => exact(square(&root(a))),
         3 => loose(square(&root(a)), false),
         4 => loose(mul(&root(a), &root(a)), sure),
-        // Functions take the oracle longer than anything else.
+        // Functions are the slowest operations of the oracle.
         5 if !stream.once_in(4) => None,
         5 if is_positive(a, ranges) => exact(of(Function::Exp, &of(Function::Log, a))),
         5 => exact(of(Function::Log, &of(Function::Exp, a))),
@@ -81,7 +81,7 @@ fn anywhere(a: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewrit
     }
 }
 
-/// a², multiplied out where a is a sum.
+/// Makes a², expanded if a is a sum.
 fn multiplied(a: &Tree) -> Tree {
     let cross = |x: &Tree, y: &Tree| mul(&mul(&whole(2), x), y);
     match &**a {
@@ -91,7 +91,7 @@ fn multiplied(a: &Tree) -> Tree {
     }
 }
 
-/// Rules for what an expression is.
+/// Applies rules that depend on the form of an expression.
 fn by_shape(tree: &Tree, ranges: &[Interval], stream: &mut Stream) -> Option<Rewritten> {
     let sure = |a: &Tree| is_nonnegative(a, ranges);
     match &**tree {

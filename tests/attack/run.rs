@@ -1,4 +1,4 @@
-//! Many cases, judged and weighed.
+//! Judgement of many cases, and comparison with the oracle.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -12,21 +12,21 @@ use super::table::{Table, constructs};
 use super::told::{Told, told};
 use super::wrong::{Truth, Wrong, weighed};
 
-/// Cases with 10 000 claims.
+/// Number of cases with 10 000 claims.
 const CASES: u64 = 8_200;
 
-/// How many cases, from which seed, and which alone.
+/// A plan of a run: the number of cases, the seed, and a single case if wanted.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     pub cases: u64,
     pub seed: u64,
     pub only: Option<u64>,
-    /// How many faults of each class are made smaller and shown.
+    /// Number of faults of each class that are shrunk and shown.
     pub shown: usize,
 }
 
 impl Plan {
-    /// What the environment asks for.
+    /// Reads the plan from the environment.
     pub fn of_environment() -> Self {
         let number = |name: &str| -> Option<u64> {
             let text = std::env::var(name).ok()?;
@@ -41,24 +41,24 @@ impl Plan {
     }
 }
 
-/// What became of a claim.
+/// The result for a claim.
 struct Fate {
     index: u64,
-    /// Which of the case's claims.
+    /// Index among the case's claims.
     number: usize,
     constructs: Vec<&'static str>,
     truth: Truth,
     word: &'static str,
     on_level: bool,
-    /// The rung that settled it.
+    /// Rung that decided it.
     method: &'static str,
     wrong: Option<Wrong>,
-    /// What the verifier took for the case, and the oracle for the claim.
+    /// Times of the verifier for the case, and of the oracle for the claim.
     seconds: f64,
     weighing: f64,
 }
 
-/// What became of all claims.
+/// The results for all claims.
 #[derive(Default)]
 pub struct Outcome {
     pub table: Table,
@@ -142,7 +142,7 @@ fn fates(seed: u64, index: u64) -> Vec<Fate> {
     all.into_iter().enumerate().map(fate).collect()
 }
 
-/// A fault as a file that is as small as possible.
+/// Shrinks a fault and writes it as a file.
 fn shown(seed: u64, fate: &Fate, wrong: Wrong) -> String {
     let Fate { index, number, .. } = fate;
     let drawn: Drawn = drawn(seed, *index);

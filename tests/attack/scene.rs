@@ -1,4 +1,4 @@
-//! A system as the attack knows it: symbols with ranges, a field, a level, and its own states.
+//! A system of the attack: symbols with ranges, a field, a level, and states.
 
 use super::expr::{Expr, Number, Tree};
 use super::interval::Interval;
@@ -8,20 +8,20 @@ use super::random::Stream;
 use super::real::{Found, Lack, Real, exactly, number, sign};
 use super::scout;
 
-/// Where the values of a symbol come from.
+/// The source of the values of a symbol.
 #[derive(Clone, Debug)]
 pub enum Origin {
     /// A state variable with its range.
     State(Number, Number),
     /// A parameter drawn from a range.
     Range(Number, Number),
-    /// An input of a typed chart.
+    /// An input of a given chart.
     Input(Number, Number),
     /// A parameter with one value.
     Fixed(Number),
     /// A parameter with a list of values.
     List(Vec<Number>),
-    /// A parameter made from those before it.
+    /// A parameter computed from those before it.
     Formula(Tree),
 }
 
@@ -32,14 +32,15 @@ pub struct Symbol {
     pub origin: Origin,
 }
 
-/// A level set, with all its branches as the attack knows them.
+/// A level set with all its branches.
 #[derive(Clone, Debug)]
 pub struct Level {
     /// Both sides of each equation.
     pub equations: Vec<(Tree, Tree)>,
-    /// What each branch makes of what is drawn; together they are the whole level.
+    /// Dependent variables of each branch as functions of the drawn ones; together the branches are
+    /// the whole level.
     pub branches: Vec<Vec<(usize, Tree)>>,
-    /// A chart that is typed.
+    /// Chart, if one is given.
     pub chart: Option<Vec<(usize, Tree)>>,
 }
 
@@ -47,22 +48,22 @@ pub struct Level {
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub symbols: Vec<Symbol>,
-    /// The rates of state variables; what is not named stands still.
+    /// Rates of state variables; others are constant.
     pub field: Vec<(usize, Tree)>,
     pub level: Option<Level>,
 }
 
-/// A state by the numbers that it is drawn from.
+/// A state by the numbers from which it is drawn.
 #[derive(Clone, Debug)]
 pub struct Point {
     branch: usize,
     picks: Vec<usize>,
-    /// Where each symbol is in its range, from 0 to 1.
+    /// Position of each symbol in its range, from 0 to 1.
     cube: Vec<f64>,
 }
 
 impl Point {
-    /// The point half way between two of one branch and one choice of lists.
+    /// Returns the midpoint of two points of the same branch and choice of lists.
     pub fn between(&self, other: &Self) -> Option<Self> {
         let same = self.branch == other.branch && self.picks == other.picks;
         let middle = self.cube.iter().zip(&other.cube).map(|(a, b)| f64::midpoint(*a, *b));
@@ -75,13 +76,13 @@ impl Scene {
         self.symbols.iter().map(|symbol| symbol.name.clone()).collect()
     }
 
-    /// The places of the state variables.
+    /// Returns the indices of the state variables.
     pub fn states(&self) -> Vec<usize> {
         let is_state = |place: &usize| matches!(self.symbols[*place].origin, Origin::State(..));
         (0..self.symbols.len()).filter(is_state).collect()
     }
 
-    /// Does a typed chart fill the level?
+    /// Whether a given chart fills the level.
     pub fn is_filled(&self) -> bool {
         let fills = |level: &Level| match &level.chart {
             Some(chart) => level.branches.first() == Some(chart),
@@ -90,18 +91,18 @@ impl Scene {
         self.level.as_ref().is_none_or(fills)
     }
 
-    /// Does an expression depend on a parameter?
+    /// Whether an expression depends on a parameter.
     pub fn has_parameter(&self, tree: &Tree) -> bool {
         let is_state = |place: usize| matches!(self.symbols[place].origin, Origin::State(..));
         (0..self.symbols.len()).any(|place| !is_state(place) && tree.has(place))
     }
 
-    /// The rate of a state variable, if it has one.
+    /// Returns the rate of a state variable, if it has one.
     pub fn rate(&self, place: usize) -> Option<&Tree> {
         self.field.iter().find(|(own, _)| *own == place).map(|(_, rate)| rate)
     }
 
-    /// Where each symbol can be.
+    /// Returns the range of each symbol.
     pub fn intervals(&self) -> Vec<Interval> {
         let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);
         let mut found: Vec<Interval> = Vec::new();
@@ -125,7 +126,7 @@ impl Scene {
         found
     }
 
-    /// A random point: anywhere, or near the ends of ranges.
+    /// Draws a random point: anywhere, or near the ends of ranges.
     pub fn point(&self, stream: &mut Stream, near_ends: bool) -> Point {
         let branches = self.level.as_ref().map_or(1, |level| level.branches.len());
         let pick = |symbol: &Symbol, stream: &mut Stream| match &symbol.origin {
@@ -145,7 +146,7 @@ impl Scene {
         Point { branch, picks, cube }
     }
 
-    /// The values of all symbols at a point; `None` where it is no state.
+    /// Computes the values of all symbols at a point; `None` if it is not a state.
     pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
         let within = |a: &Number, b: &Number, place: usize| {
             let (low, high) = (number(*a), number(*b));
@@ -175,7 +176,7 @@ impl Scene {
         Some(values)
     }
 
-    /// Is the value inside the declared range, both ends with it?
+    /// Whether the value is inside the declared range, ends included.
     pub fn is_in_range(&self, place: usize, value: &Real) -> bool {
         match &self.symbols[place].origin {
             Origin::State(a, b) | Origin::Range(a, b) => {
@@ -185,7 +186,7 @@ impl Scene {
         }
     }
 
-    /// Do intervals show that no state lies on the level?
+    /// Whether intervals show that no state lies on the level.
     pub fn is_empty(&self) -> bool {
         let ranges = self.intervals();
         let misses = |(place, tree): &(usize, Tree)| {
@@ -197,12 +198,12 @@ impl Scene {
         self.level.as_ref().is_some_and(is_empty)
     }
 
-    /// The same scene in the whole space.
+    /// Makes the same scene in the whole space.
     pub fn without_level(&self) -> Self {
         Self { level: None, ..self.clone() }
     }
 
-    /// The same scene on each branch of its level.
+    /// Makes the same scene on each branch of its level.
     pub fn branches(&self) -> Vec<Self> {
         let Some(level) = &self.level else { return vec![self.clone()] };
         let on = |branch: &Vec<(usize, Tree)>| {
@@ -212,7 +213,7 @@ impl Scene {
         level.branches.iter().map(on).collect()
     }
 
-    /// The same scene for each choice of listed values.
+    /// Makes the same scene for each choice of listed values.
     pub fn unlisted(&self) -> Vec<Self> {
         let mut all = vec![self.clone()];
         for (place, symbol) in self.symbols.iter().enumerate() {
@@ -230,7 +231,8 @@ impl Scene {
         all
     }
 
-    /// Is it outside, and not one of the ends? Whether those belong to a range is not asked.
+    /// Whether the value is outside the declared range and not one of its ends, whose membership is
+    /// not tested.
     pub fn is_out_of_range(&self, place: usize, value: &Real) -> bool {
         match &self.symbols[place].origin {
             Origin::State(a, b) | Origin::Range(a, b) => {
@@ -240,7 +242,7 @@ impl Scene {
         }
     }
 
-    /// The same in f64.
+    /// Computes the values in f64.
     pub fn rough_values(&self, point: &Point) -> Option<Vec<f64>> {
         let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);
         let mut values: Vec<f64> = Vec::new();
@@ -268,7 +270,7 @@ impl Scene {
         Some(values)
     }
 
-    /// Does what a claim does not mention have a value as well?
+    /// Checks that everything the claim does not mention is defined as well.
     pub fn lack_elsewhere(&self, values: &[Found<Real>]) -> Found<()> {
         let place = Place { values, along: &[] };
         let elsewhere = values.iter().map(|value| value.clone().map(|_| ()));
@@ -279,7 +281,7 @@ impl Scene {
         }
     }
 
-    /// The case file with these claims, each the body of a table.
+    /// Writes the case file with these claims, each the body of a table.
     pub fn text(&self, claims: &[String], hand: Hand) -> String {
         let names = self.names();
         let quoted = |tree: &Tree| format!("\"{}\"", hand.text(tree, &names));

@@ -1,28 +1,28 @@
-//! A fast look at expressions in f64: the pattern of signs of all that is under a root, a modulus, a
-//! logarithm or a power. States of different patterns are where functions with corners differ.
+//! Fast evaluation of expressions in f64: the pattern of signs of all arguments of roots, moduli,
+//! logarithms and powers. Functions with corners differ between states of different patterns.
 
 use super::expr::{Expr, Function, Tree};
 
-/// A value with the size of the terms it was added from.
+/// A value with the size of the terms in its sums.
 #[derive(Clone, Copy, Debug)]
 pub struct Rough {
     value: f64,
     size: f64,
 }
 
-/// Below this share of its terms a sum counts as 0.
+/// Share of its terms below which a sum counts as 0.
 const NOISE: f64 = 1e-11;
 
-/// What is seen of some expressions at one state.
+/// The pattern of some expressions at one state.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sight {
-    /// A digest of the signs.
+    /// Digest of the signs.
     pub pattern: u64,
-    /// Have all of them values, as far as f64 can tell?
+    /// Whether all of them are defined, as far as f64 shows.
     pub defined: bool,
 }
 
-/// The pattern of some expressions at a state.
+/// Finds the pattern of some expressions at a state.
 pub fn sight<'t>(trees: impl IntoIterator<Item = &'t Tree>, values: &[f64]) -> Sight {
     let mut scout = Scout { values, pattern: 0 };
     let mut defined = true;
@@ -32,7 +32,7 @@ pub fn sight<'t>(trees: impl IntoIterator<Item = &'t Tree>, values: &[f64]) -> S
     Sight { pattern: scout.pattern, defined }
 }
 
-/// The value of an expression at a state.
+/// Evaluates an expression at a state.
 pub fn value(tree: &Tree, values: &[f64]) -> Option<f64> {
     Scout { values, pattern: 0 }.look(tree).map(|found| found.value)
 }
@@ -54,7 +54,7 @@ impl Scout<'_> {
         sign
     }
 
-    /// The value; `None` where there is none, after the signs of all parts were seen.
+    /// Evaluates an expression after recording the signs of all parts; `None` if it is undefined.
     fn look(&mut self, tree: &Tree) -> Option<Rough> {
         let exact = |value: f64| Rough { value, size: value.abs() };
         let found = match &**tree {
@@ -132,7 +132,7 @@ impl Scout<'_> {
 
     fn of(&mut self, function: Function, a: Rough) -> Option<Rough> {
         let exact = |value: f64| Rough { value, size: value.abs() };
-        // What is exact in a is kept in size where the function is smooth.
+        // Exact parts of a keep their size where the function is smooth.
         let smooth = |value: f64| Rough { value, size: value.abs() + a.size };
         Some(match function {
             Function::Root => match self.sign(a) {

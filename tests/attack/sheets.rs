@@ -1,15 +1,16 @@
-//! How often an expression in a tower of square roots can vanish: every sheet over every point of a
-//! small field is counted, against the bound that proofs rest on.
+//! Zeros of an expression in a tower of square roots: those on every sheet over every point of a
+//! small field are counted and compared with the bound on which proofs rest.
 //!
-//! Let y_j² = a_j be k roots over m inputs z, the radicands a_j polynomials in z and in earlier roots; let
-//! z weigh 1 and y_j half of what a_j weighs. If P has weight n and does not vanish on a component of
-//! g_C sheets, then no more than g_C·n·p^(m−1) pairs of a point and a sheet on it are zeros of P.
+//! Let y_j² = a_j be k roots over m inputs z, the radicands a_j polynomials in z and in earlier
+//! roots; let z have weight 1 and y_j half the weight of a_j. If P has weight n and does not vanish
+//! on a component of g_C sheets, then at most g_C·n·p^(m−1) pairs of a point and a sheet over it
+//! are zeros of P.
 
 use libtest_mimic::Failed;
 
 use super::random::Stream;
 
-/// a + b i in the field of p² elements, p = 3 mod 4.
+/// An element a + b i of the field of p² elements, p = 3 mod 4.
 type Element = [u64; 2];
 
 #[derive(Clone, Copy)]
@@ -47,7 +48,8 @@ impl Field {
         result
     }
 
-    /// A root of a number of the smaller field, itself a square if it is there; in the larger field too.
+    /// Computes a root of an element of the smaller field, preferring one that is itself a square;
+    /// it may lie in the larger field.
     fn principal(self, a: u64) -> Element {
         let x = self.power([a, 0], self.p.div_ceil(4))[0];
         if x * x % self.p == a {
@@ -57,7 +59,7 @@ impl Field {
         [0, y]
     }
 
-    /// A root, if there is one in the larger field.
+    /// Computes a root, if the larger field contains one.
     fn root(self, x: Element) -> Option<Element> {
         let [a, b] = x;
         if b == 0 {
@@ -93,7 +95,8 @@ impl Polynomial {
             let mut left = most;
             for _ in 0..4 {
                 let k = stream.below(weights.len());
-                // Roots to the first power: what is not 0 then does not vanish in the tower.
+                // Roots to the first power, so that a nonzero polynomial does not vanish in the
+                // tower.
                 let room = if k >= weights.len() { 0 } else { 3 };
                 let is_root = weights[k] != 1.0 || even;
                 if weights[k] <= left && exponents[k] < if is_root { 1 } else { room } {
@@ -132,12 +135,13 @@ struct Tower {
     radicands: Vec<Polynomial>,
 }
 
-/// What an enumeration of all sheets finds.
+/// Results of an enumeration of all sheets.
 #[derive(Default)]
 struct Count {
-    /// Pairs of a point and a sheet at which the expression is 0.
+    /// Number of pairs of a point and a sheet at which the expression is 0.
     zeros: u64,
-    /// For each root: was its radicand no square somewhere where all before it exist?
+    /// For each root, whether its radicand is a non-square at some point where all earlier roots
+    /// exist.
     refused: Vec<bool>,
 }
 
@@ -150,7 +154,7 @@ impl Tower {
         weights
     }
 
-    /// Visits the values on each sheet over a point that is accepted.
+    /// Visits the values on each sheet over an accepted point.
     fn sheets(&self, point: &[Element], refused: &mut [bool], visit: &mut dyn FnMut(&[Element])) {
         let mut values = point.to_vec();
         self.climb(&mut values, refused, visit);
@@ -170,11 +174,12 @@ impl Tower {
         if a == [0, 0] {
             return;
         }
-        // No square where all is in the smaller field: the root is independent of those before it.
+        // A non-square with everything in the smaller field: the root is independent of those
+        // before it.
         let small = values.iter().all(|value| value[1] == 0);
         refused[level] |= small && a[1] == 0 && self.field.principal(a[0])[1] != 0;
         let Some(y) = self.field.root(a) else {
-            // Nor is it where all is in the larger one.
+            // The same holds for a non-square of the larger field.
             refused[level] = true;
             return;
         };
@@ -201,7 +206,8 @@ impl Tower {
     }
 }
 
-/// Random towers, nested ones too: the zeros of a random expression are within the bound.
+/// Checks that the zeros of random expressions are within the bound, in random towers, nested ones
+/// included.
 pub fn random_towers() -> Result<(), Failed> {
     let (mut counted, mut nested, mut most) = (0, 0, 0f64);
     for index in 0..400 {
@@ -251,12 +257,12 @@ pub fn random_towers() -> Result<(), Failed> {
     }
 }
 
-/// Π(y_j − c_j) over y_j² = z + e_j meets the bound exactly, and goes beyond it where each root is
-/// taken by its principal value in place of a random sign.
+/// Checks that Π(y_j − c_j) over y_j² = z + e_j attains the bound, and exceeds it if each root has
+/// its principal value instead of a random sign.
 pub fn principal_roots() -> Result<(), Failed> {
     let field = Field { p: 1019 };
     let shifts = [0, 7, 20, 101, 333];
-    // A principal root is a square itself.
+    // A principal root is itself a square.
     let constants = shifts.map(|e: i64| field.power([(3 * e + 2) as u64, 0], 2));
     let linear = |e: i64| Polynomial(vec![(1, vec![1]), (e, vec![0])]);
     let tower = Tower { field, inputs: 1, radicands: shifts.iter().map(|e| linear(*e)).collect() };
@@ -292,7 +298,8 @@ pub fn principal_roots() -> Result<(), Failed> {
     }
 }
 
-/// √z and √(z (z+1)²) lie on two components: what vanishes on one is within the bound on the other.
+/// Checks the components of √z and √(z (z+1)²): an expression that vanishes on one is within the
+/// bound on the other.
 pub fn dependent_roots() -> Result<(), Failed> {
     let field = Field { p: 1019 };
     let first = Polynomial(vec![(1, vec![1])]);

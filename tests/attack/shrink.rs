@@ -1,4 +1,4 @@
-//! Smaller cases with the same fault.
+//! Shrinking of cases with the same fault.
 
 use std::collections::HashSet;
 
@@ -11,7 +11,7 @@ use super::scene::{Origin, Scene};
 use super::told::told;
 use super::wrong::{Wrong, weighed};
 
-/// How many cases are judged to make one smaller.
+/// Largest number of cases judged to shrink one.
 const TRIES: usize = 1500;
 
 /// A case with one claim that shows a fault.
@@ -24,7 +24,7 @@ pub struct Faulty {
 }
 
 impl Faulty {
-    /// The claim of a case by itself, if it shows the fault there too.
+    /// Isolates a claim of a case, if it shows the fault alone.
     pub fn alone(drawn: &Drawn, made: &Made, wrong: Wrong) -> Option<Self> {
         let own = Self {
             scene: drawn.scene.clone(),
@@ -35,18 +35,18 @@ impl Faulty {
         own.shows(wrong).then_some(own)
     }
 
-    /// The same about another claim: what was so by construction need not stay so.
+    /// Replaces the claim; its residual need no longer vanish by construction.
     fn with_claim(&self, claim: Claim) -> Self {
         let made = Made { claim, vanishes: false, ..self.made.clone() };
         Self { made, ..self.clone() }
     }
 
-    /// The file.
+    /// Writes the file.
     pub fn text(&self) -> String {
         self.scene.text(&[self.made.body(&self.scene.names(), self.hand)], self.hand)
     }
 
-    /// What is said of it.
+    /// Judges the case.
     pub fn told(&self) -> super::told::Told {
         told(&self.text(), self.seed, 1).swap_remove(0)
     }
@@ -75,7 +75,7 @@ impl Faulty {
         trees + symbols + field + level
     }
 
-    /// The smallest case that was found with the same fault.
+    /// Finds the smallest case with the same fault.
     pub fn shrunk(mut self, wrong: Wrong) -> Self {
         let mut tries = 0;
         let mut tried = HashSet::new();
@@ -173,7 +173,7 @@ impl Faulty {
         all
     }
 
-    /// The case without a symbol that nothing uses.
+    /// Removes a symbol that nothing uses.
     fn without(&self, place: usize) -> Option<Self> {
         let scene = &self.scene;
         let uses = |tree: &Tree| tree.has(place);
@@ -232,7 +232,7 @@ impl Faulty {
     }
 }
 
-/// Nodes count, and numbers that are not the simplest count more.
+/// Counts nodes, with complicated numbers counted more.
 fn weight(tree: &Tree) -> usize {
     let own = match &**tree {
         Expr::Number(n) => match (n.top, n.bottom, n.tens) {
@@ -258,7 +258,7 @@ fn swapped(tree: &Tree, part: &Tree, by: &Tree) -> Tree {
     std::rc::Rc::new(tree.with_parts(&parts))
 }
 
-/// Expressions with one part replaced by a part of itself or by a small number.
+/// Lists expressions with one part replaced by a part of itself or by a small number.
 fn simpler(tree: &Tree) -> Vec<Tree> {
     let mut found = Vec::new();
     for index in 0..tree.size() {

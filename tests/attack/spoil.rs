@@ -1,4 +1,4 @@
-//! Near misses: an expression that is not quite the one it was.
+//! Near misses: expressions with a slight change.
 
 use std::rc::Rc;
 
@@ -10,7 +10,7 @@ use super::grow::Garden;
 use super::random::Stream;
 use super::scene::Origin;
 
-/// The expression with one thing changed.
+/// Changes one thing in the expression.
 pub fn spoilt(tree: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Tree {
     for _ in 0..8 {
         let index = stream.below(tree.size());
@@ -22,7 +22,7 @@ pub fn spoilt(tree: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Tree {
     add(tree, &garden.atom(stream))
 }
 
-/// Signs are taken wrongly at up to three places; a change for the worse that one cell may not see.
+/// Drops moduli at up to three places, a change that may show in one cell only.
 pub fn unsigned(tree: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Tree {
     let mut found = tree.clone();
     for _ in 0..1 + stream.below(3) {
@@ -41,7 +41,7 @@ pub fn unsigned(tree: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Tree {
     found
 }
 
-/// a for |a| and √(a²).
+/// Returns a for |a| and √(a²).
 fn bare(part: &Tree) -> Option<Tree> {
     match &**part {
         Expr::Of(Function::Modulus, a) => Some(a.clone()),
@@ -73,7 +73,7 @@ fn changed(part: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Option<Tree
             let turns = mul(&whole(4000), &of(Function::Atan, &whole(1)));
             Some(add(part, &of(Function::Sin, &mul(&turns, &garden.symbol(stream)))))
         }
-        // A term that vanishes but for a sliver at an end of the range.
+        // A term that vanishes except on a sliver at an end of the range.
         (_, 3) if stream.once_in(4) => {
             let place = *stream.pick(&garden.symbols);
             let (Origin::State(_, high) | Origin::Range(_, high)) =

@@ -1,4 +1,4 @@
-//! How many true claims are proved, by what they contain.
+//! Numbers of true claims proved, by the constructs they contain.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use super::expr::{Expr, Function, Tree};
 use super::scene::{Origin, Scene};
 use super::wrong::Truth;
 
-/// What a claim contains, in words.
+/// Names the constructs of a claim.
 pub fn constructs(scene: &Scene, claim: &Claim) -> Vec<&'static str> {
     let trees = claim.trees();
     let any = |test: &mut dyn FnMut(&Expr) -> bool| trees.iter().any(|tree| tree.any(test));
@@ -73,21 +73,21 @@ pub fn constructs(scene: &Scene, claim: &Claim) -> Vec<&'static str> {
     found
 }
 
-/// Verdicts on claims of one truth, by construct.
+/// Verdicts on claims of the same truth, by construct.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     rows: BTreeMap<(Truth, &'static str), BTreeMap<&'static str, usize>>,
 }
 
 impl Table {
-    /// Notes a claim.
+    /// Counts a claim.
     pub fn note(&mut self, constructs: &[&'static str], truth: Truth, word: &'static str) {
         for name in constructs.iter().chain(&["all"]) {
             *self.rows.entry((truth, name)).or_default().entry(word).or_default() += 1;
         }
     }
 
-    /// The table as text.
+    /// Writes the table.
     pub fn text(&self) -> String {
         let mut text = String::new();
         let words = ["proved", "confirmed", "undecided", "refuted", "error"];

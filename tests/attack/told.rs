@@ -1,4 +1,4 @@
-//! What the verifier says of a case, in this process.
+//! Answers of the verifier on a case, in this process.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -10,19 +10,19 @@ use super::jet::Place;
 use super::real::{Found, Lack, Real, difference, height, is_zero, whole};
 use super::scene::{Origin, Scene};
 
-/// What is said of a claim.
+/// The answer on a claim.
 #[derive(Clone, Debug)]
 pub enum Told {
     Report(Box<ClaimReport>),
-    /// The file cannot be read.
+    /// An unreadable file.
     Unreadable(String),
-    /// The case cannot be judged.
+    /// A case that cannot be judged.
     Unjudged(String),
     Panicked(String),
 }
 
 impl Told {
-    /// The verdict, where there is one.
+    /// Returns the verdict, if there is one.
     pub fn verdict(&self) -> Option<Verdict> {
         match self {
             Told::Report(report) => Some(report.verdict),
@@ -30,7 +30,7 @@ impl Told {
         }
     }
 
-    /// In one word.
+    /// Returns the answer in one word.
     pub fn word(&self) -> &'static str {
         match self {
             Told::Report(report) => report.verdict.word(),
@@ -40,7 +40,7 @@ impl Told {
         }
     }
 
-    /// With its grounds.
+    /// Writes the answer with its grounds.
     pub fn grounds(&self) -> String {
         match self {
             Told::Unreadable(error) | Told::Unjudged(error) | Told::Panicked(error) => {
@@ -64,7 +64,7 @@ impl Told {
     }
 }
 
-/// What is said of each of `count` claims of a case.
+/// Judges a case with `count` claims and returns the answers.
 pub fn told(text: &str, seed: u64, count: usize) -> Vec<Told> {
     let all = |told: Told| vec![told; count];
     let judged = catch_unwind(AssertUnwindSafe(|| {
@@ -86,7 +86,7 @@ pub fn told(text: &str, seed: u64, count: usize) -> Vec<Told> {
     })
 }
 
-/// A witness as values of the scene's symbols, and how far it is from the level: `None` where a
+/// Reads a witness as values of the scene's symbols, with its distance from the level; `None` if a
 /// number cannot be read, or is outside its range.
 pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, Real)> {
     let given = |name: &str| -> Option<&str> {
@@ -122,12 +122,12 @@ pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, 
     Some((values, off))
 }
 
-/// Is a residual more than what the distance from the level explains?
+/// Whether a residual is larger than the distance from the level explains.
 pub fn exceeds(residual: f64, off: &Real) -> bool {
     is_zero(off) || residual > 1e-8
 }
 
-/// `-0.39`, `3/7`, `1.5e-7`
+/// Reads a number such as `-0.39`, `3/7`, `1.5e-7`.
 pub fn read(text: &str) -> Option<Real> {
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
     super::real::quotient(&decimal(above)?, &decimal(below)?).ok()

@@ -1,4 +1,4 @@
-//! Verdicts against the truth.
+//! Comparison of verdicts with the truth.
 
 use std::borrow::Cow;
 
@@ -12,43 +12,44 @@ use super::real::Lack;
 use super::scene::Scene;
 use super::told::{Told, exceeds, witnessed};
 
-/// What can be wrong with a verdict.
+/// A fault of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Wrong {
-    /// Proved, and there is a state at which it fails.
+    /// Proved, although it fails at a state.
     ProvedFalse,
-    /// Proved, and there is no state at which it has a value.
+    /// Proved, although it is defined at no state.
     ProvedVoid,
-    /// Refuted, and it holds at all states that were found.
+    /// Refuted, although it holds at all states found.
     RefutedTrue,
-    /// Refuted, and there is no state at which it has a value.
+    /// Refuted, although it is defined at no state.
     RefutedVoid,
-    /// Refuted by a state at which it holds, though it fails elsewhere.
+    /// Refuted by a state at which it holds, although it fails elsewhere.
     IdleWitness,
-    /// Refuted by a state at which it has no value or that is none, though it fails elsewhere.
+    /// Refuted by a point at which it is undefined or which is not a state, although it fails
+    /// elsewhere.
     NoWitness,
-    /// Confirmed, and it fails on more than a fiftieth of the range.
+    /// Confirmed, although it fails on more than a fiftieth of the range.
     ConfirmedFalse,
-    /// Confirmed, and there is no state at which it has a value.
+    /// Confirmed, although it is defined at no state.
     ConfirmedVoid,
-    /// Said to hold everywhere, and it fails off the level.
+    /// Reported to hold everywhere, although it fails off the level.
     NotEverywhere,
-    /// The sign of a density is another.
+    /// Reported with the wrong sign of a density.
     OtherSign,
-    /// An integral is said to be new, or constant, and is not.
+    /// Reported wrongly as a new or a constant integral.
     OtherNovelty,
-    /// The program panicked.
+    /// A panic of the program.
     Panicked,
-    /// A file in the language of the guide was not read.
+    /// A valid file that was not read.
     Unreadable,
-    /// A case that is right is refused.
+    /// A valid case that was refused.
     Refused,
-    /// Not the verifier's fault: what is the same by construction is not.
+    /// A fault of the instrument: expressions equal by construction differ.
     Instrument,
 }
 
 impl Wrong {
-    /// In words.
+    /// Describes the fault.
     pub fn words(self) -> &'static str {
         match self {
             Wrong::ProvedFalse => "proved, and it fails at a state",
@@ -70,7 +71,7 @@ impl Wrong {
     }
 }
 
-/// What is true of a claim, as far as it was looked at.
+/// The truth about a claim, as far as it was examined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Truth {
     Holds,
@@ -79,10 +80,10 @@ pub enum Truth {
     Unsure,
 }
 
-/// The share of the range on which a confirmed claim may fail.
+/// Largest share of the range on which a confirmed claim may fail.
 const SHARE: f64 = 0.02;
 
-/// The truth about a claim, and what is wrong with a verdict on it.
+/// Determines the truth about a claim, and the fault of a verdict on it.
 pub fn weighed(
     scene: &Scene,
     made: &Made,
@@ -91,10 +92,10 @@ pub fn weighed(
 ) -> (Truth, Option<Wrong>) {
     match told {
         Told::Panicked(_) => return (Truth::Unsure, Some(Wrong::Panicked)),
-        // Numbers that divide by zero are refused as text.
+        // Numbers that divide by zero are refused when read.
         Told::Unreadable(error) if error.contains("divides by zero") => return (Truth::Void, None),
         Told::Unreadable(_) => return (Truth::Unsure, Some(Wrong::Unreadable)),
-        // A chart of less than the level is rightly refused.
+        // A chart that misses directions of the level is rightly refused.
         Told::Unjudged(_) if !scene.is_filled() => return (Truth::Unsure, None),
         Told::Unjudged(_) | Told::Report(_) => {}
     }
@@ -122,7 +123,7 @@ pub fn weighed(
     (truth, wrong)
 }
 
-/// As thorough a look as the verdict asks for.
+/// Examines a claim as thoroughly as the verdict requires.
 fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> Survey {
     let says_zero = match told.verdict() {
         Some(Verdict::Proved) => !claim.is_negated(),
@@ -142,12 +143,12 @@ fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> S
     if !doubtful {
         return survey;
     }
-    // A wrong verdict is told after a search that is thorough enough for thin cells.
+    // A verdict counts as wrong only after a search thorough enough for thin cells.
     let survey = searched(scene, claim, stream, 6);
     if survey.off > 0 { survey } else { searched(scene, claim, stream, 30) }
 }
 
-/// What is wrong with a verdict.
+/// Finds the fault of a verdict.
 fn against(
     scene: &Scene,
     claim: &Claim,
@@ -161,7 +162,7 @@ fn against(
         (Verdict::Refuted, Truth::Void) => Some(Wrong::RefutedVoid),
         (Verdict::Confirmed, Truth::Void) => Some(Wrong::ConfirmedVoid),
         (Verdict::Refuted, truth) if !claim.is_negated() => {
-            // What is found at the witness; nothing where it is no state.
+            // Result at the witness; `None` if it is not a state.
             let there = report.evidence.witness.as_ref().map(|witness| {
                 let (values, off) = witnessed(scene, witness)?;
                 match claim.at(scene, &values) {
@@ -173,7 +174,7 @@ fn against(
             match (truth, there) {
                 (_, Some(Some(At::Off(_)))) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
                 (Truth::Fails, Some(Some(At::Without(_)))) => None,
-                // The smaller residuals of a rounded state on a level say nothing.
+                // The smaller residuals of a rounded state on a level are not significant.
                 (Truth::Fails, Some(_)) if scene.level.is_some() => None,
                 // A limit has no state.
                 (Truth::Fails, Some(_)) if matches!(claim, Claim::Limit(..)) => None,
@@ -191,7 +192,7 @@ fn against(
     }
 }
 
-/// What is wrong with what is said beside a verdict that a claim holds.
+/// Finds faults of the statements that accompany a positive verdict.
 fn beside(
     scene: &Scene,
     claim: &Claim,
@@ -240,7 +241,7 @@ fn beside(
 }
 
 fn truth(scene: &Scene, claim: &Claim, survey: &Survey) -> Truth {
-    // A level of which no state was found may have some all the same.
+    // A level of which no state was found may nevertheless have states.
     let is_seen = survey.lacking > 0 || scene.level.is_none() || scene.is_empty();
     let clear = survey.unsure <= survey.zero / 2;
     match (survey.off > 0, survey.zero > 0) {

@@ -1,4 +1,4 @@
-//! A case at a random state of its own: parameters and state as numbers.
+//! A case at a random state: parameters and state as numbers.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use num_traits::ToPrimitive;
 
 use super::exact;
 
-/// State `index` of a case with the values its free parameters have there.
+/// State `index` of a case with the values of its free parameters there.
 pub struct Drawn {
     pub report: PointReport,
     values: HashMap<String, Vec<f64>>,
@@ -45,7 +45,7 @@ impl Drawn {
         Matrix3::from_row_slice(self.values(name))
     }
 
-    /// A vector, or 0 where the case has no such parameter.
+    /// Returns a vector, or 0 if the case has no such parameter.
     pub fn vector_or_zero(&self, name: &str) -> Vector3<f64> {
         if self.has(name) { self.vector(name) } else { Vector3::zeros() }
     }

@@ -1,4 +1,4 @@
-//! What the integration tests share: cases from text, exact numbers, enclosures.
+//! Shared tools of the integration tests: cases from text, exact numbers, enclosures.
 
 #![allow(dead_code, reason = "each test binary uses a part of this")]
 
@@ -12,17 +12,17 @@ use num_rational::BigRational;
 use num_traits::{Pow, Signed, Zero};
 use serde_json::Value;
 
-/// A case from its text; the text is shown when it is refused.
+/// Parses a case; the text is shown if it is refused.
 pub fn case(text: &str) -> Case {
     Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error} in\n{text}"))
 }
 
-/// The report on a case at a given state.
+/// Evaluates a case at a given state.
 pub fn report(case: &Case, state: &[Rational]) -> PointReport {
     evaluate(case, Some(state), 1, 0).expect("a case that can be evaluated")
 }
 
-/// An exact number from a fraction or a decimal, read by this file and not by the library.
+/// Reads an exact number from a fraction or a decimal, independently of the library.
 pub fn exact(text: &str) -> BigRational {
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
     decimal(above) / decimal(below)
@@ -37,31 +37,31 @@ fn decimal(text: &str) -> BigRational {
     BigRational::from_integer(digits) * ten.pow(exponent - fraction.len() as i32)
 }
 
-/// The exact value of a finite f64.
+/// Converts a finite f64 exactly.
 pub fn dyadic(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap_or_else(|| panic!("{value} is finite"))
 }
 
-/// An exact number as the library's own kind.
+/// Converts an exact number to the library's type.
 pub fn rational(value: &BigRational) -> Rational {
     format!("{}/{}", value.numer(), value.denom()).parse().expect("a fraction")
 }
 
-/// The strings of a JSON list.
+/// Returns the strings of a JSON list.
 pub fn strings(list: &Value) -> Vec<&str> {
     let list = list.as_array().unwrap_or_else(|| panic!("{list} is a list"));
     list.iter().map(text).collect()
 }
 
-/// A JSON string.
+/// Returns a JSON string.
 pub fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_else(|| panic!("{value} is a string"))
 }
 
-/// A reference value: what was printed, to 30 significant digits.
+/// A reference value, printed to 30 significant digits.
 pub struct Reference {
     value: BigRational,
-    /// Half a unit of the 30th digit; below 1e-50 for what is printed as 0.
+    /// Half a unit of the 30th digit; below 1e-50 for values printed as 0.
     slack: BigRational,
 }
 
@@ -77,8 +77,8 @@ impl Reference {
         Self { value, slack }
     }
 
-    /// Asserts that the enclosure holds this value, and that it says something: at least half of
-    /// the 53 bits are right.
+    /// Asserts that the enclosure contains this value and is significant: at least half of the 53
+    /// bits are correct.
     pub fn assert_in(&self, enclosure: Enclosed, what: &str) {
         let (mid, radius) = enclosure.unwrap_or_else(|| panic!("{what} is undefined"));
         let distance = (dyadic(mid) - &self.value).abs();
@@ -103,19 +103,19 @@ fn approximate(value: &BigRational) -> f64 {
     num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
 }
 
-/// The enclosure of a claim's value and residual, by the claim's name.
+/// Returns the enclosure of a claim's value and residual, by the claim's name.
 pub fn claim(report: &PointReport, name: &str) -> (Enclosed, Enclosed) {
     let found = report.claims.iter().find(|(known, _, _)| known == name);
     let (_, value, residual) = found.unwrap_or_else(|| panic!("no claim is called {name}"));
     (value.first().copied().flatten(), residual.first().copied().flatten())
 }
 
-/// The text of a claim.
+/// Writes a claim.
 pub fn claim_text(name: &str, kind: &str, formula: &str) -> String {
     format!("[[claim]]\nname = \"{name}\"\n{kind} = \"{formula}\"\n")
 }
 
-/// Asserts that two enclosures can hold the same number, and that both are narrow.
+/// Asserts that two enclosures intersect, and that both are narrow.
 pub fn assert_meet(a: Enclosed, b: Enclosed, what: &str) {
     let ((a, ra), (b, rb)) = (a.expect("defined"), b.expect("defined"));
     let gap = (dyadic(a) - dyadic(b)).abs();
@@ -124,7 +124,7 @@ pub fn assert_meet(a: Enclosed, b: Enclosed, what: &str) {
     assert!(ra + rb <= coarsest, "{what}: ± {ra:e} and ± {rb:e} are too wide to mean anything");
 }
 
-/// Is 0 outside the enclosure?
+/// Whether 0 is outside the enclosure.
 pub fn excludes_zero(enclosure: Enclosed) -> bool {
     enclosure.is_some_and(|(mid, radius)| mid.abs() > radius)
 }

@@ -7,7 +7,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
-/// `cases` random bodies, the same in every run.
+/// Returns the settings for `cases` random bodies, the same in every run.
 pub fn config(cases: u32) -> Config {
     Config {
         cases,
@@ -18,22 +18,22 @@ pub fn config(cases: u32) -> Config {
     }
 }
 
-/// A fraction between `low` and `high` hundredths.
+/// Draws a fraction between `low` and `high` hundredths.
 pub fn number(low: i32, high: i32) -> impl Strategy<Value = String> {
     (low..high).prop_map(|n| format!("{}/10007", n * 100 + 1))
 }
 
-/// `count` such fractions.
+/// Draws `count` such fractions.
 pub fn numbers(low: i32, high: i32, count: usize) -> impl Strategy<Value = Vec<String>> {
     prop::collection::vec(number(low, high), count)
 }
 
-/// A TOML list of three fractions.
+/// Draws a TOML list of three fractions.
 pub fn vector(low: i32, high: i32) -> impl Strategy<Value = String> {
     numbers(low, high, 3).prop_map(|x| list(&x))
 }
 
-/// A positive symmetric matrix in general position, as TOML rows.
+/// Draws a positive symmetric matrix in general position, as TOML rows.
 pub fn inertia() -> impl Strategy<Value = String> {
     (numbers(200, 300, 3), numbers(-40, 40, 3)).prop_map(|(d, o)| {
         let row = |a: &str, b: &str, c: &str| list(&[a, b, c]);
@@ -42,7 +42,7 @@ pub fn inertia() -> impl Strategy<Value = String> {
     })
 }
 
-/// A smooth convex support function in general position, homogeneous of degree 1.
+/// Draws a smooth convex support function in general position, homogeneous of degree 1.
 pub fn support() -> impl Strategy<Value = String> {
     numbers(-20, 20, 7).prop_map(|a| {
         let [b, c, d, e, f, g, h] = [0, 1, 2, 3, 4, 5, 6].map(|k| format!("({})", a[k]));
@@ -53,12 +53,12 @@ pub fn support() -> impl Strategy<Value = String> {
     })
 }
 
-/// A polynomial of degree 3 in one variable, near 2.
+/// Draws a polynomial of degree 3 in one variable, near 2.
 pub fn profile() -> impl Strategy<Value = String> {
     numbers(-20, 20, 3).prop_map(|a| format!("2 + ({})*z + ({})*z² + ({})*z³", a[0], a[1], a[2]))
 }
 
-/// A polynomial potential in general position.
+/// Draws a polynomial potential in general position.
 pub fn potential() -> impl Strategy<Value = String> {
     numbers(-200, 200, 4).prop_map(|a| {
         format!("({})*γ1 + ({})*γ2*γ3 + ({})*γ1*γ2² + ({})*γ3³", a[0], a[1], a[2], a[3])

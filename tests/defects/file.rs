@@ -1,4 +1,4 @@
-//! The files of the collection, read by their own small schema.
+//! The files of the collection, and their schema.
 
 use std::path::{Path, PathBuf};
 
@@ -8,43 +8,43 @@ use toml::de::{DeTable, DeValue};
 /// A system with claims about it.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// What all its claims show.
+    /// Subject of all its claims.
     pub shows: String,
-    /// The case without claims.
+    /// Case without claims.
     pub case: String,
-    /// Whether all claims stand in one file.
+    /// Whether all claims are in one file.
     pub together: bool,
-    /// The claims with their answers.
+    /// Claims with their answers.
     pub claims: Vec<Claim>,
 }
 
-/// A claim as it is typed, and what may be answered.
+/// A claim as typed, with the allowed answers.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// The lines of its table.
+    /// Lines of its table.
     pub body: String,
-    /// The answers that are right, as words.
+    /// Correct answers, as words.
     pub right: String,
-    /// Anything else that has to be so.
+    /// Further requirement, if any.
     pub also: Option<String>,
 }
 
-/// A search, and what it may not say.
+/// A search, with the theorems that it must not state.
 #[derive(Clone, Debug)]
 pub struct Asked {
     pub shows: String,
     pub case: String,
-    /// The Hamiltonian of the brackets that are looked for.
+    /// Hamiltonian of the brackets to search for.
     pub hamiltonian: Option<String>,
-    /// Parts of theorems that are wrong.
+    /// Parts of wrong theorems.
     pub wrong: Vec<String>,
-    /// A degree, and how many integrals there are up to it at least.
+    /// A degree, and a lower bound on the number of integrals up to it.
     pub least: Option<(u32, usize)>,
-    /// Is there a density that depends on the positions alone?
+    /// Whether there is a density that depends on the positions alone.
     pub density: bool,
 }
 
-/// A file that is refused, and the line that the complaint shows.
+/// A file that is refused, with the line that the complaint shows.
 #[derive(Clone, Debug)]
 pub struct Complaint {
     pub shows: String,
@@ -52,7 +52,7 @@ pub struct Complaint {
     pub line: usize,
 }
 
-/// A case whose mutants are all refuted, or equivalent.
+/// A case whose mutants are all refuted or equivalent.
 #[derive(Clone, Debug)]
 pub struct Mutation {
     pub shows: String,
@@ -68,7 +68,7 @@ pub enum Entry {
     Mutation(Mutation),
 }
 
-/// All entries of the files in a folder, in order.
+/// Returns all entries of the files in a folder, in order.
 pub fn entries(folder: &str) -> Vec<Entry> {
     let listed = std::fs::read_dir(Path::new(folder)).expect("the collection is a folder");
     let mut paths: Vec<PathBuf> = listed.flatten().map(|entry| entry.path()).collect();
@@ -109,7 +109,7 @@ fn group(table: &Table<'_, '_>) -> Group {
     let (state, field) = (table.pairs("state"), table.pairs("field"));
     let mut case = String::from("title = \"t\"\n");
     let more = table.optional("more").unwrap_or_default();
-    // What stands before the first table belongs to the head.
+    // Text before the first table belongs to the head.
     let (head, tables) = more.split_at(more.find('[').unwrap_or(more.len()));
     case.push_str(head);
     let write = |case: &mut String, name: &str, pairs: &[(String, String)]| {
@@ -122,7 +122,7 @@ fn group(table: &Table<'_, '_>) -> Group {
     };
     write(&mut case, "parameters", &table.pairs("parameters"));
     write(&mut case, "state", &state);
-    // What has no rate stands still.
+    // Variables without a rate are constant.
     let still = |name: &str, range: &str| match range.starts_with("vector") {
         true => format!("0*{name}"),
         false => "0".to_string(),
@@ -163,7 +163,7 @@ fn asked(table: &Table<'_, '_>) -> Asked {
     }
 }
 
-/// A table whose values are asked for by name.
+/// A table with access to values by name.
 struct Table<'t, 'i>(&'t DeTable<'i>);
 
 impl Table<'_, '_> {
@@ -208,14 +208,14 @@ impl Table<'_, '_> {
         }
     }
 
-    /// Names and texts, in the order of the file.
+    /// Returns names and texts, in the order of the file.
     fn pairs(&self, key: &str) -> Vec<(String, String)> {
         let Some(table) = self.table(key) else { return Vec::new() };
         in_order(table.0).into_iter().map(|(name, value)| (name, string(value))).collect()
     }
 }
 
-/// The entries of a table as they stand in the file.
+/// Returns the entries of a table in the order of the file.
 fn in_order<'t, 'i>(table: &'t DeTable<'i>) -> Vec<(String, &'t DeValue<'i>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(key, _)| key.span().start);

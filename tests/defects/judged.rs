@@ -1,4 +1,4 @@
-//! Groups of claims, judged.
+//! Judgement of groups of claims.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use liouville::verdict::{ClaimReport, Independence, Options, Sign, judge};
 use crate::file::{Claim, Group, Mutation};
 use crate::right::Answer;
 
-/// A right answer does not depend on the states that were drawn.
+/// Seeds to test; a correct answer does not depend on the states drawn.
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=5;
 
-/// One test a claim.
+/// Makes one test for each claim.
 pub fn trials(group: Group) -> Vec<Trial> {
     let group = Arc::new(group);
     let trial = |index: usize| {
@@ -20,7 +20,7 @@ pub fn trials(group: Group) -> Vec<Trial> {
         let name = format!("{}: {}", group.shows, claim.body.replace('\n', ", "));
         Trial::test(name, move || check(&own, index))
     };
-    // What may be answered by anything is there for the company.
+    // Claims with any allowed answer only accompany the others.
     (0..group.claims.len()).filter(|index| group.claims[*index].right != "any").map(trial).collect()
 }
 
@@ -86,7 +86,7 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
     }
 }
 
-/// No mutant of the case's claims survives.
+/// Tests that no mutant of the case's claims survives.
 pub fn mutation(mutation: Mutation) -> Trial {
     Trial::test(mutation.shows.clone(), move || {
         let case =

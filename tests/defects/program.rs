@@ -1,4 +1,4 @@
-//! What the program says of files that it refuses.
+//! Messages of the program on files that it refuses.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use libtest_mimic::{Failed, Trial};
 
 use crate::file::Complaint;
 
-/// The complaint about a file shows the line that it is about.
+/// Tests that the complaint about a file shows the line concerned.
 pub fn complaint(complaint: Complaint) -> Trial {
     Trial::test(complaint.shows.clone(), move || {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("defects");

@@ -1,18 +1,18 @@
-//! Answers, and whether they are among those that are right.
+//! Answers, and their comparison with the correct ones.
 
 use liouville::verdict::{ClaimReport, Verdict};
 
-/// What came out.
+/// The answer on a claim.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// The file was refused, or no claim of it could be judged.
+    /// A refused file, or a case that could not be judged.
     Error(String),
     /// A verdict.
     Verdict(Box<ClaimReport>),
 }
 
 impl Answer {
-    /// Is the answer one of these, such as "refuted or undecided", "not proved", "any"?
+    /// Whether the answer is one of these, such as "refuted or undecided", "not proved", "any".
     pub fn is(&self, right: &str) -> bool {
         match right.strip_prefix("not ") {
             Some(wrong) => !self.is(wrong),
@@ -32,7 +32,7 @@ impl Answer {
             "confirmed" => verdict == Some(Verdict::Confirmed),
             "refuted" => verdict == Some(Verdict::Refuted),
             "undecided" => verdict == Some(Verdict::Undecided),
-            // True of what it says, with a word on how little that is.
+            // True as stated, with a remark on its limited meaning.
             "remarked" => match self {
                 Answer::Error(_) => false,
                 Answer::Verdict(report) => {
@@ -43,7 +43,7 @@ impl Answer {
         }
     }
 
-    /// The answer with its grounds.
+    /// Writes the answer with its grounds.
     pub fn told(&self) -> String {
         match self {
             Answer::Error(error) => format!("error: {error}"),

@@ -7,10 +7,10 @@ use liouville::verdict::Options;
 
 use crate::file::Asked;
 
-/// A theorem that is wrong is so at each seed; one that chance avoids is met at another.
+/// Seeds to test; a wrong theorem avoided by chance at one seed appears at another.
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=5;
 
-/// No theorem is one of those that are wrong.
+/// Tests that no theorem is one of the wrong ones.
 pub fn trial(asked: Asked) -> Trial {
     Trial::test(asked.shows.clone(), move || {
         SEEDS.into_iter().try_for_each(|seed| check(&asked, seed))
@@ -43,7 +43,7 @@ fn check(asked: &Asked, seed: u64) -> Result<(), Failed> {
                 format!("at seed {seed}, degree {degree} has {least} integrals, not {found}");
             Err(Failed::from(told))
         }
-        // What cannot be counted is not miscounted.
+        // A system that cannot be counted is not miscounted.
         _ => Ok(()),
     }
 }

@@ -7,7 +7,8 @@ pub const BLOB_ON_PLANE: &str = "2*|γ| + γ1*γ2*γ3/(9*|γ|²) + γ1*γ2²/(7*
 pub const BLOB_ON_SPHERE: &str =
     "√(4*γ1² + 9/2*γ2² + 5*γ3²) + (c,γ) + (γ1*γ2*γ3/7 − γ1²*γ3/9)/|γ|²";
 
-/// The reference's formula in our language; the named quantities of [`lets`] are used.
+/// Returns the reference's formula in the language of case files, with the named quantities of
+/// [`lets`].
 pub fn formula(case: &str, name: &str) -> &'static str {
     match (case, name) {
         (_, "F0") => "(γ,γ)",
@@ -41,7 +42,7 @@ pub fn formula(case: &str, name: &str) -> &'static str {
     }
 }
 
-/// Abbreviations of section 4.1, 4.2 and 4.5.
+/// Returns the abbreviations of sections 4.1, 4.2 and 4.5.
 pub fn lets(case: &str) -> &'static str {
     match case {
         "ball-offset-1" => {

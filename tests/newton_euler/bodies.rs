@@ -1,4 +1,4 @@
-//! The bodies that are compared, each twice: as a case text, and by formulas of our own.
+//! Bodies for the comparison, each given twice: as a case text, and by independent formulas.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual, DualNum};
@@ -8,21 +8,21 @@ use super::common::drawn::Drawn;
 /// The surface of a body, with r(γ) and ∂r/∂γ by formulas of this file.
 #[derive(Clone, Copy, Debug)]
 pub enum Surface {
-    /// r = -Rγ - c
+    /// A ball, r = -Rγ - c.
     Ball,
-    /// r = -Bγ/√(γ,Bγ) - c
+    /// An ellipsoid, r = -Bγ/√(γ,Bγ) - c.
     Ellipsoid,
-    /// r = -∇h with h = [`bump`], differentiated by num-dual.
+    /// A body with r = -∇h, h = [`bump`], differentiated by num-dual.
     Bump,
 }
 
-/// What acts on the body beside the constraints.
+/// The load on the body besides the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     Nothing,
     /// Weight, on the plane: a force at the mass centre.
     Weight,
-    /// U(γ) = 3/10 γ₁²γ₂ - γ₃³/2 + (e,γ)
+    /// A potential U(γ) = 3/10 γ₁²γ₂ - γ₃³/2 + (e,γ).
     Potential,
 }
 
@@ -94,7 +94,7 @@ pub const BODIES: [Body; 17] = [
 ];
 
 impl Body {
-    /// The case: no claims, only equations.
+    /// Writes the case: no claims, only equations.
     pub fn case_text(&self) -> String {
         let system = if self.curved { "rubber-sphere" } else { "rubber-plane" };
         let mut text = format!("title = \"{}\"\nsystem = \"{system}\"\n", self.name);
@@ -113,7 +113,7 @@ impl Body {
         }
     }
 
-    /// r and ∂r/∂γ on |γ| = 1; only what ∂r/∂γ does across γ has a meaning.
+    /// Computes r and ∂r/∂γ on |γ| = 1; only the action of ∂r/∂γ across γ is meaningful.
     pub fn contact(&self, at: &Drawn) -> (Vector3<f64>, Matrix3<f64>) {
         let (gamma, c) = (at.vector("γ"), at.vector_or_zero("c"));
         match self.surface {
@@ -140,7 +140,7 @@ impl Body {
         }
     }
 
-    /// ∂U/∂γ
+    /// Computes ∂U/∂γ.
     pub fn slope(&self, at: &Drawn) -> Vector3<f64> {
         assert_eq!(self.load, Load::Potential, "the others have none");
         let g = at.vector("γ");
@@ -149,7 +149,7 @@ impl Body {
     }
 }
 
-/// The support function of [`BUMP`].
+/// Evaluates the support function of [`BUMP`].
 fn bump<T: DualNum<Primitive = f64> + Copy>([x, y, z]: [T; 3]) -> T {
     let square = x * x + y * y + z * z;
     let cubic = x * y * z / (square * T::from(5.0)) + x * x * x / (square * T::from(7.0));

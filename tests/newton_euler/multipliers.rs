@@ -1,7 +1,7 @@
 //! The raw equations of motion with multipliers, as one linear system.
 //!
-//! In body axes, v the velocity of the mass centre, Λ the force at the contact r, λγ the moment
-//! that forbids spinning, F and M what acts besides:
+//! In body axes, v is the velocity of the mass centre, Λ the force at the contact r, λγ the moment
+//! that prevents spinning, F and M the applied force and moment:
 //!
 //! ```text
 //! m(v' + ω×v) = Λ + F                    Iω' + ω×(Iω + S) = r×Λ + λγ + M
@@ -10,7 +10,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-/// A state with what acts on the body there.
+/// A state with the load on the body there.
 pub struct Moment {
     pub mass: f64,
     pub inertia: Matrix3<f64>,
@@ -24,14 +24,14 @@ pub struct Moment {
     pub torque: Vector3<f64>,
 }
 
-/// ω' with a bound on its error.
+/// Angular acceleration ω' with a bound on its error.
 pub struct Acceleration {
     pub value: Vector3<f64>,
     pub error: f64,
 }
 
-/// Roundings that any term of the equations has gone through, inputs included: the longest chain
-/// is that of r' for an ellipsoid, some thirty operations.
+/// Number of roundings in any term of the equations, inputs included: the longest chain is that of
+/// r' for an ellipsoid, some thirty operations.
 pub const ROUNDINGS: f64 = 64.0;
 
 impl Moment {
@@ -59,8 +59,8 @@ impl Moment {
 
         let x = a.lu().solve(&b).expect("the constraints determine the motion");
         let spread = a.singular_values();
-        // |x - x*| ≤ |A⁻¹| (|b - Ax| + |δb| + |δA||x|): what is left over, and what forming b and A
-        // may have lost, measured by the sizes of the terms before they cancel.
+        // |x - x*| ≤ |A⁻¹| (|b - Ax| + |δb| + |δA||x|): the residual, and the rounding errors of b
+        // and A, measured by the sizes of the terms before they cancel.
         let sizes = self.force.norm()
             + self.torque.norm()
             + self.omega.norm()
