@@ -5,7 +5,7 @@
 //! quadric     one equation of degree 2 with numbers as coefficients and a rational point x₀:
 //!             x = x₀ − 2B(x₀,u)/q(u) · u, without a root
 //! linear      j equations jointly linear in j unknowns, given the rest: Cramer's rule
-//! quadratic   the same but for one of degree 2 on the line that the others leave: both roots
+//! quadratic   the same, and one of degree 2 on the line left by the others: both roots
 //! parameter   F(x) = c for a free parameter c that occurs nowhere else: c = F(x)
 //! ```
 //!

@@ -19,11 +19,11 @@ pub enum Stream {
     Points = 1,
     /// Points for the search for linear relations.
     Relations = 2,
-    /// Characters of radicands.
+    /// Points for characters of radicands.
     Characters = 3,
     /// Points for refusals of nested roots.
     Refusals = 4,
-    /// Ranks.
+    /// Points for ranks.
     Ranks = 5,
     /// Points for the search for squares.
     Squares = 7,

@@ -257,7 +257,7 @@ impl Extent {
         /// Largest power that is multiplied out.
         const MOST: u64 = 64;
         match exponent.to_integer() {
-            // Roots and powers of what is positive are positive.
+            // Roots and powers of positive numbers are positive.
             None if self.high < 0.0 => Self::EMPTY,
             None => Self::POSITIVE,
             Some(n) if n.unsigned_abs() <= MOST => {

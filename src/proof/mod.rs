@@ -7,15 +7,15 @@
 //!
 //! | | |
 //! |---|---|
-//! | `lower`, `numbers` | functions that no field has are replaced by signs and symbols |
+//! | `lower`, `numbers` | functions that fields lack are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
 //! | `bounds` | degree and height on the graph, denominators kept in factors |
-//! | `chance`, `digest` | random primes and points, drawn from the seed and what is to be proved |
-//! | `trial` | Theorem 1: the test itself |
-//! | `tower`, `characters` | independent roots certified |
-//! | `roots`, `squares`, `nested`, `polynomial` | dependent roots, and what they are |
+//! | `chance`, `digest` | random primes and points, drawn from the seed and the statement |
+//! | `trial` | the test of Theorem 1 |
+//! | `tower`, `characters` | certificates of independence for roots |
+//! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `explore`, `cells`, `rewrite` | the cells of signs, and proofs on each |
-//! | `domain`, `classes`, `extent` | signs of values wherever the inputs can be |
+//! | `domain`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod bounds;

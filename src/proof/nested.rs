@@ -27,20 +27,20 @@ pub enum Written {
     Square(Rational, Fraction),
     /// |√u + b y/(2√u)|/|q|, where y is the root at a place.
     Sum {
-        /// u
+        /// Polynomial u.
         first: Polynomial,
-        /// b
+        /// Coefficient b.
         factor: Polynomial,
         /// Place of y.
         root: usize,
-        /// q
+        /// Denominator q.
         below: Polynomial,
     },
     /// √p/|q|, where p contains no roots.
     Plain {
-        /// p
+        /// Radicand p.
         radicand: Polynomial,
-        /// q
+        /// Denominator q.
         below: Polynomial,
     },
 }

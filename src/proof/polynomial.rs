@@ -164,7 +164,7 @@ impl Polynomial {
         let mut root = Self { terms: [(head.clone(), Rational::from(1))].into() };
         let mut rest = target.plus(&root.times(&root, &mut { MOST_WORK })?.negated());
         let half = Rational::new(1, 2);
-        // Each step removes the leading term of what is left, with the next term of the root.
+        // Each step removes the leading term of the rest, with the next term of the root.
         for _ in 0..MOST_TERMS {
             let Some((monomial, value)) = rest.leading() else {
                 return Some((scale.clone(), root));

@@ -2,10 +2,10 @@
 //! theorem.
 //!
 //! ```text
-//! count      how many integrals polynomial in the velocities there are, with any coefficients
+//! count      number of integrals polynomial in the velocities, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
-//! verdict    each find is a claim like any other, and climbs the same ladder
+//! verdict    each find is judged as a claim like any other
 //! ```
 
 mod ansatz;
@@ -209,7 +209,7 @@ impl Found {
     }
 }
 
-/// A family of candidates shown to contain no invariant beyond the known ones.
+/// A theorem of absence: a family of candidates, and a bound on its invariants.
 #[derive(Clone, Debug, Serialize)]
 pub struct Excluded {
     /// Family that was examined.
@@ -234,7 +234,7 @@ pub struct Report {
     pub multipliers: Vec<MultiplierReport>,
     /// Invariants that were found.
     pub found: Vec<Found>,
-    /// Families that contain no further invariants.
+    /// Theorems of absence.
     pub excluded: Vec<Excluded>,
     /// Singular values of the matrices of the search for integrals.
     pub opinions: Vec<SecondOpinion>,

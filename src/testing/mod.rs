@@ -77,7 +77,7 @@
 //! | | vanishes |
 //! |---|---|
 //! | [`conserves`](VectorField::conserves) | L_vF |
-//! | [`has_density`](VectorField::has_density), [`has_log_density`](VectorField::has_log_density) | v(ln ρ) + div v, less the cofactors of the level functions |
+//! | [`has_density`](VectorField::has_density), [`has_log_density`](VectorField::has_log_density) | v(ln ρ) + div v, minus the cofactors of the level functions |
 //! | [`commutes_with`](VectorField::commutes_with) | \[v,u\] |
 //! | [`is_reversed_by`](VectorField::is_reversed_by) | dσ·v + v∘σ and σ∘σ - id |
 //!

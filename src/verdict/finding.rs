@@ -232,7 +232,7 @@ impl Look {
     }
 }
 
-/// Decides a claim as undecided, with a reason.
+/// Leaves a claim undecided, with a reason.
 pub fn undecide(finding: &mut Finding, reason: String) {
     finding.settled = Some(Verdict::Undecided);
     finding.evidence.reason = Some(reason);

@@ -5,8 +5,8 @@
 //! ball                enclosures in f64 at the first states: most false claims end here
 //! prime field         true claims end here, proved; a value that is not 0 sends the others up
 //! ball                further states, for claims on which the field is silent
-//! double-double ball  twice the digits, for what is off by little
-//! ball of n bits      ever more digits, for what the field knows to be no identity
+//! double-double ball  twice the digits, for small residuals
+//! ball of n bits      increasing precision, for residuals that the field knows not to vanish
 //! ```
 
 use super::bench::Bench;

@@ -27,7 +27,7 @@ impl Bench<'_> {
                     && !seen
             })
             .collect();
-        // An enclosure may already have shown that it is not constant on the level.
+        // An enclosure may already have shown that the integral is not constant on the level.
         let asked = |item: &Recorded<'_>, known: Option<Independence>| {
             let level = (known != Some(Independence::General)).then_some(&item.novelty.off_level);
             let general = Some(&item.novelty.off_general).filter(|group| !group.is_empty());

@@ -73,7 +73,7 @@ pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
         .collect()
 }
 
-/// Index among the outputs.
+/// Indices among the outputs.
 const SUM_OF_RADII: usize = 10;
 const PRODUCT_OF_RADII: usize = 11;
 const DETERMINANT: usize = 12;

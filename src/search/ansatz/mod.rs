@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! monomials     a basis of polynomials in velocities and positions on the level
-//! characters    sign changes that keep the motion split it into blocks
-//! system        a row a random state, a column a function: its null space are the integrals
-//! subspace      less the functions of what is known
+//! characters    sign changes that preserve the motion, and split the system into blocks
+//! system        one row for each random state, one column for each function; the null space
+//!               consists of the integrals
+//! subspace      the complement of functions of known integrals
 //! coefficients  numbers, or functions of the parameters, by interpolation
-//! verdict       what is found climbs the ladder like any claim
+//! verdict       each find is judged as a claim like any other
 //! ```
 //!
 //! [`potentials`] and [`gyrostats`] start from the leading form of an integral: then a potential,

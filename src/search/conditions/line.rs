@@ -10,7 +10,7 @@ use crate::proof::Chance;
 const STATES: usize = 3;
 /// Number of further states at which a zero is checked.
 const CHECKS: usize = 16;
-/// Smallest and largest number of values of a residual along the line.
+/// Smallest number of values of a residual along the line, followed by the largest.
 const LEAST: usize = 16;
 const MOST: usize = 1024;
 

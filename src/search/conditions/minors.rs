@@ -18,7 +18,7 @@ use crate::search::{Effort, SearchError};
 
 /// Number of points whose minors are compared.
 const POINTS: usize = 2;
-/// Smallest and largest number of values of a minor.
+/// Smallest number of values of a minor, followed by the largest.
 const LEAST: usize = 64;
 const MOST: usize = 2048;
 /// Number of draws of a point, or of a value, until the field has a series there.
