@@ -30,8 +30,8 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
         (self / (Self::one() + across)).atan() * Self::from(2.0)
     }
 
-    /// Computes the angle of the point (x, self), `2 atan(y/(x + r))`, with derivative `(x y' - y
-    /// x')/r²`.
+    /// Computes the angle of the point (x, self), `2 atan(y/(x + r))`, with derivative
+    /// `(x y' - y x')/r²`.
     ///
     /// Undefined on the ray y = 0, x ≤ 0.
     fn angle_from(self, x: Self) -> Self {

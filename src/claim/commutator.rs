@@ -80,7 +80,7 @@ impl Statement for Commutator {
         Context { scale: Some(scale), value: claimed, ..Context::default() }
     }
 
-    /// The fields may leave the level, so each ∫ must be defined off the level too.
+    /// Computes the defects of each ∫ off the level too, which the fields may leave.
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
         self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, &[])).collect()
     }

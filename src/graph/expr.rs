@@ -73,12 +73,12 @@ impl Expr {
         })
     }
 
-    /// f(x)
+    /// Computes f(x).
     pub fn apply(self, function: Function) -> Self {
         self.unary(function)
     }
 
-    /// x op y
+    /// Computes x op y.
     pub fn combine(self, operation: Operation, other: Self) -> Self {
         self.binary(operation, other)
     }

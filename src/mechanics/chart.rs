@@ -15,8 +15,8 @@ use crate::scalar::Scalar;
 /// A map from draws to states.
 #[derive(Clone, Debug)]
 pub enum Chart {
-    /// Chart of the rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where s
-    /// = 1 on γ² = 1 and t = 0 on (ω,γ) = 0.
+    /// Chart of the rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where
+    /// s = 1 on γ² = 1 and t = 0 on (ω,γ) = 0.
     Rolling,
     /// Chart of a ball on a surface: M free, γ as for the rubber systems.
     Sphere,

@@ -30,15 +30,15 @@ pub enum Quantity {
     Potential,
     /// `energy`: ½(ω,Ĩω) + U.
     Energy,
-    /// `ω'`.
+    /// `ω'`: the angular acceleration.
     AngularAcceleration,
-    /// `ω`, where it is not a state variable itself.
+    /// `ω`: the angular velocity, where it is not a state variable.
     AngularVelocity,
-    /// `γ'`.
+    /// `γ'`: the rate of the normal.
     NormalRate,
     /// `λ0`: the multiplier of (ω,γ) = 0.
     Multiplier,
-    /// `γ`, where it is not a state variable itself.
+    /// `γ`: the normal, where it is not a state variable.
     Normal,
     /// `n`: ∇F of the surface F(r) = const.
     SurfaceGradient,
@@ -52,7 +52,7 @@ pub enum Quantity {
     AxisCosine,
     /// `p`: a profile's support function on the unit sphere, p(z).
     Profile,
-    /// `p'`
+    /// `p'`: dp/dz.
     ProfileRate,
     /// `f1`: r = (f1 γ₁, f1 γ₂, f2), f1 = z p' - p.
     ProfileF1,

@@ -41,7 +41,7 @@ pub struct Balls<const N: usize> {
 }
 
 impl<const N: usize> Balls<N> {
-    /// Balls with the given midpoints and radii.
+    /// Makes balls with the given midpoints and radii.
     pub fn new(mid: [f64; N], rad: [f64; N]) -> Self {
         Self { mid, rad }
     }
@@ -65,7 +65,7 @@ impl<const N: usize> Balls<N> {
         self.is_defined(lane) && self.mid[lane].abs() > self.rad[lane]
     }
 
-    /// |midpoint| / radius: at most 1 when the ball contains 0 (0/0 counts as 0).
+    /// Ratio |midpoint| / radius: at most 1 when the ball contains 0 (0/0 counts as 0).
     pub fn scaled(&self, lane: usize) -> f64 {
         if self.mid[lane] == 0.0 { 0.0 } else { self.mid[lane].abs() / self.rad[lane] }
     }
@@ -192,12 +192,13 @@ fn logarithm(a: f64, ra: f64) -> (f64, f64) {
     (z, if a > ra { widen(ra / (a - ra) + ELEMENTARY * z.abs()) } else { f64::NAN })
 }
 
-/// A function with slope and value at most 2: sin, cos, atan.
+/// Encloses a function with slope and value at most 2: sin, cos, atan.
 fn bounded(z: f64, ra: f64) -> (f64, f64) {
     (z, widen(ra + 2.0 * ELEMENTARY))
 }
 
-/// x^y = e^(y ln x): |y ln x - b ln a| ≤ rb |ln a| + (|b| + rb) t with t = ra/(a - ra) ≥ |ln x - ln a|.
+/// Encloses x^y = e^(y ln x): |y ln x - b ln a| ≤ rb |ln a| + (|b| + rb) t with
+/// t = ra/(a - ra) ≥ |ln x - ln a|.
 fn power(a: f64, ra: f64, b: f64, rb: f64) -> (f64, f64) {
     let z = libm::pow(a, b);
     let shift = ra / (a - ra);

@@ -37,7 +37,7 @@ pub enum RationalError {
     /// Not of the form `12`, `-0.5`, `1e-3` or `3/7`.
     #[error("`{0}` is not a number: write 12, -0.5, 1e-3 or 3/7")]
     Malformed(String),
-    /// `1/0`.
+    /// A zero denominator, as in `1/0`.
     #[error("`{0}` divides by zero")]
     ZeroDenominator(String),
     /// An exponent past ±1000 or more than 4000 digits.

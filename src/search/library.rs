@@ -279,8 +279,8 @@ pub fn factors(model: &Model) -> Texts {
 /// Lists the abbreviations that the terms use, in order.
 ///
 /// X₀ and Y₀ are the factors of det Ĩ (γ,Ĩ⁻¹γ) (r,γ)² for an ellipsoid on (3.8): X and Y of §3.3
-/// with β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that I₁
-/// = I₂ is not an exception: for I = μE they are the factors of (3.7).
+/// with β and α of (3.9) expressed by I₁, I₂ and B, and multiplied by powers of I₁ − I₂ so that
+/// I₁ = I₂ is not an exception: for I = μE they are the factors of (3.7).
 pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
     if !matches!(model.system, System::Rubber(_)) || !has(model, "B", Type::MATRIX) {
         return Vec::new();

@@ -39,7 +39,7 @@ pub struct Polynomial {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<A, B>(pub A, pub B);
 
-/// A body with its mass centre moved by -c: h + (c,γ).
+/// A body with its mass centre moved by c: h + (c,γ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shifted<B> {
     /// Original body.

@@ -126,8 +126,8 @@ impl fmt::Display for Proof {
 /// Result of one rung of the ladder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rung {
-    /// Name of the rung: `folding`, `ball`, `prime field`, `double-double ball`, `ball of many
-    /// bits`.
+    /// Name of the rung: `folding`, `ball`, `prime field`, `double-double ball`,
+    /// `ball of many bits`.
     pub rung: &'static str,
     /// Description of the result.
     pub found: String,

@@ -6,7 +6,7 @@ use crate::claim::Reader;
 /// Behaviour of volumes along a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tendency {
-    /// Contraction: the motion is attracted by an attractor.
+    /// Contraction: the motion tends to an attractor.
     Negative,
     /// Conservation on average.
     Zero,

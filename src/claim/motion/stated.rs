@@ -6,8 +6,8 @@ use crate::number::rational::Rational;
 
 /// A number with the accuracy implied by its notation.
 ///
-/// `1`, `3/7`, `π/2` are exact; `0.0331941` is correct to one unit in its last place; `0.035 ±
-/// 0.003` has a standard error.
+/// `1`, `3/7`, `π/2` are exact; `0.0331941` is correct to one unit in its last place;
+/// `0.035 ± 0.003` has a standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
     /// Text as typed.

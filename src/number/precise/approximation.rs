@@ -18,7 +18,7 @@ const MOST_ALIGNED: u64 = 1 << 17;
 pub struct Approximation {
     mantissa: BigInt,
     exponent: i64,
-    /// In units of 2^e.
+    /// Radius in units of 2^e.
     radius: u64,
 }
 

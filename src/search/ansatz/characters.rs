@@ -122,8 +122,8 @@ fn negated(m: &Modulus, x: u64) -> u64 {
     if x == UNDEFINED { x } else { m.sub(0, x) }
 }
 
-/// Whether y = x (`Some(false)`) or y = -x (`Some(true)`) in all lanes; `Some(None)` where both are
-/// 0. The outer option is `None` where they are neither, or defined nowhere.
+/// Whether y = -x (`Some(true)`) or y = x (`Some(false)`) in all lanes; `Some(None)` where both
+/// are 0. The outer option is `None` where they are neither, or defined nowhere.
 fn ratio(m: &Modulus, x: &[u64; LANES], y: &[u64; LANES]) -> Option<Option<bool>> {
     let defined: Vec<(u64, u64)> = x
         .iter()
