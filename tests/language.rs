@@ -1,6 +1,7 @@
-//! The language of case files: families, sizes, forms with indices, time, lists, names in any order.
+//! The language of case files: families, sizes, forms with indices, time, lists, names in any
+//! order.
 //!
-//! Each case is judged; a claim passes when its verdict is what the case expects.
+//! Each case is judged; a claim passes when its verdict is the one the case expects.
 
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};

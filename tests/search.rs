@@ -413,7 +413,8 @@ fn brackets_are_excluded() {
 
 #[test]
 fn a_tensor_that_fails_jacobi_is_mended() {
-    // {x,z} = z, {y,z} = 1 alone fails Jacobi's identity; {x,y} is free, as P ∂z does not contain it.
+    // {x,z} = z, {y,z} = 1 alone fails Jacobi's identity; {x,y} is free, as P ∂z does not contain
+    // it.
     let body = "[state]\nx = '1..2'\ny = '1..2'\nz = '1..2'\n[field]\nx = 'z'\ny = '1'\nz = '0'\n";
     let (_, brackets) = bracketed(body, Hamiltonians::Given("z".into()));
     assert_eq!(brackets, ["{x,y} = −y, {x,z} = z, {y,z} = 1"]);

@@ -1,6 +1,7 @@
 //! Existence of an invariant measure of a rubber body: the divergence as a covector on the sphere.
 //!
-//! With a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ), ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, 1/K = R₁R₂ and s = 1 - k²/K, on |γ| = 1 and modulo γ
+//! With a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ), ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, 1/K = R₁R₂ and s = 1 - k²/K, on |γ| = 1 and
+//! modulo γ
 //!
 //! ```text
 //! div v = (χ,ω) on the level,   Γᵀ(γ×χ) = -∇ln ρ₀ + w,   w = (s/D_T) Γᵀa

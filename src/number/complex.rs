@@ -1,4 +1,5 @@
-//! Complex numbers over f64, for derivatives by a complex step: f'(x)·d = Im f(x + i h d)/h + O(h²).
+//! Complex numbers over f64, for derivatives by a complex step:
+//! f'(x)·d = Im f(x + i h d)/h + O(h²).
 //!
 //! Nothing is subtracted, so h may be small enough for h² to lie below every rounding error. Each
 //! function is continued from the real axis to the half-plane next to it, and is undefined where

@@ -2,8 +2,8 @@
 //! square root.
 //!
 //! An element is a + bi with i² = -1. Every a in F_p is the square of a^((p+1)/4) or of
-//! i (-a)^((p+1)/4); a + bi with b ≠ 0 is a square exactly when its norm a² + b² is one in F_p. With
-//! 2^s dividing p + 1 elements of F_p have 2^s-th roots too. Roots of odd index are taken of
+//! i (-a)^((p+1)/4); a + bi with b ≠ 0 is a square exactly when its norm a² + b² is one in F_p.
+//! With 2^s dividing p + 1 elements of F_p have 2^s-th roots too. Roots of odd index are taken of
 //! elements of F_p alone, where they are unique if the index is prime to p - 1.
 //!
 //! A lane is undefined after 1/0, after √0 (a root without sign), and after the root of an element

@@ -238,7 +238,8 @@ impl Extent {
         let ends = [libm::sin(low), libm::sin(high)];
         let once = Self::outward(ends[0].min(ends[1]), ends[0].max(ends[1]));
         let mut found = Self::outward(once.low, once.high);
-        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the trough.
+        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the
+        // trough.
         let passes = |quarter: f64| {
             let turns = |x: f64| (x - quarter * FRAC_PI_2) / TAU;
             turns(low - SLACK).ceil() <= turns(high + SLACK).floor()

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! since the square of the right side is u + b y + b²C/(4u), and b²C/4 = u (a - u). It holds where
-//! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not negative,
-//! so both are negative only where a + b y = -(√-u ± √(u - a))² is.
+//! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not
+//! negative, so both are negative only where a + b y = -(√-u ± √(u - a))² is.
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::exact::square_root;

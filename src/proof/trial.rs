@@ -1,9 +1,10 @@
 //! Tests for identical vanishing at random points modulo random primes.
 //!
-//! Theorem 1 of docs/soundness.md. Let n bound the degree of the numerator of R, a root of X counting
-//! half of X, β the product of the indices of its odd roots, H the bits of its coefficients and e
-//! the number of roots of integers in it. If R ≠ 0 and its roots are independent modulo K primes drawn from
-//! a pool of N, each with T accepted points among at most M draws with random signs of all roots,
+//! Theorem 1 of docs/soundness.md. Let n bound the degree of the numerator of R, a root of X
+//! counting half of X, β the product of the indices of its odd roots, H the bits of its
+//! coefficients and e the number of roots of integers in it. If R ≠ 0 and its roots are independent
+//! modulo K primes drawn from a pool of N, each with T accepted points among at most M draws with
+//! random signs of all roots,
 //!
 //! ```text
 //! P(R = 0 at all points) ≤ ( 2^e H/(60 N) + (M β n/2^60)^T )^K

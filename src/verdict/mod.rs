@@ -1,4 +1,4 @@
-//! From residuals to verdicts: sampling on level sets, the ladder, evidence.
+//! Verdicts from residuals: sampling on level sets, the ladder, evidence.
 //!
 //! A residual is judged against the rounding error that its computation can make at the state: a
 //! ball that excludes 0 refutes, with the state as witness; a claim is confirmed when the balls of

@@ -128,7 +128,8 @@ pub fn ln(x: &Approximation, bits: u32) -> Option<Approximation> {
     let scaled = Approximation::exact(mantissa.clone(), -binary);
     let f = fixed(&scaled, w);
     let one = BigInt::one() << w;
-    // ln f = 2 artanh z with |z| = |f - 1|/(f + 1) ≤ 1/5; the derivative of artanh is below 2 there.
+    // ln f = 2 artanh z with |z| = |f - 1|/(f + 1) ≤ 1/5; the derivative of artanh is below 2
+    // there.
     let z = ((&f - &one) << w) / (&f + &one);
     let square = (&z * &z) >> w;
     let (mut sum, mut power, mut k) = (z.clone(), z, 1u32);

@@ -149,8 +149,8 @@ mod tests {
     fn standard_monomials_are_a_basis_on_the_level() {
         let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1\nR=1\nI=[1,2,2.5]\n[body]\nshape='ball'\n";
         let variables = variables(ball);
-        // Functions on the sphere up to degree e: (e + 1)²; forms linear in ω are pairs of them less
-        // the multiples of γ.
+        // Functions on the sphere up to degree e: (e + 1)²; forms linear in ω are pairs of them
+        // minus the multiples of γ.
         assert_eq!(variables.monomials(0, 0..=4).len(), 25);
         assert_eq!(variables.monomials(2, 0..=4).len(), 102, "as a table of sizes has it");
         assert_eq!(variables.text(&[1, 0, 0, 2, 0, 1]), "ω1*γ1²*γ3");
