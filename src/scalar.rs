@@ -14,6 +14,11 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// The image of an exact constant.
     fn rational(value: &Rational) -> Self;
 
+    /// The value of what has none, 1/0: no proof accepts it, and no ball contains 0.
+    fn undefined() -> Self {
+        Self::zero().recip()
+    }
+
     /// `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an integer.
     fn power(self, exponent: &Rational) -> Self;
 

@@ -145,7 +145,7 @@ impl Formula {
     pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
         let mut values = evaluate::values(&self.arena, lookup);
         // a formula that was read has at least one node
-        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
+        values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 
     /// The value, with one exactly where every operation that is written has one: a recorded
@@ -155,7 +155,7 @@ impl Formula {
         lookup: &mut dyn FnMut(Symbol) -> Value<T>,
     ) -> Value<T> {
         let mut values = evaluate::literal_values(&self.arena, lookup);
-        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
+        values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 
     /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
