@@ -343,6 +343,21 @@ impl Sampler {
         self.solution.as_deref()
     }
 
+    /// Parameters and states, as values of [`Self::graph`].
+    pub fn made(&self) -> &[Expr] {
+        &self.made
+    }
+
+    /// The draws of a state in f64, and whether each is exact.
+    pub fn nearest_draws(&self, index: u64) -> Vec<(f64, bool)> {
+        self.draws.nearest(self.seed, index, 0)
+    }
+
+    /// The draws of a state near the ends of ranges, in f64.
+    pub fn nearest_edge(&self, index: u64) -> Vec<(f64, bool)> {
+        self.draws.edge(self.seed, index).iter().map(Rational::to_f64).collect()
+    }
+
     /// How many of the draws make the parameters.
     pub fn parameter_draws(&self) -> usize {
         self.parameter_draws
