@@ -84,8 +84,15 @@ pub fn div(a: &Tree, b: &Tree) -> Tree {
     Rc::new(Expr::Div(a.clone(), b.clone()))
 }
 
+/// A power; 2/2 is 1, so the exponent is in lowest terms.
 pub fn power(a: &Tree, top: i64, bottom: i64) -> Tree {
-    Rc::new(Expr::Power(a.clone(), top, bottom))
+    let common = divisor(top.abs(), bottom).max(1);
+    Rc::new(Expr::Power(a.clone(), top / common, bottom / common))
+}
+
+/// The greatest common divisor.
+fn divisor(a: i64, b: i64) -> i64 {
+    if b == 0 { a } else { divisor(b, a % b) }
 }
 
 pub fn square(a: &Tree) -> Tree {
