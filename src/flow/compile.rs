@@ -11,7 +11,7 @@ use crate::number::{Domain, Function, Operation};
 
 /// Size above which coefficients are no longer folded.
 const MAX_COEFFICIENT_BITS: u64 = 1 << 13;
-/// Largest number of terms of a sum that is repeated in several readers without a row of its own.
+/// Largest number of terms of a sum that its readers repeat instead of sharing a row.
 const MAX_REPEATED_TERMS: usize = 1;
 
 impl Program {

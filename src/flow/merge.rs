@@ -1,6 +1,6 @@
 //! Merging of the steps of a rolling body's field that are proportional on the level set.
 //!
-//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are seen modulo a prime at a few
+//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are found modulo a prime at a few
 //! states of the level, and their factors computed exactly at one of them. The level itself stays an
 //! integral near it, whatever is put for r, Ĩ and the torques: γ' is across γ, and the multiplier keeps
 //! (ω,γ).

@@ -292,7 +292,7 @@ impl Number for Pair {
     }
 }
 
-/// Sums in double-double, one a lane, not normalised.
+/// Sums in double-double, one in each lane, not normalised.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct PairLanes {

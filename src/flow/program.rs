@@ -1,4 +1,4 @@
-//! A Taylor program: how the coefficients of order n follow from those of lower orders.
+//! Taylor programs: rules that give the coefficients of order n from those of lower orders.
 //!
 //! With x = Σ x_k τ^k and θx = Σ k x_k τ^k, each instruction makes one row from others by the rule
 //! (Σ from k = 1 to n - 1, n ≥ 1; order 0 is the function itself)

@@ -55,7 +55,7 @@ impl Parser<'_> {
         Ok(((number - 1).rem_euclid(modulus) + 1, span.start..place.end))
     }
 
-    /// Whether `mod` stands here, in an index.
+    /// Whether the next token is the `mod` of an index.
     pub(super) fn is_modulo(&self) -> bool {
         self.whole_numbers && self.peek() == Kind::Name && self.text(&self.token().span) == "mod"
     }
