@@ -1,7 +1,7 @@
 //! Run time against error: all methods that form the derivatives of a claim's residual, measured
 //! side by side at the same states.
 //!
-//! | method | what runs |
+//! | method | computation |
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
 //! | merged tape | the same residual from fewer operations, by each engine of f64 |

@@ -32,9 +32,9 @@ pub enum FlowError {
     /// The point does not lie on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
     },
     /// The energy is not above the potential at the start.
@@ -42,9 +42,9 @@ pub enum FlowError {
         "over (l, L/G) = ({l:.6}, {z:.6}) the potential is {potential:.6}, at or above the energy {energy}"
     )]
     BelowPotential {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
         /// Potential at the start.
         potential: f64,
@@ -82,9 +82,9 @@ pub enum FlowError {
     /// Newton's method does not converge.
     #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
     NoPeriodicPoint {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
         /// Period, in crossings of the section.
         period: usize,
@@ -92,9 +92,9 @@ pub enum FlowError {
     /// The point has no separatrices.
     #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
     NotHyperbolic {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
         /// Kind of the periodic point.
         kind: &'static str,

@@ -28,7 +28,7 @@ pub struct Estimate {
 /// Apparent kind of motion; the estimates next to it show how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Character {
-    /// No positive exponent: periodic, quasiperiodic, or drawn to such a motion.
+    /// No positive exponent: periodic, quasiperiodic, or attracted to such a motion.
     Regular,
     /// A positive exponent; volume is kept on average.
     ConservativeChaos,

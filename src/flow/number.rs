@@ -23,9 +23,9 @@ pub trait Number:
 {
     /// Type of one lane.
     type One: Number<One = Self::One>;
-    /// 0
+    /// The number 0.
     const ZERO: Self;
-    /// 1
+    /// The number 1.
     const ONE: Self;
     /// Number of orbits carried in one number.
     const LANES: usize;

@@ -1,8 +1,8 @@
 //! Fast estimates of the exponents of many motions, each with a nearby shadow, to seven digits.
 //!
-//! The shadow is a motion at a small distance, put back to it when it has come far (Benettin, Galgani,
-//! Strelcyn 1976); the mean divergence is a sum over two Gauss nodes a step. That takes an eighth of
-//! the work of the variational equations; `variational` is the exact form.
+//! The shadow is a motion at a small distance, to which it is reset when it has drifted far
+//! (Benettin, Galgani, Strelcyn 1976); the mean divergence is a sum over two Gauss nodes per step.
+//! That takes an eighth of the work of the variational equations; `variational` is the exact form.
 //!
 //! Parameters that differ from motion to motion are constant components of the state, so that one
 //! program serves all.

@@ -27,9 +27,9 @@ pub(super) struct At(pub(super) Base, pub(super) i32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Width {
     One,
-    /// AVX2 and FMA.
+    /// Four numbers, with AVX2 and FMA.
     Four,
-    /// AVX-512F.
+    /// Eight numbers, with AVX-512F.
     Eight,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Assembler {
 }
 
 impl Assembler {
-    /// register = 0, in all lanes
+    /// Sets register = 0 in all lanes.
     pub(super) fn zero(&mut self, register: Register) {
         // vxorpd of 128 bits clears what is above them.
         let high = (register >> 3 ^ 1) & 1;
@@ -82,38 +82,38 @@ impl Assembler {
         self.bytes.extend([0xc4, first, (!register & 15) << 3 | PACKED, 0x57, fields]);
     }
 
-    /// register = numbers
+    /// Loads numbers to a register.
     pub(super) fn load(&mut self, width: Width, register: Register, from: At) {
         self.plain(width, 0x10, register, 0, from);
     }
 
-    /// numbers = register
+    /// Stores a register to numbers.
     pub(super) fn store(&mut self, width: Width, register: Register, to: At) {
         self.plain(width, 0x11, register, 0, to);
     }
 
-    /// register = x · y, one number
+    /// Sets register = x · y, one number.
     pub(super) fn multiply(&mut self, register: Register, x: Register, y: At) {
         self.plain(Width::One, 0x59, register, x, y);
     }
 
-    /// register = x / y, one number
+    /// Sets register = x / y, one number.
     pub(super) fn divide(&mut self, register: Register, x: Register, y: At) {
         self.plain(Width::One, 0x5e, register, x, y);
     }
 
-    /// register = √x, one number
+    /// Sets register = √x, one number.
     pub(super) fn square_root(&mut self, register: Register, x: At) {
         self.plain(Width::One, 0x51, register, register, x);
     }
 
-    /// register = register + x · y, rounded once
+    /// Sets register = register + x · y, rounded once.
     pub(super) fn fused(&mut self, width: Width, register: Register, x: Register, y: At) {
         let opcode = if width == Width::One { 0xb9 } else { 0xb8 };
         self.instruction(width, MAP_0F38, PACKED, 1, [opcode, register, x], y);
     }
 
-    /// register = x + y of vectors
+    /// Sets register = x + y, vectors.
     pub(super) fn add(&mut self, width: Width, register: Register, x: Register, y: Register) {
         self.between(width, MAP_0F, [0x58, register, x, y]);
     }

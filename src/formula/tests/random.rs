@@ -1,4 +1,4 @@
-//! Random formulas mean what they say, and random texts never panic.
+//! Tests of random formulas against their meaning, and of random texts against panics.
 
 use proptest::prelude::*;
 
