@@ -14,6 +14,11 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// Returns the image of an exact constant.
     fn rational(value: &Rational) -> Self;
 
+    /// Makes an undefined value, 1/0: proofs reject it, and it has no enclosure.
+    fn undefined() -> Self {
+        Self::zero().recip()
+    }
+
     /// Computes `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an
     /// integer.
     fn power(self, exponent: &Rational) -> Self;

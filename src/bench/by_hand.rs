@@ -1,6 +1,5 @@
-//! The work items as one would write them by hand with num-dual, without formulas or graphs: the
-//! yardstick for what the generic code costs. Plain code, not tuned; W3 has a second form, derived
-//! with pencil and paper.
+//! Work items written by hand with num-dual, without formulas or graphs: the yardstick for the cost
+//! of the generic code. Plain code, not tuned; W3 has a second form, derived with pencil and paper.
 //!
 //! ```text
 //! Ĩω' = K + λγ,  K = Ĩω×ω - m r×(ω×r'),  γ' = γ×ω,  Ĩ = I + m r²E - m r⊗r
@@ -10,7 +9,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual, Dual64, DualNum};
 
-/// The numbers this is written over: f64 and its duals.
+/// Numbers of the residuals: f64 and its duals.
 trait Number: DualNum<Primitive = f64> + Copy {}
 
 impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
@@ -18,13 +17,13 @@ impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
 const MASS: f64 = 1.3;
 const RADIUS: f64 = 3.0;
 const CENTRE: [f64; 3] = [0.7, -0.4, 1.1];
-/// The inertia of W1 and W3.
+/// Central inertia of W1 and W3.
 const INERTIA: [f64; 3] = [2.6, 1.2, 1.8];
 const SQUARES: [f64; 3] = [1.0, 2.0, 3.5];
-/// mB + μE with μ = 2.
+/// Central inertia mB + μE with μ = 2.
 const INERTIA_MB_MU: [f64; 3] = [MASS + 2.0, 2.0 * MASS + 2.0, 3.5 * MASS + 2.0];
 
-/// W1: v at f64, then F₂ at `Dual64` along v.
+/// Residual W1: v at f64, then F₂ at `Dual64` along v.
 pub fn second_integral_along_field(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
     let rate = gamma.cross(&omega);
@@ -33,7 +32,7 @@ pub fn second_integral_along_field(state: &[f64]) -> f64 {
     second_integral(&lift(&omega, &acceleration), &lift(&gamma, &rate)).eps
 }
 
-/// W2: ρ at `Dual64` along v, and v at `Dual64` along each axis of ω.
+/// Residual W2: ρ at `Dual64` along v, and v at `Dual64` along each axis of ω.
 pub fn liouville_residual(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
     let rate = gamma.cross(&omega);
@@ -43,8 +42,8 @@ pub fn liouville_residual(state: &[f64]) -> f64 {
     density.eps / density.re + divergence(&omega, &gamma, &INERTIA_MB_MU)
 }
 
-/// W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω; then
-/// (γ, rot(γ×χ)) by all that at duals along each axis of γ.
+/// Residual W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω;
+/// then (γ, rot(γ×χ)) by all that at duals along each axis of γ.
 pub fn criterion(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {
@@ -60,7 +59,7 @@ pub fn criterion(state: &[f64]) -> f64 {
     rotation_about(&gamma, &slopes)
 }
 
-/// W3 from a formula: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis, and (γ, rot a).
+/// Residual W3 from a formula: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis, and (γ, rot a).
 pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {
@@ -72,7 +71,7 @@ pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
     rotation_about(&gamma, &slopes)
 }
 
-/// (γ, rot w) from ∂w/∂γ₁, ∂w/∂γ₂, ∂w/∂γ₃
+/// Returns (γ, rot w) from ∂w/∂γ₁, ∂w/∂γ₂, ∂w/∂γ₃.
 #[inline]
 fn rotation_about(gamma: &Vector3<f64>, slopes: &[Vector3<f64>; 3]) -> f64 {
     [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
@@ -81,7 +80,7 @@ fn rotation_about(gamma: &Vector3<f64>, slopes: &[Vector3<f64>; 3]) -> f64 {
         .sum()
 }
 
-/// Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
+/// Returns Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
 #[inline]
 fn divergence<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>, central: &[f64; 3]) -> T {
     let along = |axis: usize| {
@@ -112,7 +111,7 @@ fn ellipsoid<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
     image.map(|x| x * scale)
 }
 
-/// r' of the ellipsoid for γ' = `rate`.
+/// Returns r' of the ellipsoid for γ' = `rate`.
 #[inline]
 fn ellipsoid_slide<T: Number>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<T> {
     let squares = Vector3::from(SQUARES).map(T::from);
@@ -129,7 +128,7 @@ fn inertia_at<T: Number>(r: &Vector3<T>, central: &[f64; 3]) -> Matrix3<T> {
     Matrix3::from_diagonal(&Vector3::from(*central).map(T::from)) + steiner.map(|x| x * MASS)
 }
 
-/// The adjugate of a symmetric matrix.
+/// Adjugate of a symmetric matrix.
 #[inline]
 fn adjugate<T: Number>(a: &Matrix3<T>) -> Matrix3<T> {
     let [x, y, z] = [0, 1, 2].map(|k| a.column(k).into_owned());
@@ -154,7 +153,7 @@ fn acceleration<T: Number>(
     (adjugate * force).map(|x| x / determinant)
 }
 
-/// |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω)
+/// Integral |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
 #[inline]
 fn second_integral<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>) -> T {
     let momentum = inertia_at(&ball(gamma), &INERTIA) * omega;

@@ -1,28 +1,28 @@
-//! One way to compute a residual, timed as a black box.
+//! Interface of the methods that compute a residual, timed as black boxes.
 
 use crate::number::precise::Approximation;
 use crate::verdict::{LANES, Sampler, antiderivative_value};
 
-/// A block of states: one entry an input of the tape, one f64 a lane.
+/// Block of states: one entry for each input of the tape, one f64 for each lane.
 pub type Block = Vec<[f64; LANES]>;
 
-/// Something that computes the residual at blocks of states.
+/// Method that computes the residual at blocks of states.
 pub trait Candidate {
     /// Computes the residual at the states of block `block`.
     fn run(&mut self, block: usize);
 
-    /// The residual that the last run found in `lane`, exactly as it was computed; `None` where it
-    /// is undefined.
+    /// Residual of the last run in `lane`, exactly as it was computed; `None` where it is
+    /// undefined.
     fn value(&self, lane: usize) -> Option<Approximation>;
 
-    /// The bound that was computed along with it, if one was.
+    /// Error bound computed along with the residual, if any.
     fn bound(&self, _lane: usize) -> Option<f64> {
         None
     }
 }
 
 /// Parameters, states and antiderivatives in f64: from here on they are exact, and the same for all
-/// candidates. They are the midpoints of the states a verdict would use, so off the level by rounding.
+/// candidates. They are the midpoints of the states of a verdict, and so off the level by rounding.
 ///
 /// A lane without a state repeats another one; `None` when a block has no state at all.
 pub fn states(sampler: &Sampler, blocks: u64, antiderivatives: usize) -> Option<Vec<Block>> {

@@ -12,7 +12,7 @@ use crate::verdict::LANES;
 
 type Run<'t> = Evaluator<'t, Float<LANES>>;
 
-/// The residual by central differences.
+/// Residual by central differences.
 pub struct Central<'t> {
     underived: &'t Underived,
     states: &'t [Block],
@@ -23,7 +23,7 @@ pub struct Central<'t> {
 }
 
 impl<'t> Central<'t> {
-    /// The differences of these tapes at these states.
+    /// Prepares the differences of these tapes at these states.
     pub fn new(underived: &'t Underived, states: &'t [Block]) -> Self {
         let run = |tape| Evaluator::new(tape, Float::<LANES>);
         let along_field = underived.along_field.as_ref();
@@ -64,7 +64,8 @@ impl Candidate for Central<'_> {
             for lane in 0..LANES {
                 // The mean of both is ρ up to h², as the quotient is the derivative.
                 let unit = if part.logarithmic { 0.5 * (ahead[lane] + behind[lane]) } else { 1.0 };
-                // A state of rest changes nothing, though it leaves no direction to step along.
+                // At an equilibrium the derivative is 0, though there is no direction to step
+                // along.
                 let slope = (ahead[lane] - behind[lane]) / (2.0 * step[lane] * unit);
                 self.results[lane] += if speed[lane] == 0.0 { 0.0 } else { slope };
             }
@@ -99,13 +100,13 @@ impl Candidate for Central<'_> {
 }
 
 impl Term {
-    /// The factor of a derivative in one lane.
+    /// Factor of a derivative in one lane.
     pub fn weight(&self, inputs: &Block, lane: usize) -> f64 {
         self.factor.map_or(self.sign, |input| self.sign * inputs[input][lane])
     }
 }
 
-/// The length of the vector in each lane.
+/// Length of a vector in each lane.
 fn norm(vector: &[[f64; LANES]]) -> [f64; LANES] {
     std::array::from_fn(|lane| vector.iter().map(|x| x[lane] * x[lane]).sum::<f64>().sqrt())
 }

@@ -1,6 +1,7 @@
 //! Derivatives by a complex step: f'(x)·d = Im f(x + i h d)/h with h = 10⁻¹⁰⁰.
 //!
-//! Nothing is subtracted and h² vanishes against every rounding error, so the error is that of f.
+//! There is no subtraction, and h² vanishes against every rounding error, so the error is that of
+//! f.
 
 use super::candidate::{Block, Candidate};
 use super::underived::{AlongAxis, AlongField, Underived};
@@ -14,7 +15,7 @@ const STEP: f64 = 1e-100;
 
 type Run<'t> = Evaluator<'t, Complex<LANES>>;
 
-/// The residual by complex steps.
+/// Residual by complex steps.
 pub struct ComplexStep<'t> {
     underived: &'t Underived,
     states: &'t [Block],
@@ -25,7 +26,7 @@ pub struct ComplexStep<'t> {
 }
 
 impl<'t> ComplexStep<'t> {
-    /// The complex steps of these tapes at these states.
+    /// Prepares the complex steps of these tapes at these states.
     pub fn new(underived: &'t Underived, states: &'t [Block]) -> Self {
         let run = |tape| Evaluator::new(tape, Complex::<LANES>);
         let field = |tape| Evaluator::new(tape, Float::<LANES>);

@@ -1,4 +1,4 @@
-//! The merged residual in f64 by each engine, and the floor under them.
+//! The merged residual in f64 by each engine, and a lower bound on its time.
 
 use std::time::{Duration, Instant};
 
@@ -9,11 +9,12 @@ use crate::engine::{Engine, Means, Runner};
 use crate::graph::{Expr, Tape, record};
 use crate::number::precise::Approximation;
 
-/// Sums that do not wait for each other: more than a processor has under way at once, and few
-/// enough to have a register each.
+/// Number of independent sums: more than a processor executes at once, and few enough to have a
+/// register each.
 const CHAINS: usize = 12;
 
-/// The engines that there are on this machine, and the floor; `laying_out` is what the tape took.
+/// Entries for the engines of this machine, and the floor; `laying_out` is the time to lay out the
+/// tape.
 pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<Entry<'s>> {
     let mut entries = Vec::new();
     let mut add = |method, domain, engine: &Engine, set_up, candidate| {
@@ -36,7 +37,7 @@ pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<En
     entries
 }
 
-/// An engine at the states.
+/// An engine with its states.
 struct EngineRun<'s> {
     runner: Runner,
     states: &'s [Block],
@@ -55,9 +56,9 @@ impl Candidate for EngineRun<'_> {
     }
 }
 
-/// As many fused sums as a residual has steps, as fast as this machine does them: x ← x a + b in
-/// registers, nothing else. A division or a root takes longer than a sum, so this is below what any
-/// engine can reach.
+/// One fused sum for each step of a residual, at the full speed of this machine: only x ← x a + b
+/// in registers. A division or a root takes longer than a sum, so this is faster than any engine
+/// can be.
 struct Floor(Runner);
 
 impl Candidate for Floor {
@@ -65,7 +66,7 @@ impl Candidate for Floor {
         self.0.run();
     }
 
-    /// It computes nothing of interest.
+    /// Always `None`: the sums have no meaning.
     fn value(&self, _lane: usize) -> Option<Approximation> {
         None
     }

@@ -1,24 +1,24 @@
-//! What is measured: three work items of fixed size, or the cases of a user.
+//! Items of a benchmark: three work items of fixed size, or the cases of a user.
 
 use super::{Method, by_hand};
 use crate::case::{Case, CaseError};
 
-/// A residual from the state's components.
+/// Residual as a function of the state's components.
 pub type Residual = fn(&[f64]) -> f64;
 
 /// A case to be measured.
 pub struct Item {
-    /// `W1`, or the path of a case file.
+    /// Name: `W1`, or the path of a case file.
     pub name: String,
     /// The case; each of its claims is measured.
     pub case: Case,
-    /// The residual as one would write it by hand with num-dual, from the state's components: plain
-    /// code first, then from a formula for the residual, where there is one.
+    /// Residuals written by hand with num-dual, from the state's components: plain code first, then
+    /// from a formula for the residual, where there is one.
     pub by_hand: Vec<(Method, Residual)>,
 }
 
 impl Item {
-    /// A case of a user.
+    /// An item for a user's case.
     pub fn new(name: String, case: Case) -> Self {
         Self { name, case, by_hand: Vec::new() }
     }
@@ -59,6 +59,8 @@ const WORK_ITEMS: [WorkItem; 3] = [
     },
 ];
 
+/// Builds the work items.
+///
 /// W1: L_vF₂ of the unbalanced ball, F₂ = |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
 /// W2: v(ln ρ) + div v of the ellipsoid with I = mB + μE, ρ = (γ,adj(Ĩ)γ).
 /// W3: (γ, rot a) of an ellipsoid with any inertia, which is not zero.

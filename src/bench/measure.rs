@@ -1,4 +1,4 @@
-//! Times by interleaved rounds, errors against a reference.
+//! Measurement of times by interleaved rounds, and of errors against a reference.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -10,14 +10,14 @@ use super::{BenchError, Row};
 use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
-/// A candidate runs at least so long in a round, so that the clock's own time is lost in it.
+/// Minimum run time of a candidate in a round, so that the clock's overhead is negligible.
 const ROUND: Duration = Duration::from_micros(100);
-/// A candidate that has run so long sits out the rounds that are left.
+/// Run time after which a candidate skips the remaining rounds.
 const ENOUGH: Duration = Duration::from_millis(40);
-/// But nobody is judged by fewer rounds: a burst of other work may spoil a few.
+/// Minimum number of rounds: a burst of other work may spoil a few.
 const FEWEST: usize = 9;
 
-/// All rows of a subject.
+/// Measures all rows of a subject.
 pub fn measure(subject: &Subject<'_>, rounds: usize) -> Result<Vec<Row>, BenchError> {
     let blocks = subject.states().len();
     let truth = reference(subject.residual(), subject.states());
@@ -47,14 +47,14 @@ pub fn measure(subject: &Subject<'_>, rounds: usize) -> Result<Vec<Row>, BenchEr
     Ok(rows.collect())
 }
 
-/// Finite numbers in order; the rest has no say.
+/// Finite numbers in increasing order; all others are dropped.
 fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
     let mut values: Vec<f64> = values.flatten().filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     values
 }
 
-/// What a candidate finds at every state, with its bound.
+/// Results of a candidate at every state, with their bounds.
 fn values(
     candidate: &mut dyn Candidate,
     blocks: usize,
@@ -67,8 +67,8 @@ fn values(
     values
 }
 
-/// Median nanoseconds a state. In each round every candidate runs in turn, so that a change of the
-/// machine's speed meets them all.
+/// Median nanoseconds per state. In each round every candidate runs in turn, so that a change of
+/// the machine's speed affects them all.
 fn times(entries: &mut [Entry<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
     let repeats: Vec<u32> = entries.iter_mut().map(|entry| calibrate(entry, blocks)).collect();
     let mut samples: Vec<Vec<f64>> = vec![Vec::with_capacity(rounds); entries.len()];
@@ -87,14 +87,14 @@ fn times(entries: &mut [Entry<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
     samples.iter_mut().map(|samples| median(samples)).collect()
 }
 
-/// How many blocks fill a round. The first pass warms caches, the second counts.
+/// Number of blocks that fill a round. The first pass warms caches, the second counts.
 fn calibrate(entry: &mut Entry<'_>, blocks: usize) -> u32 {
     pass(entry.candidate.as_mut(), 1, blocks);
     let once = pass(entry.candidate.as_mut(), 1, blocks).as_nanos().max(1);
     u32::try_from(ROUND.as_nanos().div_ceil(once)).unwrap_or(u32::MAX)
 }
 
-/// Runs one block after the other, `repeats` of them.
+/// Runs `repeats` blocks, one after the other.
 fn pass(candidate: &mut dyn Candidate, repeats: u32, blocks: usize) -> Duration {
     let started = Instant::now();
     for block in (0..blocks).cycle().take(repeats as usize) {

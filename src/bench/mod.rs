@@ -1,11 +1,11 @@
-//! Run time against error: every way to form the derivatives of a claim's residual, measured side
-//! by side at the same states.
+//! Run time against error: all methods that form the derivatives of a claim's residual, measured
+//! side by side at the same states.
 //!
-//! | method | what runs |
+//! | method | computation |
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
 //! | merged tape | the same residual from fewer operations, by each engine of f64 |
-//! | floor | as many fused sums as the engine takes steps, at the speed this machine can reach |
+//! | floor | one fused sum for each step of the engine, at the full speed of this machine |
 //! | num-dual by hand | the work items over num-dual's numbers at f64, state by state, written out plainly |
 //! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
@@ -18,8 +18,8 @@
 //! ```
 //!
 //! where the reference is the same residual in a precision beyond every candidate, and the scale is
-//! what the residual is small against ([`crate::claim::Context::scale`]): many a residual is zero,
-//! and has no error relative to itself.
+//! a reference size of the residual ([`crate::claim::Context::scale`]): a residual that is zero has
+//! no relative error.
 
 mod by_hand;
 mod candidate;
@@ -42,22 +42,22 @@ pub use subject::{Entry, Subject, record_merged, record_residual};
 
 use crate::graph::Fault;
 
-/// How derivatives are formed.
+/// Method of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum Method {
     /// The recorded residual.
     #[serde(rename = "tape")]
     Tape,
-    /// The recorded residual, its nodes merged by value.
+    /// The recorded residual, with nodes of equal value merged.
     #[serde(rename = "merged tape")]
     MergedTape,
-    /// What the tape's steps would take if each were a fused sum that waits for nothing.
+    /// Lower bound: the tape's steps as independent fused sums.
     #[serde(rename = "floor")]
     Floor,
     /// The residual written by hand over num-dual's numbers.
     #[serde(rename = "num-dual by hand")]
     NumDualByHand,
-    /// The same from a formula derived with pencil and paper.
+    /// The residual from a formula derived with pencil and paper, over num-dual's numbers.
     #[serde(rename = "num-dual, closed form")]
     NumDualClosedForm,
     /// A complex step on underived tapes.
@@ -80,7 +80,7 @@ impl Method {
         Method::CentralDifference,
     ];
 
-    /// The method's name in reports.
+    /// Name of the method in reports.
     pub fn name(self) -> &'static str {
         match self {
             Method::Tape => "tape",
@@ -94,14 +94,14 @@ impl Method {
     }
 }
 
-/// How much is measured.
+/// Options of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// The seed of all states.
+    /// Seed of all states.
     pub seed: u64,
-    /// Blocks of 64 states, made once.
+    /// Number of blocks of 64 states.
     pub blocks: u64,
-    /// Rounds in which every candidate runs in turn.
+    /// Number of rounds in which every candidate runs in turn.
     pub rounds: usize,
 }
 
@@ -111,65 +111,65 @@ impl Default for Options {
     }
 }
 
-/// A claim with its rows.
+/// Measurements of one claim.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The item: `W1`, or a path.
+    /// Name of the item: `W1`, or a path.
     pub item: String,
-    /// The claim's name.
+    /// Name of the claim.
     pub claim: String,
-    /// Its kind.
+    /// Kind of the claim.
     pub kind: &'static str,
-    /// One row for each method in each domain.
+    /// Rows, one for each method in each domain.
     pub rows: Vec<Row>,
-    /// The methods that cannot be used, and why.
+    /// Methods that cannot be used, with the reasons.
     pub skipped: Vec<(Method, &'static str)>,
 }
 
-/// One method in one domain.
+/// Measurements of one method in one domain.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// How derivatives are formed.
+    /// Method of differentiation.
     pub method: Method,
-    /// The arithmetic.
+    /// Name of the arithmetic.
     pub domain: &'static str,
-    /// Median over the rounds.
+    /// Nanoseconds per state, the median over the rounds.
     pub ns_per_state: f64,
-    /// Operations a state, in the arithmetic of the domain; `None` where nothing is recorded.
+    /// Operations per state, in the arithmetic of the domain; `None` where nothing is recorded.
     pub operations: Option<usize>,
-    /// To record and lay out the tapes.
+    /// Microseconds to record and lay out the tapes.
     pub setup_us: f64,
-    /// The largest error over scale; `None` where the residual is nowhere defined.
+    /// Largest error over scale; `None` where the residual is nowhere defined.
     pub max_error: Option<f64>,
-    /// The median error over scale.
+    /// Median error over scale.
     pub median_error: Option<f64>,
-    /// The largest error bound over scale, of a domain that encloses.
+    /// Largest error bound over scale, of a domain that encloses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_bound: Option<f64>,
-    /// The states at which both the result and the reference are defined.
+    /// Number of states at which both the result and the reference are defined.
     pub states: usize,
 }
 
 impl Measured {
-    /// The merged tape by the quickest engine that this machine has.
+    /// Row of the merged tape by the quickest engine of this machine.
     pub fn quickest(&self) -> Option<&Row> {
         let engines = ["f64, machine code", "f64, interpreter"];
         engines.iter().find_map(|engine| self.row(Method::MergedTape, engine))
     }
 
-    /// The time of the quickest engine, as a part of that of plain num-dual code.
+    /// Time of the quickest engine divided by that of plain num-dual code.
     pub fn ratio_to_num_dual(&self) -> Option<f64> {
         let plain = self.row(Method::NumDualByHand, "f64")?;
         Some(self.quickest()?.ns_per_state / plain.ns_per_state)
     }
 
-    /// The row of a method in a domain.
+    /// Finds the row of a method in a domain.
     pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
         self.rows.iter().find(|row| row.method == method && row.domain == domain)
     }
 }
 
-/// Why an item cannot be measured.
+/// Reason why an item cannot be measured.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum BenchError {
     /// A formula asked a recorded value for its magnitude.
@@ -181,7 +181,7 @@ pub enum BenchError {
 }
 
 impl BenchError {
-    /// What to do about it.
+    /// Advice on how to avoid the error.
     pub fn help(&self) -> &'static str {
         match self {
             BenchError::Fault(_) => "write the formula with operations that hold for every number",

@@ -1,19 +1,19 @@
-//! A function written by hand, one state at a time.
+//! Functions written by hand, run one state at a time.
 
 use super::candidate::{Block, Candidate};
 use crate::number::precise::Approximation;
 use crate::verdict::LANES;
 
-/// A function of one state, run over blocks.
+/// Function of one state, run over blocks.
 pub struct OneByOne<F> {
     residual: F,
-    /// For each block, for each lane, the inputs.
+    /// Inputs for each block and lane.
     states: Vec<Vec<Vec<f64>>>,
     results: [f64; LANES],
 }
 
 impl<F: Fn(&[f64]) -> f64> OneByOne<F> {
-    /// The function and the states, lane by lane.
+    /// Prepares a function and the states, lane by lane.
     pub fn new(residual: F, states: &[Block]) -> Self {
         let lane = |block: &Block, lane: usize| block.iter().map(|input| input[lane]).collect();
         let states = states

@@ -1,4 +1,4 @@
-//! The residual as it is, to far more digits than any candidate has.
+//! Reference values of a residual, with far more digits than any candidate.
 
 use super::candidate::{Block, Candidate};
 use super::tapes::TapeRun;
@@ -9,7 +9,7 @@ use crate::verdict::LANES;
 /// Twice the precision of the best candidate, and far beyond what cancels.
 const BITS: u32 = 512;
 
-/// The residual at every state; `None` where it is undefined.
+/// Computes the residual at every state; `None` where it is undefined.
 pub fn reference(tape: &Tape, states: &[Block]) -> Vec<Option<Approximation>> {
     let mut run = TapeRun::new(tape, Precise::new(BITS), states);
     let mut values = Vec::with_capacity(states.len() * LANES);

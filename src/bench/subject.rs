@@ -1,4 +1,4 @@
-//! A claim with everything that is measured about it: its tapes and its states.
+//! A claim prepared for measurement: its tapes and its states.
 
 use std::time::{Duration, Instant};
 
@@ -17,13 +17,13 @@ use crate::mechanics::calculus::Jet;
 use crate::number::float::Float;
 use crate::verdict::{LANES, Sampler};
 
-/// Set-up is timed as the shortest of so many recordings.
+/// Number of recordings, of which the shortest time counts as set-up.
 const RECORDINGS: usize = 3;
 
-/// A claim on the bench.
+/// A claim under measurement.
 pub struct Subject<'i> {
     item: &'i Item,
-    /// The claim.
+    /// Claim measured.
     pub claim: &'i Claim,
     states: Vec<Block>,
     residual: Tape,
@@ -33,17 +33,17 @@ pub struct Subject<'i> {
     underived: Result<(Underived, Duration), Reason>,
 }
 
-/// A candidate with what is known of it before it runs.
+/// Candidate with the facts known before it runs.
 pub struct Entry<'s> {
-    /// How derivatives are formed.
+    /// Method of differentiation.
     pub method: Method,
-    /// The arithmetic.
+    /// Name of the arithmetic.
     pub domain: &'static str,
-    /// Operations a state, in the arithmetic of the domain, where they are counted.
+    /// Operations per state, in the arithmetic of the domain, where they are counted.
     pub operations: Option<usize>,
-    /// The time to record and lay out the tapes.
+    /// Time to record and lay out the tapes.
     pub set_up: Duration,
-    /// What runs.
+    /// Candidate to run.
     pub candidate: Box<dyn Candidate + 's>,
 }
 
@@ -66,17 +66,17 @@ impl<'i> Subject<'i> {
         Ok(Self { item, claim, states, residual, merged, merging, recording, underived })
     }
 
-    /// The states, block by block.
+    /// States, block by block.
     pub fn states(&self) -> &[Block] {
         &self.states
     }
 
-    /// The residual's tape.
+    /// Tape of the residual.
     pub fn residual(&self) -> &Tape {
         &self.residual
     }
 
-    /// All ways to compute the residual.
+    /// All candidates that compute the residual.
     pub fn entries(&self) -> Vec<Entry<'_>> {
         let mut entries: Vec<Entry<'_>> = tapes::all(&self.residual, &self.states)
             .into_iter()
@@ -118,7 +118,7 @@ impl<'i> Subject<'i> {
         entries
     }
 
-    /// The methods that are not measured, and why.
+    /// Methods that are not measured, with the reasons.
     pub fn skipped(&self) -> Vec<(Method, Reason)> {
         let mut skipped = Vec::new();
         if let Err(reason) = &self.underived {
@@ -128,8 +128,8 @@ impl<'i> Subject<'i> {
         skipped
     }
 
-    /// What the residual is small against, at each lane of each block: |∇F||v| of an integral,
-    /// |v|(|∇ln ρ| + 1/|x|) of a density, |a| of a criterion.
+    /// Scale of the residual at each lane of each block: |∇F||v| of an integral, |v|(|∇ln ρ| +
+    /// 1/|x|) of a density, |a| of a criterion.
     pub fn scales(&self) -> Result<Vec<[f64; LANES]>, BenchError> {
         let (graph, scale) = with_jet(&self.item.case, |jet| {
             self.claim.kind.context(jet, &self.claim.place.kept).scale
@@ -144,15 +144,15 @@ impl<'i> Subject<'i> {
     }
 }
 
-/// The residual's tape, and how many antiderivatives are among its inputs.
+/// Records the residual. Returns its tape, and the number of antiderivatives among its inputs.
 pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Fault> {
     let (graph, residual) = with_jet(case, |jet| claim.kind.residual(jet, &claim.place.kept))?;
     let inputs = case.model.free_components() + case.model.dimension();
     Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
 }
 
-/// A tape of the residual with fewer operations: nodes of proportional value are one, and what the
-/// system knows by shorter formulas is made by those.
+/// Records the residual with fewer operations: nodes of proportional value are merged, and
+/// quantities for which the system knows shorter formulas are made by those.
 pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
     let (graph, (residual, shortcuts)) = at_point(case, |phase| {
         let jet = Jet::short(phase);
@@ -178,7 +178,7 @@ fn at_point<'c, R>(
     })
 }
 
-/// A result, and the shortest time it took.
+/// Runs a function several times. Returns its result, and the shortest time.
 fn timed<R>(mut make: impl FnMut() -> Result<R, Fault>) -> Result<(R, Duration), Fault> {
     let mut once = || {
         let started = Instant::now();

@@ -12,15 +12,15 @@ use crate::number::rational::Rational;
 use crate::number::twofold::{TwofoldBall, Twofolds};
 use crate::verdict::LANES;
 
-/// A domain whose results can be read off exactly.
+/// Domain whose results can be read off exactly.
 pub trait Probe: Domain {
-    /// How many states a block holds.
+    /// Number of states of a block.
     const LANES: usize;
 
-    /// The number that stands in a lane (the midpoint, if it is an enclosure).
+    /// Number in a lane (the midpoint, if it is an enclosure).
     fn exact(block: &Self::Block, lane: usize) -> Option<Approximation>;
 
-    /// The radius about it.
+    /// Radius of the enclosure in a lane, in domains that enclose.
     fn radius(_block: &Self::Block, _lane: usize) -> Option<f64> {
         None
     }
@@ -67,15 +67,15 @@ impl Probe for Precise {
     }
 
     fn radius(block: &Option<Approximation>, _lane: usize) -> Option<f64> {
-        // The distance of the midpoint from itself is 0: what is left is the radius.
+        // The distance of the midpoint from itself is 0: the rest is the radius.
         block.as_ref().map(|ball| ball.add(&ball.midpoint().neg(), u32::MAX).enclosure().1)
     }
 }
 
-/// A candidate with the name of its domain.
+/// Candidate with the name of its domain.
 pub type Named<'t> = (&'static str, Box<dyn Candidate + 't>);
 
-/// The tape in all domains.
+/// Candidates for the tape in all domains.
 pub fn all<'t>(tape: &'t Tape, states: &[Block]) -> Vec<Named<'t>> {
     vec![
         ("f64", in_f64(tape, states)),
@@ -86,7 +86,7 @@ pub fn all<'t>(tape: &'t Tape, states: &[Block]) -> Vec<Named<'t>> {
     ]
 }
 
-/// A tape in f64.
+/// Candidate for a tape in f64.
 pub fn in_f64<'t>(tape: &'t Tape, states: &[Block]) -> Box<dyn Candidate + 't> {
     run(tape, Float::<LANES>, states)
 }
@@ -98,13 +98,13 @@ fn run<'t, D: Probe + 't>(tape: &'t Tape, domain: D, states: &[Block]) -> Box<dy
 /// A tape with its inputs in one domain.
 pub struct TapeRun<'t, D: Probe> {
     evaluator: Evaluator<'t, D>,
-    /// For each block of states, as many blocks of the domain as hold it.
+    /// For each block of states, the blocks of the domain that hold it.
     inputs: Vec<Vec<Vec<D::Block>>>,
     results: Vec<D::Block>,
 }
 
 impl<'t, D: Probe> TapeRun<'t, D> {
-    /// Brings the states into the domain.
+    /// Converts the states to the domain.
     pub fn new(tape: &'t Tape, domain: D, states: &[Block]) -> Self {
         let part = |block: &Block, start: usize| -> Vec<D::Block> {
             let image = |input: &[f64; LANES]| {

@@ -1,5 +1,5 @@
-//! What differences start from: the quantities of a residual before any of them is differentiated,
-//! each on a tape of its own.
+//! Underived quantities: the quantities of a residual before differentiation, each on a separate
+//! tape, as finite differences need them.
 //!
 //! ```text
 //! integral    F and v                 L_vF
@@ -14,51 +14,51 @@ use crate::formula::Type;
 use crate::graph::{Expr, Fault, Graph, Tape, record};
 use crate::mechanics::{NORMAL, Phase, System};
 
-/// The tapes that differences evaluate at neighbouring points.
+/// Tapes that differences evaluate at neighbouring points.
 pub struct Underived {
-    /// How many inputs come before the state's.
+    /// Number of inputs before those of the state.
     pub parameters: usize,
-    /// How many inputs the state has.
+    /// Number of inputs of the state.
     pub dimension: usize,
-    /// What is differentiated along the field.
+    /// Scalar to differentiate along the field.
     pub along_field: Option<AlongField>,
-    /// What is differentiated along axes.
+    /// Scalars to differentiate along axes.
     pub along_axes: Vec<AlongAxis>,
 }
 
 /// A scalar to differentiate along the field.
 pub struct AlongField {
-    /// v
+    /// Tape of the field v.
     pub field: Tape,
-    /// F or ρ
+    /// Tape of F or ρ.
     pub value: Tape,
-    /// Is the logarithm of the value differentiated?
+    /// Whether the logarithm of the value is differentiated.
     pub logarithmic: bool,
 }
 
-/// Scalars to differentiate by one input.
+/// Scalars to differentiate with respect to one input.
 pub struct AlongAxis {
-    /// The input.
+    /// Index of the input.
     pub input: usize,
-    /// The scalars.
+    /// Tape of the scalars.
     pub values: Tape,
-    /// The factor of each derivative.
+    /// Factor of each derivative.
     pub terms: Vec<Term>,
 }
 
-/// How a derivative enters the residual.
+/// Factor of a derivative in the residual.
 pub struct Term {
-    /// 1 or -1
+    /// Sign, 1 or -1.
     pub sign: f64,
-    /// The input that it is multiplied by, if there is one.
+    /// Input that multiplies the derivative, if any.
     pub factor: Option<usize>,
 }
 
-/// Why a residual is not formed by differences.
+/// Reason why a residual is not formed by differences.
 pub type Reason = &'static str;
 
 impl Underived {
-    /// Records what the residual of `claim` derives.
+    /// Records the quantities that the residual of `claim` differentiates.
     pub fn record(case: &Case, claim: &Claim) -> Result<Result<Self, Reason>, Fault> {
         let model = &case.model;
         let (parameters, dimension) = (model.free_components(), model.dimension());
@@ -103,7 +103,7 @@ impl Underived {
         Ok(Ok(Self { parameters, dimension, along_field, along_axes }))
     }
 
-    /// Operations a state, when what is derived along the field or an axis is computed `points`
+    /// Operations per state, if the quantities along the field or an axis are computed `points`
     /// times.
     pub fn operations(&self, points: usize) -> usize {
         let field = self.along_field.as_ref();
@@ -113,7 +113,7 @@ impl Underived {
     }
 }
 
-/// Σ ∂v_i/∂x_i, without the v_i that do not depend on x_i.
+/// Terms of Σ ∂v_i/∂x_i, without the v_i that do not depend on x_i.
 fn divergence(graph: &Graph, field: &[Expr], parameters: usize) -> Vec<AlongAxis> {
     let axis = |(index, rate): (usize, &Expr)| {
         let input = parameters + index;
@@ -126,7 +126,7 @@ fn divergence(graph: &Graph, field: &[Expr], parameters: usize) -> Vec<AlongAxis
     field.iter().enumerate().filter_map(axis).collect()
 }
 
-/// (γ, rot w) or the rotation of ξ, axis by axis.
+/// Terms of (γ, rot w) or of the rotation of ξ, axis by axis.
 fn rotation(graph: &Graph, covector: &[Expr], case: &Case) -> Vec<AlongAxis> {
     let model = &case.model;
     let before: usize = match model.system {

@@ -1,4 +1,4 @@
-//! `[let]`: names for formulas that others use, in any order.
+//! The table `[let]`: names for formulas used elsewhere, in any order.
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
@@ -10,7 +10,7 @@ use crate::formula::{Formula, Type};
 use crate::mechanics::{Meaning, Reach};
 
 impl Reading<'_, '_> {
-    /// Notes the names of `[let]`; nothing is read yet.
+    /// Lists the names of `[let]`, without reading their formulas.
     pub(super) fn list_abbreviations(&mut self) {
         let Some(section) = self.root.table("let") else { return };
         for (key, value) in section.entries() {
@@ -31,7 +31,7 @@ impl Reading<'_, '_> {
         self.mistakes().add(Mistake::at(place, Problem::BadName { name, reason }));
     }
 
-    /// Reads one abbreviation, if all that it uses is known.
+    /// Reads one abbreviation, if all names in it are known.
     pub(super) fn abbreviate(
         &mut self,
         item: usize,

@@ -1,8 +1,8 @@
-//! Arbitrary functions: polynomials with free coefficients, of the degree at which every jet occurs
-//! that a residual can contain.
+//! Arbitrary functions: polynomials with free coefficients, of a degree at which every jet that a
+//! residual can contain occurs.
 //!
-//! Formulas contain derivatives of h and p up to the second (∂r, r', ω'), of U up to the first (ω'). A
-//! claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
+//! Formulas contain derivatives of h and p up to the second (∂r, r', ω'), of U up to the first
+//! (ω'). A claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
 //!
 //! ```text
 //! once                    h, p: order 3               U: order 2
@@ -19,16 +19,16 @@ use super::section::Section;
 use crate::claim::{Jets, STATEMENTS, jets};
 use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape};
 
-/// What arbitrary functions of a case are made of.
+/// Source of the arbitrary functions of a case.
 #[derive(Clone, Copy)]
 pub struct Arbitrary<'a> {
     settings: &'a [Setting],
-    /// What the claims need.
+    /// Jets that the claims need.
     jets: Jets,
 }
 
 impl<'a> Arbitrary<'a> {
-    /// Looks at what the file is going to claim.
+    /// Determines the jets that the claims of the file need.
     pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Self {
         let claims = root.tables("claim");
         let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(key).is_some());
@@ -36,7 +36,7 @@ impl<'a> Arbitrary<'a> {
         Self { settings, jets: needed.unwrap_or_default() }
     }
 
-    /// Any smooth surface.
+    /// An arbitrary smooth surface.
     pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_sphere(degree, parameters.len());
@@ -44,7 +44,7 @@ impl<'a> Arbitrary<'a> {
         Ok(Shape::Arbitrary(polynomial))
     }
 
-    /// Any surface of revolution.
+    /// An arbitrary surface of revolution.
     pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
         let polynomial = Polynomial::on_interval(degree, parameters.len());
@@ -52,7 +52,7 @@ impl<'a> Arbitrary<'a> {
         Ok(Shape::ArbitraryProfile(polynomial))
     }
 
-    /// Any U(γ), or any U(γ₃).
+    /// An arbitrary potential U(γ), or U(γ₃).
     pub fn potential(
         &self,
         axial: bool,
@@ -67,7 +67,7 @@ impl<'a> Arbitrary<'a> {
         Ok(Potential::Arbitrary(polynomial))
     }
 
-    /// The degree for what is differentiated once, twice, or at two points.
+    /// Degree for functions that are differentiated once, twice, or at two points.
     fn degree(&self, degrees: [u32; 3]) -> u32 {
         match self.jets {
             Jets::Once => degrees[0],
@@ -76,7 +76,7 @@ impl<'a> Arbitrary<'a> {
         }
     }
 
-    /// Small coefficients: the surface is convex by what `Shape` adds to the constant one.
+    /// Declares small coefficients: the surface is convex by what `Shape` adds to the constant one.
     fn declare(
         &self,
         prefix: &str,

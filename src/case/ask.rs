@@ -1,4 +1,4 @@
-//! Other claims about the same system: how the tool itself asks what a file does not.
+//! Further claims about the same system, for questions of the tool itself.
 
 use toml::de::DeTable;
 
@@ -12,15 +12,15 @@ use super::{Case, Claim, toml_errors, variables};
 use crate::claim::jets;
 use crate::mechanics::{Meaning, Model, Reach};
 
-/// The tables that a question has.
+/// Tables of a question.
 const KEYS: [&str; 4] = ["let", "variables", "poisson", "claim"];
 
 impl Case {
-    /// The same system with the claims of `text`, which has the tables `[let]`, `[variables]`,
-    /// `[poisson]` and `[[claim]]` of a case file, and nothing else.
+    /// Returns the same system with the claims of `text`, which has the tables `[let]`,
+    /// `[variables]`, `[poisson]` and `[[claim]]` of a case file, and nothing else.
     ///
-    /// Names mean what they mean in the case; an abbreviation of the text hides a name of the case.
-    /// Weights are not checked, and a claim has no source but its own.
+    /// Names have the same meaning as in the case; an abbreviation of the text hides a name of the
+    /// case. Weights are not checked, and a claim has no source unless it names one.
     ///
     /// ```
     /// use liouville::case::Case;
@@ -89,7 +89,8 @@ impl Case {
         asked
     }
 
-    /// Arbitrary functions have the degree that the claims of the file need.
+    /// Checks that the arbitrary functions, whose degree fits the claims of the file, fit this
+    /// claim.
     fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), Mistake> {
         let needed = |claim: &Claim| jets(claim.kind.name());
         let has = self.claims.iter().map(needed).max().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `[body]` of a homogeneous ball on a surface.
+//! The table `[body]` of a homogeneous ball on a surface.
 
 use super::arbitrary::Arbitrary;
 use super::body::{formula_or, potential};
@@ -10,7 +10,7 @@ use crate::mechanics::{
     BallOnSurface, Meaning, NORMAL, Parameter, Reach, Shape, Surface, System, Vocabulary,
 };
 
-/// Reads it; the names of the system are declared. Nothing where there is a mistake.
+/// Reads the table; the names of the system are declared. `None` where there is a mistake.
 pub fn read(
     section: &Section<'_>,
     arbitrary: &Arbitrary<'_>,
@@ -19,7 +19,7 @@ pub fn read(
 ) -> Option<System> {
     let scalar = Type::Scalar;
     let surface = section.keep(surface(section, arbitrary, vocabulary, parameters));
-    // The potential is a function of the centre, which stands in γ's place where Σ is given by h.
+    // The potential is a function of the centre, which takes γ's place where Σ is given by h.
     let centre = vocabulary.hide("r", Meaning::State(NORMAL), Type::VECTOR, Reach::Configuration);
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();

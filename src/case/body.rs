@@ -1,4 +1,4 @@
-//! `[body]`: shape, mass, inertia, support, potential, rotor.
+//! The table `[body]`: shape, mass, inertia, support, potential, rotor.
 
 use super::arbitrary::Arbitrary;
 use super::error::{Mistake, Problem};
@@ -10,7 +10,7 @@ use crate::mechanics::{
     Features, FlatBase, Parameter, Potential, Reach, Rubber, Shape, System, Vocabulary,
 };
 
-/// A formula under a key, or the default text where the key is missing.
+/// Reads the formula of a key, or the default text where the key is missing.
 pub(super) fn formula_or(
     section: &Section<'_>,
     key: &'static str,
@@ -22,7 +22,7 @@ pub(super) fn formula_or(
         Some(text) => text,
         None if has(vocabulary, default, kind) => Text::made(default.to_string(), 0..0),
         None if section.mistakes().has_failed(default) => {
-            // its own mistake is told where it is declared
+            // the mistake is reported at its declaration
             let text = Text::made(default.to_string(), section.span.clone());
             return formula(&text, vocabulary, key, Some(kind), Reach::Parameters);
         }
@@ -47,7 +47,7 @@ fn optional(
     formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters).map(Some)
 }
 
-/// What names a rubber body will have, from the keys alone.
+/// Names that a rubber body will have, judged by the keys alone.
 pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
     Features {
         radius: has(vocabulary, "R", Type::Scalar),
@@ -58,7 +58,7 @@ pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) ->
     }
 }
 
-/// A body rolling on a plane, or on a sphere if `curved`; nothing where there is a mistake.
+/// Reads a body rolling on a plane, or on a sphere if `curved`; `None` where there is a mistake.
 pub fn rubber(
     section: &Section<'_>,
     curved: bool,
@@ -94,7 +94,7 @@ pub fn rubber(
     })))
 }
 
-/// A body with a flat part on a sphere; nothing where there is a mistake.
+/// Reads a body with a flat part on a sphere; `None` where there is a mistake.
 pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<System> {
     let constant =
         |key, default, kind| section.keep(formula_or(section, key, default, vocabulary, kind));
@@ -154,11 +154,11 @@ fn shape(
     if text.value == "arbitrary" {
         return arbitrary.support(parameters);
     }
-    // Whether it is homogeneous is found out when the model stands.
+    // Homogeneity is tested once the model is complete.
     Ok(Shape::Support(read(&text, "the support function", Type::Scalar)?))
 }
 
-/// The support function of a shape that has a name.
+/// Support function of a named shape.
 fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, Mistake> {
     let (needs, kind, support) = match text.value.as_str() {
         "ball" => ("R", Type::Scalar, "R*|γ|"),
@@ -194,7 +194,7 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, Mistake> {
     Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
 }
 
-/// U, typed or arbitrary.
+/// Reads the potential U, given by a formula or arbitrary.
 pub(super) fn potential(
     section: &Section<'_>,
     arbitrary: &Arbitrary<'_>,

@@ -1,4 +1,4 @@
-//! From the text of a case file to a [`Case`].
+//! Construction of a [`Case`] from the text of a file.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ use super::{
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
-/// The keys of a case file.
+/// Keys of a case file.
 const KEYS: [&str; 20] = [
     "title",
     "source",
@@ -41,26 +41,26 @@ const KEYS: [&str; 20] = [
     "claim",
 ];
 
-/// What a file leaves to be inferred from its formulas.
+/// Facts that a file leaves to be inferred from its formulas.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Assumed {
-    /// Time is a state variable.
+    /// Whether time is a state variable.
     pub time: bool,
-    /// Lists that are diagonal matrices; the others are vectors.
+    /// Names of the lists that are diagonal matrices; the others are vectors.
     pub diagonal: BTreeSet<String>,
 }
 
 impl Assumed {
-    /// Is the list of this name a diagonal matrix?
+    /// Whether the list of this name is a diagonal matrix.
     pub fn is_diagonal(&self, name: &str) -> bool {
         self.diagonal.contains(name)
     }
 }
 
-/// What came of one way to read a file.
+/// Result of one attempt to read a file.
 pub struct Attempt {
     case: Option<Case>,
-    /// What is wrong.
+    /// Mistakes found in the attempt.
     pub mistakes: Vec<Mistake>,
     /// Parameters that are lists of numbers.
     pub lists: Vec<String>,
@@ -98,13 +98,13 @@ impl Attempt {
         Self { case, mistakes: mistakes.into_list(), lists }
     }
 
-    /// Does a formula use `t`, which nothing declares?
+    /// Whether a formula uses `t`, which is not declared.
     fn lacks_time(&self) -> bool {
         self.mistakes.iter().any(|mistake| mistake.unknown_name() == Some(TIME))
     }
 }
 
-/// Reads a file; where there are mistakes, what is given is of no use.
+/// Reads a file; where there are mistakes, the result is invalid.
 fn read(
     root: &Section<'_>,
     settings: &[Setting],
@@ -140,7 +140,7 @@ fn read(
     }
     parameters::unknown_settings(root, settings, &parts.model.parameters);
     let has_variables = variables::read(root, &mut parts.model);
-    // what was read so far is judged only if all of it is there
+    // the parts below are judged only if everything read so far is complete
     let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
     let mut warnings = Vec::new();
     if is_whole {
@@ -189,7 +189,7 @@ fn read(
     })
 }
 
-/// The claims that can be read, those about motion apart.
+/// Reads all claims that can be read, those about motion separately.
 fn read_claims(root: &Section<'_>, context: &Context<'_>) -> (Vec<Claim>, Vec<MotionClaim>) {
     let (mut claims, mut motions, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for stated in root.tables("claim") {
@@ -209,7 +209,7 @@ fn read_claims(root: &Section<'_>, context: &Context<'_>) -> (Vec<Claim>, Vec<Mo
     (claims, motions)
 }
 
-/// A level set is not fixed by an equation whose constant is open.
+/// Rejects a level equation with an ∫: its open constant does not fix a level set.
 fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
     for equation in &model.level {
         let LevelFunction::Formula(function) = &equation.function else { continue };
@@ -223,7 +223,7 @@ fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
     Ok(())
 }
 
-/// Off the unit sphere, a support function that is not homogeneous of degree 1 is extended.
+/// Extends a support function that is not homogeneous of degree 1 off the unit sphere.
 fn extend_support(parts: &mut Parts) {
     let shape = match &parts.model.system {
         System::Rubber(body) => &body.shape,
@@ -241,7 +241,7 @@ fn extend_support(parts: &mut Parts) {
     }
 }
 
-/// The chart of a level set of the user's own: given, solved for, or none.
+/// Reads the chart of a user-defined level set: given, solved for, or none.
 fn read_chart(root: &Section<'_>, parts: &mut Parts) {
     let is_lagrangian = matches!(parts.model.system, System::Lagrangian(_));
     let Some(section) = root.table("level") else {
@@ -273,7 +273,7 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
     section.finish();
 }
 
-/// Which part of the level set a chart makes, where that may not be all of it.
+/// Warnings for a chart that may not cover the whole level set.
 fn of_chart(parts: &Parts) -> Vec<String> {
     match &parts.chart {
         Chart::Given(_) => {

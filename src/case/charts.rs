@@ -1,4 +1,4 @@
-//! `[level.chart]`: a parametrisation of the level set.
+//! The table `[level.chart]`: a parametrisation of the level set.
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
@@ -7,11 +7,11 @@ use super::state::{self, State, TIME};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Chart, Draw, GivenChart, Meaning, Model, Reach, Variable, Vocabulary};
 
-/// Reads it: inputs with ranges, and a formula for each state variable; nothing where there is a
-/// mistake.
+/// Reads the table: inputs with ranges, and a formula for each state variable; `None` where there
+/// is a mistake.
 ///
-/// The formulas see the parameters, abbreviations that are made of them, and the inputs. `draws`
-/// are those of the state's components.
+/// The formulas may use the parameters, abbreviations made of them, and the inputs. `draws` are
+/// those of the state's components.
 pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Chart> {
     let Some(table) = section.keep(section.section("inputs"))? else {
         let remedy = "a chart needs inputs = { u = \"-2..2\", … }";
@@ -51,7 +51,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
         let read = text.and_then(|text| formula(&text, &names, &name, Some(kind), Reach::Phase));
         match section.keep(read) {
             Some(read) => {
-                // The formulas that follow may use this variable.
+                // Later formulas may use this variable.
                 let meaning = Meaning::Abbreviation(abbreviations.len());
                 names.add(&name, meaning, kind, Reach::Phase);
                 abbreviations.push(read.clone());
@@ -63,7 +63,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
             }
         }
     }
-    // A state variable of an input's name is that input.
+    // A state variable with the name of an input is that input.
     for (formula, own) in formulas.iter_mut().zip(&model.state) {
         let is_input = inputs.variables.iter().any(|v| v.name == own.name && v.kind == own.kind);
         if formula.is_none() && is_input {
@@ -94,7 +94,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
     Some(Chart::Given(Box::new(GivenChart { model, draws: inputs.draws, formulas })))
 }
 
-/// Time is an input without being named, where the chart gives no formula for it.
+/// Adds time as an input where the chart gives no formula for it.
 fn add_time(
     section: &Section<'_>,
     model: &Model,

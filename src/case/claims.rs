@@ -1,4 +1,4 @@
-//! `[[claim]]`: what is claimed, where, and what is expected.
+//! The tables `[[claim]]`: statement, place, and expectation.
 
 use std::ops::Range;
 
@@ -12,18 +12,18 @@ use crate::claim::{Kind, Place, Reader, STATEMENTS};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Model, Reach, Vocabulary};
 
-/// The keys of every claim.
+/// Keys common to all claims.
 const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 
-/// The keys of a claim about motion.
+/// Keys common to all claims about motion.
 const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
 
-/// Is this a claim about motion?
+/// Whether this is a claim about motion.
 pub fn is_about_motion(section: &Section<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())
 }
 
-/// Does the claim state nothing because the key of its statement is misspelt? That is told then.
+/// Whether the claim has no statement because its key is misspelt, which is then reported.
 pub fn is_misspelt(section: &Section<'_>) -> bool {
     let states = |key: &&str| section.has(key);
     if STATEMENTS.iter().chain(MOTIONS).any(states) {
@@ -32,15 +32,15 @@ pub fn is_misspelt(section: &Section<'_>) -> bool {
     !section.allow(&[STATEMENTS, MOTIONS, &COMMON].concat())
 }
 
-/// What claims are read with.
+/// Context in which claims are read.
 pub struct Context<'c> {
-    /// The case that they are about.
+    /// Model of the case.
     pub model: &'c Model,
-    /// Was the case read without mistakes?
+    /// Whether the case was read without mistakes.
     pub is_whole: bool,
-    /// The section of the case.
+    /// Section of the case.
     pub plan: Option<&'c SectionPlan>,
-    /// The source of claims that name none.
+    /// Default source of claims.
     pub source: &'c str,
 }
 
@@ -80,12 +80,12 @@ pub fn read(
     }
 }
 
-/// The place of a key's value, or of its table.
+/// Place of a key's value, or of its table.
 fn place_of(section: &Section<'_>, key: &'static str) -> Range<usize> {
     section.value(key).map_or(section.span.clone(), |value| value.span())
 }
 
-/// The complaint that a claim changes a number that sizes and indices are made of.
+/// The mistake of changing a number on which sizes and indices depend.
 fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
     let span = place_of(section, key);
     let message =
@@ -125,7 +125,7 @@ pub fn read_motion(
     })
 }
 
-/// The complaint that a claim makes no statement, or several.
+/// The mistake of a claim with no statement, or several.
 fn statements(section: &Section<'_>, given: usize) -> Mistake {
     let message = match given {
         0 => "this claim states nothing".to_string(),
@@ -160,7 +160,7 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     }
 }
 
-/// The entries of a claim in a case file.
+/// Entries of a claim in a case file.
 struct Entries<'e, 's> {
     section: &'e Section<'s>,
     model: &'e Model,
@@ -251,7 +251,7 @@ impl Reader for Entries<'_, '_> {
     }
 }
 
-/// The entries of a table of formulas: name and formula.
+/// Entries of a table of formulas: name and formula.
 fn formulas_of(
     section: &Section<'_>,
     scope: &Vocabulary,
@@ -266,7 +266,7 @@ fn formulas_of(
     Ok(entries)
 }
 
-/// The name that is given, or `base`, numbered where it is taken.
+/// Name of a claim: the one given, or `base`, numbered where it is taken.
 fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {

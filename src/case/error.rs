@@ -1,10 +1,10 @@
-//! What can be wrong with a case file, and where.
+//! Errors in case files, with their places.
 
 use std::ops::Range;
 
 use crate::formula::{FormulaError, Type};
 
-/// All that is wrong with a case file: at least one mistake, in the order of the file.
+/// Mistakes of a case file, at least one, in the order of the file.
 ///
 /// A mistake that only follows from another, such as the use of a name whose declaration could not
 /// be read, is left out.
@@ -26,135 +26,135 @@ pub struct CaseError {
 /// A problem of a case file at a place in its text.
 #[derive(Debug)]
 pub struct Mistake {
-    /// What is wrong.
+    /// Problem found.
     pub problem: Problem,
-    /// The bytes of the file that it concerns; `None` for the file as a whole.
+    /// Byte range of the file that the problem concerns; `None` for the file as a whole.
     pub span: Option<Range<usize>>,
-    /// The line on which they begin, from 1.
+    /// Line on which the range begins, from 1.
     pub line: Option<u32>,
-    /// The column in which they begin, from 1.
+    /// Column in which the range begins, from 1.
     pub column: Option<u32>,
 }
 
-/// What is wrong with a case file.
+/// Problem of a case file.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// The file cannot be read.
     #[error("cannot read the file: {0}")]
     Io(std::io::Error),
-    /// A folder, a pipe, a device.
+    /// The path is a folder, a pipe or a device.
     #[error("this is not a regular file")]
     NotAFile,
     /// The file is larger than any case needs.
     #[error("the file has {0} bytes; a case file may have up to {1}")]
     TooLarge(u64, u64),
-    /// Not TOML.
+    /// The file is not valid TOML.
     #[error("{message}")]
     Toml {
-        /// What the TOML reader says.
+        /// Message of the TOML reader.
         message: String,
-        /// What may help.
+        /// Suggested correction.
         help: Option<String>,
     },
-    /// Nothing in it.
+    /// The file is empty.
     #[error("the file is empty")]
     Empty,
-    /// A key that means nothing here.
+    /// The key has no meaning here.
     #[error("unknown key `{key}` in {section}")]
     UnknownKey {
-        /// The key.
+        /// Key.
         key: String,
-        /// The table it stands in.
+        /// Table that contains it.
         section: String,
-        /// The nearest key that is known.
+        /// Nearest known key.
         nearest: Option<&'static str>,
-        /// All that are known.
+        /// All known keys.
         known: Box<[&'static str]>,
     },
-    /// A key that is needed.
+    /// A required key is missing.
     #[error("{section} has no `{key}`")]
     MissingKey {
-        /// The key.
+        /// Key.
         key: &'static str,
-        /// The table it should stand in.
+        /// Table that lacks it.
         section: String,
-        /// What to write.
+        /// Suggested correction.
         remedy: String,
     },
-    /// A table that lacks one of several keys.
+    /// A table lacks one of several alternative keys.
     #[error("{message}")]
     Incomplete {
-        /// The table.
+        /// Table.
         section: String,
-        /// What it needs.
+        /// Message about the missing keys.
         message: String,
-        /// What to write.
+        /// Suggested correction.
         remedy: String,
     },
-    /// Names that are defined by each other.
+    /// Names are defined in terms of each other.
     #[error("`{0}` is defined by itself: {1}")]
     Cycle(String, String),
-    /// A value of another type.
+    /// The value has the wrong type.
     #[error("`{key}` should be {expected}")]
     WrongType {
-        /// The key.
+        /// Key.
         key: String,
-        /// What belongs there.
+        /// Description of the expected value.
         expected: String,
     },
-    /// Not an identifier, or one that is taken.
+    /// The name is not an identifier, or is taken.
     #[error("`{name}` cannot be a name here: {reason}")]
     BadName {
-        /// The name.
+        /// Name.
         name: String,
-        /// Why not.
+        /// Reason for the rejection.
         reason: String,
     },
-    /// A formula that cannot be read.
+    /// The formula cannot be read.
     #[error("{}", .0.message())]
     Formula(FormulaError),
-    /// A formula of another kind.
+    /// The formula has the wrong type.
     #[error("{what} should be a {}, but this is a {}", told(*.expected, *.found), told(*.found, *.expected))]
     WrongKind {
-        /// What the formula defines.
+        /// Name of the quantity that the formula defines.
         what: String,
-        /// What it should be.
+        /// Expected type.
         expected: Type,
-        /// What it is.
+        /// Actual type.
         found: Type,
     },
-    /// A formula that depends on what it may not depend on.
+    /// The formula depends on a name that it must not depend on.
     #[error("{what} may depend on {allowed} only, not on `{name}`")]
     Reach {
-        /// What the formula defines.
+        /// Name of the quantity that the formula defines.
         what: String,
-        /// What it may depend on.
+        /// Names that it may depend on.
         allowed: String,
-        /// What it depends on.
+        /// Name that it depends on.
         name: String,
     },
-    /// A parameter that is not a number, a list or a range.
+    /// The parameter is not a number, a list or a range.
     #[error("{0}")]
     Parameter(String),
-    /// All is of the right kind, and makes no sense together.
+    /// The parts are valid, and contradict each other.
     #[error("{message}")]
     Sense {
-        /// What is wrong.
+        /// Message that describes the problem.
         message: String,
-        /// What to do.
+        /// Suggested correction.
         remedy: String,
     },
-    /// Anything else, with its remedy.
+    /// Any other problem, with its remedy.
     #[error("{message}")]
     Other {
-        /// What is wrong.
+        /// Message that describes the problem.
         message: String,
-        /// What to do.
+        /// Suggested correction.
         remedy: String,
     },
 }
 
-/// A kind, with its size where that is what differs.
+/// Name of a type, with its size where the sizes differ.
 fn told(kind: Type, other: Type) -> String {
     match kind.differs_in_size(other) {
         true => kind.in_full(),
@@ -163,7 +163,7 @@ fn told(kind: Type, other: Type) -> String {
 }
 
 impl CaseError {
-    /// The mistakes of the file `text`, of which there is at least one.
+    /// Collects the mistakes of the file `text`, at least one, and finds their lines and columns.
     pub(super) fn new(mut mistakes: Vec<Mistake>, text: &str) -> Self {
         for mistake in &mut mistakes {
             let before = mistake.span.as_ref().and_then(|span| text.get(..span.start));
@@ -171,17 +171,17 @@ impl CaseError {
             mistake.column = before
                 .map(|before| before.chars().rev().take_while(|c| *c != '\n').count() as u32 + 1);
         }
-        // what concerns the file as a whole stands first
+        // mistakes of the file as a whole come first
         mistakes.sort_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));
         Self { mistakes }
     }
 
-    /// A mistake that has no place in the text.
+    /// A single mistake without a place in the text.
     pub(super) fn whole(problem: Problem) -> Self {
         Self { mistakes: vec![Mistake::whole(problem)] }
     }
 
-    /// All mistakes.
+    /// All mistakes, in the order of the file.
     pub fn mistakes(&self) -> &[Mistake] {
         &self.mistakes
     }
@@ -203,7 +203,7 @@ impl Mistake {
         Self { problem, span, line: None, column: None }
     }
 
-    /// The name that is not known, where that is the trouble.
+    /// Unknown name that caused the mistake, if it is of that kind.
     pub(super) fn unknown_name(&self) -> Option<&str> {
         match &self.problem {
             Problem::Formula(error) => error.unknown_name(),
@@ -211,12 +211,12 @@ impl Mistake {
         }
     }
 
-    /// What is wrong, in one line.
+    /// Message in one line.
     pub fn message(&self) -> String {
         self.problem.to_string()
     }
 
-    /// What would be right.
+    /// Suggested correction.
     pub fn help(&self) -> Option<String> {
         match &self.problem {
             Problem::UnknownKey { nearest: Some(nearest), .. } => {
@@ -256,7 +256,7 @@ impl Mistake {
 }
 
 impl std::fmt::Display for Mistake {
-    /// Line and column, and what is wrong.
+    /// Writes line and column, and the message.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if let (Some(line), Some(column)) = (self.line, self.column) {
             write!(out, "{line}:{column}: ")?;
@@ -268,7 +268,7 @@ impl std::fmt::Display for Mistake {
 impl std::error::Error for Mistake {}
 
 impl std::fmt::Display for CaseError {
-    /// One line a mistake.
+    /// Writes one line for each mistake.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (index, mistake) in self.mistakes.iter().enumerate() {
             write!(out, "{}{mistake}", if index > 0 { "\n" } else { "" })?;

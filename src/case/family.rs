@@ -8,41 +8,41 @@ use super::section::Text;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Reach, Variable, Vocabulary};
 
-/// A key of `[field]`: whose rate is given, of which components.
+/// Key of `[field]`: the variable and the components whose rates it gives.
 pub struct Key {
-    /// The variable, without its prime.
+    /// Name of the variable, without its prime.
     pub name: String,
     indices: Vec<Index>,
 }
 
-/// One index of a key.
+/// Index of a key.
 #[derive(Clone)]
 enum Index {
-    /// One component, counted from 0.
+    /// A single component, counted from 0.
     One(usize),
-    /// All of a range, under a name.
+    /// A range of components, under a name.
     Each(String, Range<usize>),
 }
 
-/// The rate of some components.
+/// Rate of some components.
 struct Piece {
     key: Range<usize>,
     text: Text,
     indices: Vec<Index>,
 }
 
-/// The rates of one variable, as they are given.
+/// Rates of one variable, as they are given.
 #[derive(Default)]
 pub struct Rates {
     whole: Option<(Range<usize>, Text)>,
     pieces: Vec<Piece>,
 }
 
-/// Why a key cannot be read.
+/// Reason why a key cannot be read.
 pub enum Unreadable {
-    /// It names no variable.
+    /// The key does not name a variable.
     Unknown(String),
-    /// Its indices are wrong.
+    /// The indices of the key are wrong.
     Message(String, &'static str),
 }
 
@@ -91,7 +91,7 @@ impl Key {
         }
         let indices = written.iter().zip(sizes).map(|(text, size)| {
             let bound = |low: i64, high: i64| {
-                // a range may be empty, as 2..n−1 is for n = 2
+                // a range may be empty, as 2..n−1 for n = 2
                 let within = 1 <= low && low <= high + 1 && high <= size as i64;
                 within.then(|| (low - 1) as usize..high as usize).ok_or_else(|| {
                     let message = format!("the indices of `{name}` go from 1 to {size} there");
@@ -113,7 +113,7 @@ impl Key {
     }
 }
 
-/// Reads `, i = 2..n-1, j = 1..2`.
+/// Reads the ranges of indices, `, i = 2..n-1, j = 1..2`.
 fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, Unreadable> {
     let Some(list) = text.strip_prefix(',') else {
         return match text.is_empty() {
@@ -134,7 +134,7 @@ fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, 
 }
 
 impl Rates {
-    /// Adds what one key gives; `false` if it is given already.
+    /// Adds the rate given by one key; `false` if it was given before.
     pub fn add(&mut self, key: Key, place: Range<usize>, text: Text) -> bool {
         if key.indices.is_empty() {
             let is_new = self.whole.is_none() && self.pieces.is_empty();
@@ -145,12 +145,12 @@ impl Rates {
         self.whole.is_none()
     }
 
-    /// Is nothing given?
+    /// Whether no rate is given.
     pub fn is_empty(&self) -> bool {
         self.whole.is_none() && self.pieces.is_empty()
     }
 
-    /// The formulas whose components, one after the other, are the rate of the variable.
+    /// Formulas whose components, concatenated, are the rate of the variable.
     pub fn formulas(
         &self,
         variable: &Variable,
@@ -172,7 +172,7 @@ impl Rates {
         self.by_components(variable, names, &what, reach)
     }
 
-    /// One formula a component, or a row.
+    /// One formula for each component, or row.
     fn by_components(
         &self,
         variable: &Variable,
@@ -208,7 +208,7 @@ impl Rates {
         Ok(formulas)
     }
 
-    /// What gives the rate of a component: the piece for it alone, or else the family it is in.
+    /// Piece that gives the rate of a component: the piece for it alone, or else its family.
     fn piece_of(&self, variable: &Variable, place: &[usize]) -> Result<&Piece, Mistake> {
         let mut best: Option<&Piece> = None;
         for piece in self.pieces.iter().filter(|piece| piece.holds(place)) {
@@ -233,7 +233,7 @@ impl Rates {
     }
 }
 
-/// A family reaches beyond the ends of a chain: what to do about it.
+/// Explains the mistake of a family that reaches beyond the ends of a chain.
 fn at_the_ends(mistake: Mistake, variable: &Variable) -> Mistake {
     match &mistake.problem {
         Problem::Formula(error) if error.is_out_of_range() => {
@@ -261,7 +261,7 @@ fn component(variable: &Variable, place: &[usize]) -> String {
 }
 
 impl Piece {
-    /// How many of its indices have a name.
+    /// Number of indices that have a name.
     fn free(&self) -> usize {
         self.indices.iter().filter(|index| matches!(index, Index::Each(..))).count()
     }
@@ -273,7 +273,7 @@ impl Piece {
         })
     }
 
-    /// The ends that make one formula of a family that covers a whole variable.
+    /// Text around the formula of a family that covers a whole variable, to make one formula of it.
     fn whole_of(&self, kind: Type) -> Option<(String, &'static str)> {
         let covers = |index: &Index, size: usize| match index {
             Index::Each(name, range) if *range == (0..size) => Some(format!("{name}, 1..{size}, ")),
@@ -289,7 +289,7 @@ impl Piece {
         Some((format!("{form}({}", heads.concat()), ")"))
     }
 
-    /// The ends that make the formula of one component: sums of one term.
+    /// Text around the formula of one component, a sum of one term.
     fn at(&self, place: &[usize]) -> (String, String) {
         let pairs = self.indices.iter().zip(place);
         let heads: Vec<String> = pairs

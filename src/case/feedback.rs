@@ -1,12 +1,12 @@
-//! What defines a body may not depend on what it determines.
+//! Check against circular definitions of a body.
 
 use super::error::{Mistake, Problem};
 use super::section::Section;
 use super::systems::Reading;
 use crate::mechanics::{Entry, Meaning, Potential, Quantity, Shape, Surface, System};
 
-/// What defines a body may not depend on what it determines: the potential on U, the surface on
-/// h, a moment of forces on the acceleration.
+/// Checks that the definition of a body does not depend on quantities it determines: the potential
+/// on U, the surface on h, a moment of forces on the acceleration.
 pub fn none(
     reading: &Reading<'_, '_>,
     section: &Section<'_>,

@@ -1,4 +1,4 @@
-//! `[field]` and `[level]`: rates, and the equations that they keep.
+//! The tables `[field]` and `[level]`: rates, and the equations that they keep.
 
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
@@ -8,8 +8,7 @@ use super::state::TIME;
 use crate::formula::{Formula, Type, excerpt};
 use crate::mechanics::{LevelEquation, LevelFunction, Reach, RootEquation, Variable, Vocabulary};
 
-/// Reads rates: the formulas of each variable whose rate is given, under its name with or without
-/// a prime; nothing where a mistake was made.
+/// Reads the formulas of each variable whose rate is given, under its name with or without a prime.
 pub fn given_rates(
     section: &Section<'_>,
     variables: &[Variable],
@@ -53,13 +52,13 @@ pub fn given_rates(
     variables.iter().zip(rates).zip(broken).map(read).collect()
 }
 
-/// What a file says of a rate.
+/// Rate of a variable in a file.
 pub enum GivenRate {
-    /// Formulas whose components, one after the other, are the rate.
+    /// Formulas whose components, concatenated, are the rate.
     Given(Vec<Formula>),
-    /// It is given with a mistake.
+    /// A rate given with a mistake.
     Broken,
-    /// Nothing.
+    /// No rate.
     Missing,
 }
 
@@ -75,7 +74,7 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
     Problem::Other { message, remedy }
 }
 
-/// Reads the rates of all variables; nothing if one is missing, or wrong.
+/// Reads the rates of all variables; `None` if one is missing, or wrong.
 pub fn rates(
     section: &Section<'_>,
     variables: &[Variable],
@@ -107,18 +106,18 @@ pub fn rates(
     all
 }
 
-/// The rate of time.
+/// Rate of time.
 fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
     Formula::parse("1", vocabulary).map_err(|error| Mistake::whole(Problem::Formula(error)))
 }
 
-/// Reads `equations = ["(γ,γ) = 1", …]`; nothing for those that are wrong.
+/// Reads `equations = ["(γ,γ) = 1", …]`; `None` if one is wrong.
 pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
     let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
     Some(read.map(|(text, function)| level_equation(text, function, vocabulary)).collect())
 }
 
-/// An equation of the level, with its sides where one of them is a root.
+/// Builds an equation of the level, with its sides where one of them is a root.
 pub fn level_equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
     let root = sides(&text).and_then(|(left, right, _)| {
         let left = Formula::parse(left, vocabulary).ok()?;
@@ -133,8 +132,8 @@ pub fn level_equation(text: String, function: Formula, vocabulary: &Vocabulary) 
     LevelEquation { text, function: LevelFunction::Formula(function), root }
 }
 
-/// Reads a list of equations: the text, and the difference of both sides, which may depend on no
-/// more than `reach`; nothing if one is wrong.
+/// Reads a list of equations as texts and differences of both sides, which may depend on no more
+/// than `reach`; `None` if one is wrong.
 pub fn equations_in(
     section: &Section<'_>,
     key: &'static str,

@@ -1,11 +1,11 @@
-//! Formulas of a file: read in the names that are known, checked for their kind and their reach.
+//! Formulas of a file: parsed with the known names, checked for type and dependence.
 
 use super::error::{Mistake, Problem};
 use super::section::Text;
 use crate::formula::{Formula, Scope, Type};
 use crate::mechanics::{Meaning, Reach, Vocabulary};
 
-/// Reads a formula and checks its kind and what it depends on.
+/// Reads a formula, and checks its type and the names it depends on.
 pub fn formula(
     text: &Text,
     vocabulary: &Vocabulary,
@@ -16,7 +16,7 @@ pub fn formula(
     inside(text, ("", ""), vocabulary, what, expected, reach)
 }
 
-/// Reads a formula of which the file holds what stands between two ends.
+/// Reads a formula whose beginning and end are supplied, and whose middle stands in the file.
 pub fn inside(
     text: &Text,
     (before, after): (&str, &str),
@@ -59,7 +59,7 @@ pub fn inside(
     }
 }
 
-/// Does every bracket close one that stands before it?
+/// Whether every bracket closes one that precedes it.
 fn is_balanced(text: &str) -> bool {
     let mut open = Vec::new();
     for letter in text.chars() {
@@ -73,7 +73,7 @@ fn is_balanced(text: &str) -> bool {
     open.is_empty()
 }
 
-/// What a system calls the part of its state that shapes and potentials are functions of.
+/// Name of the part of the state that shapes and potentials are functions of.
 fn position(vocabulary: &Vocabulary) -> &str {
     let mut names = vocabulary.iter().filter(|(symbol, entry)| {
         let is_state = matches!(entry.meaning, Meaning::State(_));

@@ -1,4 +1,4 @@
-//! `[hamiltonian]`: a function, and a bracket by canonical pairs and by blocks.
+//! The table `[hamiltonian]`: a function, and a bracket by canonical pairs and by blocks.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -15,7 +15,7 @@ use crate::mechanics::{Block, Chart, Hamiltonian, Reach, System, Variable, of_ha
 
 const PAIRS: &str = "write pairs = [[\"q\",\"p\"]], two state variables of one kind in each";
 
-/// Reads a system that `[hamiltonian]` gives; nothing where there is a mistake.
+/// Reads a system given by `[hamiltonian]`; `None` where there is a mistake.
 pub fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
     reading.own_state(
         Reach::Configuration,
@@ -38,7 +38,7 @@ pub fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
     Some((system?, Chart::Free))
 }
 
-/// Reads the section.
+/// Reads the table.
 fn read(reading: &Reading<'_, '_>, section: &Section<'_>) -> Option<System> {
     let (vocabulary, state) = (&reading.vocabulary, &reading.state.variables);
     let function =
@@ -104,7 +104,8 @@ fn pairs(section: &Section<'_>, state: &[Variable], blocks: &mut Blocks) -> Resu
     Ok(())
 }
 
-/// A variable without any bracket would stand still: it is a parameter, or was forgotten.
+/// Rejects a variable without any bracket: it would be constant, so it is a parameter, or was
+/// forgotten.
 fn all_move(section: &Section<'_>, state: &[Variable], blocks: &Blocks) -> Result<(), Mistake> {
     let stands = |(index, variable): &(usize, &Variable)| {
         blocks[*index].iter().all(Option::is_none) && !is_clock(variable, *index, blocks)
@@ -122,7 +123,7 @@ fn all_move(section: &Section<'_>, state: &[Variable], blocks: &Blocks) -> Resul
     }
 }
 
-/// Is the variable time, without a bracket? Its rate is 1.
+/// Whether the variable is time, without a bracket; its rate is 1.
 fn is_clock(variable: &Variable, index: usize, blocks: &Blocks) -> bool {
     let is_free = blocks[index].iter().all(Option::is_none);
     variable.name == TIME && variable.kind == Type::Scalar && is_free

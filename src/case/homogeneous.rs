@@ -1,4 +1,4 @@
-//! Is a typed support function homogeneous of degree 1? If not, it is meant on the unit sphere.
+//! Homogeneity of typed support functions; others are meant on the unit sphere.
 
 use num_traits::One;
 
@@ -9,14 +9,14 @@ use crate::number::Domain;
 use crate::number::ball::Ball;
 use crate::proof::{Group, Outcome, Prover};
 
-/// States at which Euler's relation is looked at.
+/// Number of states at which Euler's relation is tested.
 const STATES: u64 = 4;
 
-/// The shape to use in place of `shape`: its extension off the sphere, unless h is homogeneous.
+/// Replacement for `shape`: its extension off the sphere; `None` if h is homogeneous of degree 1.
 ///
 /// Euler's relation (γ,∇h) = h is evaluated at a few states on the unit sphere and off it. Where a
-/// ball excludes 0, or a prime field, or h is not defined off the sphere, the body's support function is
-/// |γ| h(γ/|γ|); for a homogeneous h that would be the same function.
+/// ball excludes 0, or a prime field does, or h is not defined off the sphere, the body's support
+/// function is |γ| h(γ/|γ|); for a homogeneous h that would be the same function.
 pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let Shape::Support(formula) = shape else { return None };
     let mut draws = model.parameter_draws();
@@ -43,7 +43,7 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
         evaluator.run(&inputs);
         evaluator.outputs().all(|ball| ball.is_defined(0) && !ball.excludes_zero(0))
     });
-    // What is off by less than rounding is seen in a prime field.
+    // A defect below rounding is visible in a prime field.
     let prover = Prover { sources: &[], extents: &[], seed: 0 };
     let homogeneous = homogeneous
         && !matches!(

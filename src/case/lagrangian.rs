@@ -1,4 +1,4 @@
-//! `[lagrangian]`: kinetic energy, potential, constraints.
+//! The table `[lagrangian]`: kinetic energy, potential, constraints.
 
 use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
@@ -13,8 +13,8 @@ fn other(text: &Text, message: String, remedy: &str) -> Mistake {
     Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }
 
-/// Reads it; state and abbreviations are declared, and the level becomes the constraints. Nothing
-/// where there is a mistake.
+/// Reads the table; state and abbreviations are declared, and the level becomes the constraints.
+/// `None` where there is a mistake.
 pub fn read(
     reading: &mut Reading<'_, '_>,
     section: &Section<'_>,
@@ -56,7 +56,7 @@ pub fn read(
     Some(system)
 }
 
-/// A vakonomic system has a multiplier for each constraint, others have none.
+/// Checks that a vakonomic system has a multiplier for each constraint, and others have none.
 fn counted(
     section: &Section<'_>,
     multipliers: &[usize],
@@ -75,7 +75,7 @@ fn counted(
     Err(section.complaint(Problem::Other { message, remedy: remedy.to_string() }))
 }
 
-/// What each state variable is; nothing where that is not known.
+/// Role of each state variable; `None` where one is not known.
 fn roles(
     section: &Section<'_>,
     variables: &[Variable],
@@ -120,7 +120,7 @@ fn roles(
     roles
 }
 
-/// The state variables that a list names.
+/// State variables named in a list.
 fn named(
     section: &Section<'_>,
     key: &'static str,
@@ -139,7 +139,7 @@ fn named(
         .collect()
 }
 
-/// The rates that `[field]` gives.
+/// Rates given by `[field]`.
 fn carried(reading: &Reading<'_, '_>) -> Vec<GivenRate> {
     let variables = &reading.state.variables;
     match reading.root.table("field") {
@@ -199,7 +199,8 @@ fn algebra(
     }))
 }
 
-/// Forces by the components of the velocities that they act on; nothing where there is a mistake.
+/// Reads forces by the components of the velocities that they act on; `None` where there is a
+/// mistake.
 fn forces(
     section: &Section<'_>,
     vocabulary: &Vocabulary,
@@ -221,7 +222,7 @@ fn forces(
     forces
 }
 
-/// A force, component by component.
+/// Reads a force, component by component.
 fn force(
     text: &Text,
     key: &str,

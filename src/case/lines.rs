@@ -3,14 +3,14 @@
 
 use std::f64::consts::PI;
 
-/// A line of points that a reversor of the section map leaves where they are.
+/// Line of fixed points of a reversor of the section map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
-    /// L = 0
+    /// The line L = 0.
     Equator,
-    /// l = 0 and l = π
+    /// The lines l = 0 and l = π.
     Meridian,
-    /// l = π/2 and l = 3π/2
+    /// The lines l = π/2 and l = 3π/2.
     QuarterMeridian,
 }
 
@@ -29,7 +29,7 @@ impl std::str::FromStr for Line {
 }
 
 impl Line {
-    /// `count` points of the line.
+    /// Returns `count` points of the line.
     pub fn points(self, count: usize) -> Vec<[f64; 2]> {
         let along = |k: usize, count: usize| (k as f64 + 0.5) / count.max(1) as f64;
         let meridians = |first: f64| {

@@ -1,18 +1,18 @@
-//! Is a list of numbers a vector, or the diagonal of a matrix? Its use decides.
+//! Interpretation of lists of numbers as vectors or as diagonal matrices, according to their use.
 //!
-//! Lists are vectors, except those that have to be diagonal matrices for all formulas of the file to
-//! have a meaning: as few as possible. Where no choice gives all of them one, a list that is used in
-//! both ways is told.
+//! Lists are vectors, except those that have to be diagonal matrices for all formulas of the file
+//! to have a meaning: as few as possible. If no choice achieves that, a list used in both ways is
+//! reported.
 
 use std::collections::BTreeSet;
 
 use super::build::Attempt;
 use super::error::{Mistake, Problem};
 
-/// Beyond so many lists, not more than two of them are tried as matrices at once.
+/// Number of lists above which at most two of them are tried as matrices at once.
 const MOST_TRIED: usize = 6;
 
-/// Reads a file with the right choice, where `read` reads it with some lists as matrices.
+/// Reads a file with the right choice; `read` reads it with the given lists as matrices.
 pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     let mut best = read(&BTreeSet::new());
     let mut chosen = BTreeSet::new();
@@ -42,12 +42,12 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     best
 }
 
-/// How many mistakes there are that a list of the wrong kind may make.
+/// Number of mistakes that a list of the wrong type may cause.
 fn of_kind(attempt: &Attempt) -> usize {
     attempt.mistakes.iter().filter(|mistake| may_be_of_kind(mistake)).count()
 }
 
-/// Could the mistake come from the kind of a name?
+/// Whether the mistake may come from the type of a name.
 fn may_be_of_kind(mistake: &Mistake) -> bool {
     match &mistake.problem {
         Problem::Formula(error) => error.unknown_name().is_none(),
@@ -61,7 +61,7 @@ fn may_be_of_kind(mistake: &Mistake) -> bool {
     }
 }
 
-/// Some of the lists at a time, few before many.
+/// Subsets of the lists, small ones first.
 fn subsets(lists: &[String]) -> Vec<BTreeSet<String>> {
     if lists.len() > MOST_TRIED {
         let single = lists.iter().map(|name| BTreeSet::from([name.clone()]));
@@ -79,7 +79,8 @@ fn subsets(lists: &[String]) -> Vec<BTreeSet<String>> {
     masks.into_iter().map(chosen).collect()
 }
 
-/// Tells that a list is used in both ways, where the other choice mends one mistake and makes others.
+/// Reports that a list is used in both ways, where the other choice mends one mistake and makes
+/// others.
 fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
     let is_in = |mistake: &Mistake, list: &[Mistake]| {
         list.iter().any(|known| known.span == mistake.span && known.message() == mistake.message())

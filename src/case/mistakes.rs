@@ -1,4 +1,4 @@
-//! The mistakes of a file, gathered while it is read.
+//! Collection of the mistakes of a file while it is read.
 
 use std::cell::{Cell, RefCell};
 
@@ -7,19 +7,19 @@ use rustc_hash::FxHashSet;
 use super::error::{Mistake, Problem};
 use crate::formula::canonical_name;
 
-/// What is wrong so far, and which names are unknown for that reason alone.
+/// Mistakes so far, and the names that are unknown only because of them.
 #[derive(Default)]
 pub struct Mistakes {
     list: RefCell<Vec<Mistake>>,
     failed: RefCell<FxHashSet<String>>,
     /// Abbreviations that are not known yet because they contain rates.
     waiting: RefCell<Vec<String>>,
-    /// Are there tables that could not be read, so that any name may be unknown?
+    /// Whether a table could not be read, so that any name may be unknown.
     blind: Cell<bool>,
 }
 
 impl Mistakes {
-    /// What was read, or nothing, with the mistake noted.
+    /// Returns the value read, or `None` after noting the mistake.
     pub fn keep<T>(&self, result: Result<T, Mistake>) -> Option<T> {
         result.map_err(|mistake| self.add(mistake)).ok()
     }
@@ -38,7 +38,7 @@ impl Mistakes {
         }
     }
 
-    /// A name that is not known yet is no unknown one.
+    /// Rewords the mistake about a name that is merely not known yet.
     fn explained(&self, mistake: Mistake) -> Mistake {
         let written = mistake.unknown_name().unwrap_or_default();
         let name = canonical_name(written).unwrap_or_default();
@@ -58,7 +58,7 @@ impl Mistakes {
         *self.waiting.borrow_mut() = names;
     }
 
-    /// Notes that a name is declared, but not known for a mistake in its declaration.
+    /// Notes that a name is declared, but unknown because of a mistake in its declaration.
     pub fn fail(&self, name: &str) {
         self.failed.borrow_mut().insert(name.to_string());
     }
@@ -68,7 +68,7 @@ impl Mistakes {
         self.blind.set(true);
     }
 
-    /// Is the name, as written, unknown because of a mistake elsewhere?
+    /// Whether the name, as written, is unknown because of a mistake elsewhere.
     pub fn has_failed(&self, written: &str) -> bool {
         if self.blind.get() {
             return true;
@@ -78,12 +78,12 @@ impl Mistakes {
         bases(&name).any(|base| failed.contains(base))
     }
 
-    /// Is nothing wrong so far?
+    /// Whether there are no mistakes so far.
     pub fn is_empty(&self) -> bool {
         self.list.borrow().is_empty()
     }
 
-    /// All mistakes, without those keys that are missing where a key is misspelt.
+    /// Returns all mistakes, except missing keys of a table in which a key is misspelt.
     pub fn into_list(self) -> Vec<Mistake> {
         let mut list = self.list.into_inner();
         let misspelt: Vec<String> = list
@@ -103,7 +103,8 @@ impl Mistakes {
     }
 }
 
-/// The declared names that a name may be read as: itself, what it is a component of, or the rate of.
+/// Declared names that a name may refer to: itself, the value it is a component of, or the one it
+/// is the rate of.
 pub fn bases(name: &str) -> impl Iterator<Item = &str> {
     let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let plain = bare.trim_end_matches('_');

@@ -1,4 +1,4 @@
-//! A case file becomes a [`Case`]: a model with its names, a chart, and claims.
+//! Case files, read into a [`Case`]: a model with its names, a chart, and claims.
 
 mod abbreviations;
 mod arbitrary;
@@ -46,53 +46,53 @@ pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
 
-/// No case needs a larger file.
+/// Limit on the size of a case file, above that of any real one.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// A case: a system with its parameters, and what is claimed about it.
+/// A case: a system with its parameters, and the claims about it.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// What the case is about.
+    /// Title of the case.
     pub title: String,
-    /// Where it comes from.
+    /// Publication that the case is taken from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`, `vakonomic`
-    /// or `field`.
+    /// Name of the system: `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`,
+    /// `nonholonomic`, `vakonomic` or `field`.
     pub system: String,
-    /// The equations and names.
+    /// Equations and names.
     pub model: Model,
-    /// How states are made.
+    /// Chart that makes states.
     pub chart: Chart,
-    /// The draws of the state's components where no chart makes them.
+    /// Draws of the state's components where no chart makes them.
     pub free_draws: Vec<Draw>,
-    /// The claims in the order of the file.
+    /// Claims in the order of the file.
     pub claims: Vec<Claim>,
-    /// The claims about motion in the order of the file.
+    /// Claims about motion in the order of the file.
     pub motions: Vec<MotionClaim>,
-    /// The table and column of the paper that this case belongs to.
+    /// Table and column of the paper that this case belongs to.
     pub column: Option<Column>,
-    /// The Poincaré section that shows its motion.
+    /// Poincaré section that shows the motion.
     pub section: Option<SectionPlan>,
-    /// A one-sided constraint, where the motion has one.
+    /// One-sided constraint on the motion.
     pub one_sided: Option<OneSided>,
-    /// What to know beside the verdicts.
+    /// Notes of the author on the verdicts.
     pub notes: Vec<String>,
-    /// What the file may not mean to say.
+    /// Warnings about what the file may say unintentionally.
     pub warnings: Vec<String>,
 }
 
 /// A column of one of the paper's tables.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// The table's number.
+    /// Number of the table.
     pub table: u32,
-    /// The column's number, from 1.
+    /// Number of the column, from 1.
     pub column: u32,
-    /// The paper's words in some of its rows: row and text.
+    /// Words of the paper in some rows: row and text.
     pub words: Vec<(String, String)>,
 }
 
-/// The rows of the paper's tables.
+/// Rows of the paper's tables.
 pub const TABLE_ROWS: [&str; 9] = [
     "body",
     "inertia",
@@ -105,55 +105,55 @@ pub const TABLE_ROWS: [&str; 9] = [
     "generalisation",
 ];
 
-/// A claim with what is expected of it.
+/// A claim with its expectation.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// Its name; unique in the case.
+    /// Name, unique in the case.
     pub name: String,
-    /// What is claimed.
+    /// Statement of the claim.
     pub kind: Kind,
-    /// Equation number, table, section.
+    /// Equation number, table or section in the publication.
     pub source: String,
-    /// Where it is claimed.
+    /// Place where it is claimed.
     pub place: Place,
-    /// Is it claimed to fail wherever the place is left?
+    /// Whether it is claimed to fail outside of the place.
     pub only_there: bool,
-    /// What the file expects.
+    /// Expectation of the file.
     pub expect: Expect,
-    /// The row of the paper's table that it fills.
+    /// Table row this claim belongs to.
     pub cell: Option<String>,
-    /// A remark.
+    /// Remark of the author.
     pub note: Option<String>,
 }
 
-/// A claim about motion with what is expected of it.
+/// A claim about motion with its expectation.
 #[derive(Clone, Debug)]
 pub struct MotionClaim {
-    /// Its name; unique in the case.
+    /// Name, unique in the case.
     pub name: String,
-    /// What is claimed.
+    /// Statement of the claim.
     pub kind: Motion,
-    /// Equation number, figure, section.
+    /// Equation number, figure or section in the publication.
     pub source: String,
-    /// What the file expects.
+    /// Expectation of the file.
     pub expect: Expect,
-    /// A remark.
+    /// Remark of the author.
     pub note: Option<String>,
 }
 
-/// What the author of a case expects of a claim.
+/// Expectation of a claim by the author of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expect {
-    /// It is true.
+    /// The claim is true.
     Holds,
-    /// It is false.
+    /// The claim is false.
     Fails,
-    /// Nobody knows; any verdict agrees.
+    /// The answer is not known; any verdict agrees.
     Open,
 }
 
 impl Expect {
-    /// The word used in case files and reports.
+    /// Word used in case files and reports.
     pub fn word(self) -> &'static str {
         match self {
             Expect::Holds => "holds",
@@ -164,7 +164,7 @@ impl Expect {
 }
 
 impl Case {
-    /// Reads a case file; gives its text too.
+    /// Reads a case file; also returns its text.
     pub fn read(path: &Path, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
         let io = |error| CaseError::whole(Problem::Io(error));
         let size = match std::fs::metadata(path) {
@@ -193,7 +193,7 @@ impl Case {
         build::build(text, settings)
     }
 
-    /// The claim of this name.
+    /// Finds the claim of this name.
     pub fn claim(&self, name: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.name == name)
     }

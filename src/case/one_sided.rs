@@ -1,4 +1,4 @@
-//! `[one-sided]`: a constraint r(x) ≥ 0, and the motion in contact with it.
+//! The table `[one-sided]`: a constraint r(x) ≥ 0, and the motion in contact with it.
 
 use super::error::Problem;
 use super::field;
@@ -10,15 +10,15 @@ use crate::mechanics::{Model, Reach, System};
 /// A one-sided constraint.
 #[derive(Clone, Debug)]
 pub struct OneSided {
-    /// r(x), not negative along the motion.
+    /// Function r(x), not negative along the motion.
     pub function: Formula,
-    /// λ, positive while the constraint presses on the body.
+    /// Reaction λ, positive while the constraint presses on the body.
     pub reaction: Formula,
-    /// The rates of the state in contact.
+    /// Rates of the state in contact.
     pub contact: Vec<Formula>,
 }
 
-/// Reads `[one-sided]`; nothing where it is not there, or has a mistake.
+/// Reads `[one-sided]`; `None` where it is absent, or has a mistake.
 pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
     let section = root.table("one-sided")?;
     if !matches!(model.system, System::Field(_)) {

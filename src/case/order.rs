@@ -1,4 +1,5 @@
-//! Parameters and abbreviations stand in any order: each is read after those that it uses.
+//! Resolution of parameters and abbreviations, which stand in any order: each is read after those
+//! that it uses.
 
 use std::ops::Range;
 
@@ -11,18 +12,18 @@ use super::section::Text;
 use super::systems::Reading;
 use crate::formula::canonical_name;
 
-/// A name of `[parameters]` or `[let]` that waits for what it uses.
+/// Name of `[parameters]` or `[let]` that waits for the names it uses.
 pub struct Item<'s> {
-    /// Its canonical name.
+    /// Canonical name.
     pub name: String,
-    /// Where the name stands.
+    /// Place of the name in the file.
     pub key: Range<usize>,
-    /// What is read under it.
+    /// Definition of the name.
     pub kind: ItemKind<'s>,
     state: State,
 }
 
-/// What is read under a name.
+/// Definition of a name.
 #[derive(Clone)]
 pub enum ItemKind<'s> {
     /// A parameter, by its number, with its value.
@@ -31,7 +32,7 @@ pub enum ItemKind<'s> {
     Abbreviation(Text),
 }
 
-/// How far the reading of a file has come.
+/// Stage of reading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Only parameters have names; abbreviations are read if a parameter uses them.
@@ -45,16 +46,16 @@ pub enum Stage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Pending,
-    /// It is being read, and waits for what stands above it on the stack.
+    /// Being read; waits for the items above it on the stack.
     Open,
     Done,
     Failed,
-    /// It uses what has no name at this stage.
+    /// Uses a name that is not defined at this stage.
     Later,
 }
 
 impl<'s> Item<'s> {
-    /// A name that is not read yet.
+    /// A name that has not been read yet.
     pub fn new(name: String, key: Range<usize>, kind: ItemKind<'s>) -> Self {
         Self { name, key, kind, state: State::Pending }
     }
@@ -80,7 +81,7 @@ impl Reading<'_, '_> {
         self.mistakes().wait_for(names.collect());
     }
 
-    /// Reads a name, and before it those that it uses.
+    /// Reads a name after those that it uses.
     fn settle_from(&mut self, start: usize, stage: Stage) {
         let mut stack = vec![start];
         while let Some(&top) = stack.last() {
@@ -121,7 +122,7 @@ impl Reading<'_, '_> {
         }
     }
 
-    /// The name that is missing where a formula cannot be read, if it is one that waits.
+    /// Item whose name is missing where a formula cannot be read, if it is pending.
     fn item_of(&self, mistake: &Mistake) -> Option<usize> {
         let written = mistake.unknown_name()?;
         let name = canonical_name(written).unwrap_or_else(|| written.to_string());
@@ -133,7 +134,7 @@ impl Reading<'_, '_> {
         self.mistakes().fail(&self.items[item].name);
     }
 
-    /// A name uses another that cannot be read at this stage.
+    /// Handles a name that uses another which cannot be read at this stage.
     fn later(&mut self, item: usize, other: usize, stage: Stage) -> State {
         if stage != Stage::Parameters || matches!(self.items[item].kind, ItemKind::Abbreviation(_))
         {
@@ -149,7 +150,7 @@ impl Reading<'_, '_> {
         State::Failed
     }
 
-    /// A name cannot be read for another reason.
+    /// Handles a name that cannot be read for another reason.
     fn trouble(&mut self, item: usize, mistake: Mistake, stage: Stage) -> State {
         let is_abbreviation = matches!(self.items[item].kind, ItemKind::Abbreviation(_));
         let is_rate = |name: &str| {
@@ -161,7 +162,7 @@ impl Reading<'_, '_> {
             })
         };
         let waits = match stage {
-            // the state may come to have the name
+            // the state may define the name
             Stage::Parameters => is_abbreviation && mistake.unknown_name().is_some(),
             Stage::State => mistake.unknown_name().is_some_and(is_rate),
             Stage::Rates => false,
@@ -174,7 +175,7 @@ impl Reading<'_, '_> {
         State::Failed
     }
 
-    /// Tells that a name is defined by itself.
+    /// Reports that a name is defined in terms of itself.
     fn cycle(&self, stack: &[usize], first: usize) {
         let start = stack.iter().position(|item| *item == first).unwrap_or_default();
         let around = stack[start..].iter().chain([&first]);

@@ -1,4 +1,4 @@
-//! Parameters: numbers, lists, ranges and formulas.
+//! The table `[parameters]`: numbers, lists, ranges and formulas.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -16,13 +16,13 @@ use crate::number::rational::{Rational, RationalError};
 /// A value given on the command line in place of the file's.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The canonical name of a parameter.
+    /// Canonical name of the parameter.
     pub name: String,
-    /// The constant typed for it.
+    /// Constant given for it.
     pub value: String,
 }
 
-/// What a name cannot be.
+/// Message about texts that are not names.
 pub const NO_NAME: &str = "a name is letters, then digits, primes or _";
 
 impl<'r, 's> Reading<'r, 's> {
@@ -46,7 +46,7 @@ impl<'r, 's> Reading<'r, 's> {
         self.settle(Stage::Parameters);
     }
 
-    /// Reads one parameter, if all that it uses is known.
+    /// Reads one parameter, if all names in it are known.
     pub(super) fn read_parameter(
         &mut self,
         index: usize,
@@ -113,7 +113,7 @@ impl<'r, 's> Reading<'r, 's> {
         Ok(())
     }
 
-    /// What a setting makes of a parameter: a list stays what the file's value is.
+    /// Converts a setting to a value: a list keeps the type of the file's value.
     fn set(&mut self, setting: &Setting, written: &Given) -> Given {
         let text = setting.value.trim();
         let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
@@ -132,7 +132,7 @@ impl<'r, 's> Reading<'r, 's> {
         Given::Formula(text)
     }
 
-    /// The kind of what the file writes, where that is known without reading formulas.
+    /// Type of the value in the file, where that is known without reading formulas.
     fn kind_of_written(&self, value: &Spanned<DeValue<'_>>) -> Option<Type> {
         match shapes::given(value, &self.vocabulary).ok()? {
             Given::Fixed(kind, _) => Some(kind),
@@ -142,7 +142,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 }
 
-/// The numbers of a formula without names, or the formula.
+/// Numbers of a formula without names, or the formula.
 fn origin_of(formula: Formula) -> Origin {
     match constant(&formula) {
         Some(values) => Origin::Fixed(values),
@@ -150,7 +150,7 @@ fn origin_of(formula: Formula) -> Origin {
     }
 }
 
-/// The complaint about a value that was not in the file.
+/// The mistake of a setting that cannot be read.
 fn refused(setting: &Setting, error: &FormulaError) -> Mistake {
     let constant = "give a constant: 5/4, [1,2,3], [[…],[…],[…]]";
     set_to(setting, error.message(), error.help().unwrap_or(constant))
@@ -161,7 +161,7 @@ fn set_to(setting: &Setting, problem: &str, remedy: &str) -> Mistake {
     Mistake::whole(Problem::Other { message, remedy: remedy.to_string() })
 }
 
-/// The name that a key of the user's is.
+/// Canonical name for a user-defined key.
 pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, Mistake> {
     canonical_name(key.get_ref()).ok_or_else(|| {
         let (name, reason) = (excerpt(key.get_ref()), NO_NAME.to_string());
@@ -169,7 +169,7 @@ pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, Mistake
     })
 }
 
-/// Complains about settings whose names no parameter has.
+/// Reports settings of parameters that do not exist.
 pub fn unknown_settings(root: &Section<'_>, settings: &[Setting], parameters: &[Parameter]) {
     let known = |name: &str| parameters.iter().any(|parameter| parameter.name == name);
     for setting in settings.iter().filter(|setting| !known(&setting.name)) {
@@ -182,7 +182,7 @@ pub fn unknown_settings(root: &Section<'_>, settings: &[Setting], parameters: &[
     }
 }
 
-/// The components of a formula without names, exactly.
+/// Exact components of a formula without names.
 pub fn constant(formula: &Formula) -> Option<Vec<Rational>> {
     if formula.symbols().next().is_some() {
         return None;
@@ -194,7 +194,7 @@ pub fn constant(formula: &Formula) -> Option<Vec<Rational>> {
     values.into_iter().map(|value| graph.constant_value(value).cloned()).collect()
 }
 
-/// Free parameters that hold the coefficients of an arbitrary function.
+/// Declares free parameters for the coefficients of an arbitrary function.
 pub fn coefficients(
     prefix: &str,
     exponents: &[[u32; 3]],
@@ -219,7 +219,7 @@ pub fn coefficients(
     Ok(())
 }
 
-/// Is this name declared as a parameter of this kind?
+/// Whether this name is declared with this type.
 pub fn has(vocabulary: &Vocabulary, name: &str, kind: Type) -> bool {
     vocabulary.lookup(name).is_some_and(|(_, found)| found == kind)
 }

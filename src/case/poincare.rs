@@ -1,4 +1,4 @@
-//! `[section]`: which Poincaré section of the motion a case draws.
+//! The table `[section]`: the Poincaré section of the motion that a case draws.
 
 use toml::de::DeValue;
 
@@ -7,57 +7,57 @@ use super::lines::Line;
 use super::section::{Section, Text, numbers};
 use crate::number::rational::Rational;
 
-/// Images of a line where a case does not say how many: as in the paper's figures.
+/// Default number of images of a line, as in the paper's figures.
 const DEFAULT_IMAGES: usize = 10;
 
-/// No picture has room for more orbits, crossings or images.
+/// Limit on orbits, crossings and images, above what a picture can show.
 const MOST: u32 = 1_000_000;
 
 /// An angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Angle {
-    /// A multiple of π/2.
+    /// Multiple of π/2.
     QuarterTurns(u32),
-    /// Any other, in radians.
+    /// Any other angle, in radians.
     Radians(Rational),
 }
 
-/// Which crossings of a section count.
+/// Crossings of a section that count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// Those with g' > 0.
+    /// Crossings with g' > 0.
     Up,
-    /// Those with g' < 0.
+    /// Crossings with g' < 0.
     Down,
-    /// Both.
+    /// All crossings.
     #[default]
     Both,
 }
 
-/// A Poincaré section g = g₀ in the Andoyer-like variables, and how it is drawn.
+/// Plan of a Poincaré section g = g₀ in the Andoyer-like variables, and of its picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionPlan {
-    /// g₀
+    /// Angle g₀.
     pub g0: Angle,
-    /// The energy h.
+    /// Energy h.
     pub energy: Rational,
-    /// The crossings that are drawn.
+    /// Direction of the crossings that are drawn.
     pub direction: Direction,
-    /// Orbits from starts spread over the sphere.
+    /// Number of orbits with starts spread over the sphere.
     pub orbits: Option<usize>,
-    /// Crossings of each orbit.
+    /// Number of crossings of each orbit.
     pub crossings: Option<usize>,
-    /// Crossings left out at the beginning.
+    /// Number of crossings left out at the beginning.
     pub skip: usize,
     /// Further starts (l, L/G).
     pub starts: Vec<[f64; 2]>,
-    /// The claim whose value colours the orbits.
+    /// Name of the claim whose value colours the orbits.
     pub colour: Option<String>,
-    /// Follow the motion backwards in time?
+    /// Whether to follow the motion backwards in time.
     pub backwards: bool,
     /// Lines whose images under the section map are drawn.
     pub lines: Vec<Line>,
-    /// How many images of them, forwards and backwards.
+    /// Number of images of each line, forwards and backwards.
     pub images: usize,
 }
 
@@ -102,7 +102,7 @@ impl std::str::FromStr for Direction {
     }
 }
 
-/// Reads `[section]`; nothing where it is not there, or has a mistake.
+/// Reads `[section]`; `None` where it is absent, or has a mistake.
 pub(super) fn read(root: &Section<'_>) -> Option<SectionPlan> {
     let section = root.table("section")?;
     let plan = section.keep(plan(&section));
@@ -146,7 +146,7 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
     Ok(plan)
 }
 
-/// `starts = [[l, z], …]`
+/// Reads `starts = [[l, z], …]`.
 fn starts(section: &Section<'_>) -> Result<Vec<[f64; 2]>, Mistake> {
     let Some(value) = section.value("starts") else { return Ok(Vec::new()) };
     let wrong = |span| section.wrong_type("starts", "a list of points [l, L/G]", span);

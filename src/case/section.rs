@@ -1,4 +1,4 @@
-//! Reading TOML tables with their places, so that every complaint can point.
+//! TOML tables with the places of their entries, so that every mistake can point to one.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -14,11 +14,11 @@ use crate::formula::{excerpt, nearest};
 /// A string of the file with its place.
 #[derive(Clone, Debug)]
 pub struct Text {
-    /// The string.
+    /// Content of the string.
     pub value: String,
-    /// The bytes of the value, quotes included.
+    /// Byte range of the value, quotes included.
     pub span: Range<usize>,
-    /// Where the content begins, if it stands in the file letter by letter.
+    /// Start of the content, if it stands in the file without escapes.
     content: Option<usize>,
 }
 
@@ -29,12 +29,12 @@ impl Text {
         Self { value: value.to_string(), span, content }
     }
 
-    /// A string that stands in no file, to be reported at `span`.
+    /// A string that does not stand in the file, to be reported at `span`.
     pub fn made(value: String, span: Range<usize>) -> Self {
         Self { value, span, content: None }
     }
 
-    /// The place in the file of a range of the content; the whole value where it is written with
+    /// Place in the file of a range of the content; the whole value where it is written with
     /// escapes.
     pub fn locate(&self, inner: Range<usize>) -> Range<usize> {
         match self.content {
@@ -50,7 +50,7 @@ pub struct Section<'a> {
     table: &'a DeTable<'a>,
     source: &'a str,
     mistakes: &'a Mistakes,
-    /// The place of the table.
+    /// Place of the table.
     pub span: Range<usize>,
     asked: RefCell<Vec<&'static str>>,
 }
@@ -67,17 +67,17 @@ impl<'a> Section<'a> {
         Self { name: name.to_string(), table, source, mistakes, span, asked: RefCell::default() }
     }
 
-    /// Where the mistakes of the file are noted.
+    /// Collection in which the mistakes of the file are noted.
     pub fn mistakes(&self) -> &'a Mistakes {
         self.mistakes
     }
 
-    /// What was read, or nothing, with the mistake noted.
+    /// Returns the value read, or `None` after noting the mistake.
     pub fn keep<T>(&self, result: Result<T, Mistake>) -> Option<T> {
         self.mistakes.keep(result)
     }
 
-    /// A table that the file leaves out, where all its keys have defaults.
+    /// Stand-in for a table that the file leaves out, where all its keys have defaults.
     pub fn empty<'b>(&self, name: &str, nothing: &'b DeTable<'b>) -> Section<'b>
     where
         'a: 'b,
@@ -85,7 +85,7 @@ impl<'a> Section<'a> {
         Section::new(name, nothing, 0..0, self.source, self.mistakes)
     }
 
-    /// The value of a key.
+    /// Value of a key.
     pub fn value(&self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
         let mut asked = self.asked.borrow_mut();
         if !asked.contains(&key) {
@@ -94,39 +94,39 @@ impl<'a> Section<'a> {
         self.table.get(key)
     }
 
-    /// Is this key there? It does not count as asked for.
+    /// Whether this key is present; does not tick it off.
     pub fn has(&self, key: &str) -> bool {
         self.table.contains_key(key)
     }
 
-    /// The string of a key.
+    /// String of a key.
     pub fn text(&self, key: &'static str) -> Result<Option<Text>, Mistake> {
         self.value(key).map(|value| self.as_text(key, value)).transpose()
     }
 
-    /// The string of a key that must be there.
+    /// String of a required key.
     pub fn required(&self, key: &'static str, remedy: &str) -> Result<Text, Mistake> {
         self.text(key)?.ok_or_else(|| self.missing(key, remedy))
     }
 
-    /// The complaint that a key is missing.
+    /// The mistake of a missing key.
     pub fn missing(&self, key: &'static str, remedy: &str) -> Mistake {
         let (section, remedy) = (self.name.clone(), remedy.to_string());
         self.complaint(Problem::MissingKey { key, section, remedy })
     }
 
-    /// A complaint about the table as a whole.
+    /// A mistake of the table as a whole.
     pub fn complaint(&self, problem: Problem) -> Mistake {
         Mistake::new((!self.span.is_empty()).then(|| self.span.clone()), problem)
     }
 
-    /// The complaint that the table lacks one of several keys.
+    /// The mistake of a table that lacks one of several alternative keys.
     pub fn incomplete(&self, message: String, remedy: &str) -> Mistake {
         let (section, remedy) = (self.name.clone(), remedy.to_string());
         self.complaint(Problem::Incomplete { section, message, remedy })
     }
 
-    /// A formula: a string, or a number.
+    /// Reads a formula: a string, or a number.
     pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, Mistake> {
         let number = |text: String| Ok(Text::made(text, value.span()));
         match value.get_ref() {
@@ -147,18 +147,18 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The complaint that a value has another type.
+    /// The mistake of a value of the wrong type.
     pub fn wrong_type(&self, key: &str, expected: &str, span: Range<usize>) -> Mistake {
         let (key, expected) = (key.to_string(), expected.to_string());
         Mistake::at(span, Problem::WrongType { key, expected })
     }
 
-    /// Where a text stands in the file, letter by letter, for the first time.
+    /// First place of a text in the file, letter by letter.
     pub fn find(&self, text: &str) -> Option<usize> {
         self.source.find(text)
     }
 
-    /// A whole number.
+    /// Reads a whole number.
     pub fn integer(&self, key: &'static str) -> Result<Option<u32>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
@@ -168,7 +168,7 @@ impl<'a> Section<'a> {
         .ok_or_else(|| self.wrong_type(key, "a whole number", value.span()))
     }
 
-    /// A whole number that is not larger than `most`.
+    /// Reads a whole number that is not larger than `most`.
     pub fn count(&self, key: &'static str, most: u32) -> Result<Option<usize>, Mistake> {
         match self.integer(key)? {
             Some(found) if found > most => {
@@ -180,7 +180,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A truth value.
+    /// Reads a truth value.
     pub fn boolean(&self, key: &'static str) -> Result<Option<bool>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
@@ -189,7 +189,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A table inside this one.
+    /// Reads a table inside this one.
     pub fn section(&self, key: &'static str) -> Result<Option<Section<'a>>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
@@ -204,12 +204,12 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A table inside this one, if it is there and is one.
+    /// Reads a table inside this one; `None` where it is absent, or is not a table.
     pub fn table(&self, key: &'static str) -> Option<Section<'a>> {
         self.keep(self.section(key)).flatten()
     }
 
-    /// The tables of an array of tables; what is none is noted.
+    /// Reads the tables of an array of tables; notes a mistake for any other entry.
     pub fn tables(&self, key: &'static str) -> Vec<Section<'a>> {
         let Some(value) = self.value(key) else { return Vec::new() };
         let name = format!("[[{key}]]");
@@ -227,7 +227,7 @@ impl<'a> Section<'a> {
         array.iter().filter_map(|item| self.keep(table(item))).collect()
     }
 
-    /// The strings of an array, or one string by itself.
+    /// Reads the strings of an array, or a single string.
     pub fn texts(&self, key: &'static str) -> Result<Vec<Text>, Mistake> {
         match self.value(key) {
             None => Ok(Vec::new()),
@@ -238,7 +238,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// All entries in the order of the file; for tables whose keys are the user's.
+    /// All entries in the order of the file, for tables with user-defined keys.
     pub fn entries(
         &self,
     ) -> Vec<(&'a Spanned<std::borrow::Cow<'a, str>>, &'a Spanned<DeValue<'a>>)> {
@@ -247,13 +247,13 @@ impl<'a> Section<'a> {
         entries
     }
 
-    /// Complains about keys that nobody asked for.
+    /// Notes a mistake for each key that was not read.
     pub fn finish(&self) -> bool {
         self.allow(&self.asked.borrow())
     }
 
-    /// Complains about keys that are none of these: a misspelt key is the likeliest reason for
-    /// another that is missing. `false` if there are such keys.
+    /// Notes a mistake for each key that is not known: a misspelt key is the likeliest reason for
+    /// another that is missing. Returns `false` if there are such keys.
     pub fn allow(&self, known: &[&'static str]) -> bool {
         let mut all = true;
         for (key, _) in self.entries() {
@@ -277,13 +277,13 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Would the character command a terminal, or turn the direction of text?
+/// Whether the character controls a terminal, or changes the direction of text.
 fn is_control(c: char) -> bool {
     let is_space = matches!(c, '\n' | '\t' | '\r');
     (c.is_control() && !is_space) || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// The numbers of an array of numbers, as they are written.
+/// Numbers of an array of numbers, as they are written.
 pub fn numbers(array: &DeArray<'_>) -> Option<Vec<String>> {
     array
         .iter()

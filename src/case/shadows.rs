@@ -1,13 +1,13 @@
-//! Names that a reader may take for others: those that mean something without being declared, and
-//! those that look alike.
+//! Names that a reader may confuse: declared ones that hide a predefined meaning, and ones that
+//! look alike.
 
 use std::collections::BTreeMap;
 
 use crate::formula::{Formula, Scope, Type, is_function, skeleton};
 use crate::mechanics::{Entry, Meaning, Vocabulary};
 
-/// The quantities of the system that are hidden, and the declared names that would else be functions,
-/// the unit matrix, π, e, or components of what the system itself names (γ3); each once.
+/// Hidden names, each once: the hidden quantities of the system, and the declared names that would
+/// otherwise be functions, the unit matrix, π, e, or components of the system's own names (γ3).
 pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
     let mut hidden = quantities;
     for (symbol, entry) in vocabulary.iter() {
@@ -19,13 +19,13 @@ pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
     hidden
 }
 
-/// Would the name mean something, were it not declared?
+/// Whether the name would have a meaning if it were not declared.
 fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
     let name = entry.name.as_str();
     let is_number = entry.kind == Type::Scalar && matches!(name, "e" | "π");
     match entry.meaning {
         Meaning::Quantity(_) => false,
-        // what an abbreviation means is written beside it
+        // the definition of an abbreviation stands next to its name
         Meaning::Abbreviation(_) => is_function(name),
         Meaning::State(_) => is_number || is_function(name),
         Meaning::Parameter(_) if is_number || is_function(name) => true,
@@ -40,12 +40,12 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
     }
 }
 
-/// What to say of a name that is hidden.
+/// Warning about a hidden name.
 pub fn warning(name: &str) -> String {
     format!("`{name}` has a meaning of its own here, and this file gives it another")
 }
 
-/// What to say of names that look alike.
+/// Warnings about names that look alike.
 pub fn look_alikes(vocabulary: &Vocabulary) -> Vec<String> {
     let mut seen: BTreeMap<String, &str> = BTreeMap::new();
     let mut warnings = Vec::new();

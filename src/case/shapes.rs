@@ -1,4 +1,5 @@
-//! What a value of `[parameters]` or `[state]` says: a number, a list, a range with a shape, a formula.
+//! Forms of a value of `[parameters]` or `[state]`: a number, a list, a range with a shape, a
+//! formula.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -8,23 +9,23 @@ use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
 use crate::mechanics::{Draw, Range, Recipe};
 use crate::number::rational::{Rational, RationalError};
 
-/// What a value says.
+/// Value of `[parameters]` or `[state]`.
 pub enum Given {
-    /// Components that are fixed.
+    /// Fixed components.
     Fixed(Type, Vec<Rational>),
-    /// Numbers that are a vector, or the diagonal of a matrix: its use decides.
+    /// Numbers of a vector, or of the diagonal of a matrix, depending on the use.
     List(Vec<Rational>),
     /// Components drawn anew for every state.
     Drawn(Recipe),
-    /// Anything else: to be read as a formula.
+    /// Any other text, to be read as a formula.
     Formula(String),
 }
 
-/// Why a value cannot be read.
+/// Reason why a value cannot be read.
 pub enum Refusal {
-    /// It is none of the ways to write one.
+    /// The value has none of the possible forms.
     Message(String),
-    /// A size in it, which begins so many bytes inside the text, cannot be read.
+    /// A size in the value cannot be read; it begins at this byte of the text.
     Size(FormulaError, usize),
 }
 
@@ -34,7 +35,7 @@ impl From<String> for Refusal {
     }
 }
 
-/// A list as a vector, or as a diagonal matrix.
+/// Converts a list to a vector, or to a diagonal matrix.
 pub fn list(values: Vec<Rational>, is_diagonal: bool) -> (Type, Vec<Rational>) {
     let count = values.len();
     match is_diagonal {
@@ -43,7 +44,7 @@ pub fn list(values: Vec<Rational>, is_diagonal: bool) -> (Type, Vec<Rational>) {
     }
 }
 
-/// The meaning of a value; sizes are whole numbers in the names of `scope`.
+/// Reads a value; sizes are whole numbers in the names of `scope`.
 pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, Refusal> {
     match value.get_ref() {
         DeValue::Integer(number) => fixed_scalar(&number.to_string()),
@@ -108,7 +109,7 @@ fn diagonal(values: Vec<Rational>) -> Vec<Rational> {
     entries
 }
 
-/// A string: a number, a range with its shape, a list of alternatives, or a formula.
+/// Reads a string: a number, a range with its shape, a list of alternatives, or a formula.
 fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
     let start = text.len() - text.trim_start().len();
     let text = text.trim();
@@ -144,7 +145,7 @@ fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
     Ok(Given::Drawn(recipe(shape, &sizes, range)?))
 }
 
-/// The parts between commas that stand in no brackets, with the places where they begin.
+/// Splits a text at commas outside of brackets; also returns the places where the parts begin.
 fn arguments(text: &str) -> Vec<(usize, &str)> {
     let (mut depth, mut start) = (0i32, 0);
     let mut parts = Vec::new();
@@ -217,7 +218,7 @@ fn range(low: &str, high: &str) -> Result<Range, String> {
     }
 }
 
-/// A range for each component of a state variable.
+/// Type and ranges of a state variable, one range for each component.
 pub fn state_draws(given: &Given) -> Option<(Type, Vec<Draw>)> {
     match given {
         Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..))) => {

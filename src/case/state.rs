@@ -1,4 +1,4 @@
-//! `[state]`: variables with the ranges that their values are drawn from.
+//! The table `[state]`: variables with the ranges that their values are drawn from.
 
 use std::borrow::Cow;
 
@@ -14,16 +14,16 @@ use crate::mechanics::{Draw, Meaning, Range, Reach, Variable, Vocabulary};
 
 /// State variables with the draws of their components.
 pub struct State {
-    /// The variables in order.
+    /// Variables in order.
     pub variables: Vec<Variable>,
-    /// One draw a component.
+    /// Draw of each component.
     pub draws: Vec<Draw>,
 }
 
-/// Time, where formulas use it and nothing else has its name.
+/// Name of time, where formulas use it and it has no other meaning.
 pub const TIME: &str = "t";
 
-/// Reads a table of names and ranges; `reach` is what it means to depend on them.
+/// Reads a table of names and ranges; `reach` is the dependence that the names stand for.
 pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary, reach: Reach) -> State {
     let mut state = State { variables: Vec::new(), draws: Vec::new() };
     add_state(section, vocabulary, reach, &mut state);
@@ -75,7 +75,7 @@ impl State {
 
 type Entry<'a> = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>);
 
-/// The kind of a state variable, and the draws of its components.
+/// Type of a state variable, and the draws of its components.
 fn variable(
     section: &Section<'_>,
     name: &str,

@@ -1,6 +1,6 @@
-//! Keys by the names that other people give them.
+//! Synonyms of keys.
 
-/// What else a key may be called.
+/// Alternative names of keys.
 const SYNONYMS: [(&str, &[&str]); 14] = [
     ("parameters", &["params", "param", "parameter", "constants", "constant"]),
     ("state", &["states", "vars", "phase", "coordinates", "unknowns"]),
@@ -18,7 +18,7 @@ const SYNONYMS: [(&str, &[&str]); 14] = [
     ("potential", &["U", "V", "potential-energy"]),
 ];
 
-/// The key that is meant by another name, if it is one of `known`.
+/// Key meant by an alternative name, if it is one of `known`.
 pub fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
     let plain = name.to_lowercase().replace(['_', ' '], "-");
     let is_meant = |(key, all): &&(&'static str, &[&str])| {

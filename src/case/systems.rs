@@ -1,4 +1,4 @@
-//! `system = "…"`: which equations of motion, with their names, states and level sets.
+//! The key `system`: equations of motion with their names, states and level sets.
 
 use toml::de::{DeTable, DeValue};
 
@@ -21,23 +21,23 @@ use crate::mechanics::{
 const SYSTEMS: &str =
     "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic or field";
 
-/// A model with the way its states are made.
+/// A model with its chart and draws.
 pub struct Parts {
     /// The model.
     pub model: Model,
-    /// How its states are made.
+    /// Chart that makes states.
     pub chart: Chart,
-    /// The draws of what the chart leaves free.
+    /// Draws of the components that the chart leaves free.
     pub free_draws: Vec<Draw>,
-    /// Names that the file takes from the system or the language.
+    /// Names of the system or the language that the file redefines.
     pub hidden: Vec<String>,
-    /// What to say of names that look alike.
+    /// Warnings about names that look alike.
     pub alike: Vec<String>,
-    /// Was all of it read? Otherwise the equations of motion stand for nothing.
+    /// Whether everything was read; otherwise the equations of motion are meaningless.
     pub is_whole: bool,
 }
 
-/// What is read on the way to a model.
+/// State of reading a model.
 pub(super) struct Reading<'r, 's> {
     pub root: &'r Section<'s>,
     pub settings: &'r [Setting],
@@ -47,15 +47,15 @@ pub(super) struct Reading<'r, 's> {
     pub parameters: Vec<Parameter>,
     /// Parameters that are lists: vectors, or diagonal matrices.
     pub lists: Vec<String>,
-    /// The texts of parameters that are drawn, which may have sizes.
+    /// Texts of parameters that are drawn, which may contain sizes.
     pub sizes: Vec<String>,
     pub state: State,
-    /// Names of `[parameters]` and `[let]` that are or will be read.
+    /// Names of `[parameters]` and `[let]`, whether read or pending.
     pub items: Vec<Item<'s>>,
     pub abbreviations: Vec<Formula>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
-    /// Names of the system that the file gives another meaning.
+    /// Names of the system that the file redefines.
     pub hidden: Vec<String>,
 }
 
@@ -66,7 +66,7 @@ fn equation(text: &str, function: LevelFunction) -> LevelEquation {
 type Read = Option<(System, Chart)>;
 
 impl<'r, 's> Reading<'r, 's> {
-    /// Nothing is read yet.
+    /// A reading that has not begun.
     pub fn new(root: &'r Section<'s>, settings: &'r [Setting], assumed: &'r Assumed) -> Self {
         Self {
             root,
@@ -86,14 +86,14 @@ impl<'r, 's> Reading<'r, 's> {
         }
     }
 
-    /// Where mistakes are noted.
+    /// Collection in which mistakes are noted.
     pub fn mistakes(&self) -> &'s Mistakes {
         self.root.mistakes()
     }
 
-    /// Reads what the kind of system asks for, after the parameters; gives its name too.
+    /// Reads the tables of the system after the parameters; also returns its name.
     ///
-    /// Nothing if it is not known which system is meant.
+    /// `None` if the system is not known.
     pub fn read(mut self) -> Option<(String, Parts)> {
         let text = self.kind()?;
         let read = match text.value.as_str() {
@@ -133,7 +133,7 @@ impl<'r, 's> Reading<'r, 's> {
         Some((text.value, Parts { model, chart, free_draws, hidden, alike, is_whole }))
     }
 
-    /// The whole numbers that sizes, and keys of `[field]`, are written with.
+    /// Symbols of whole numbers that sizes, and keys of `[field]`, contain.
     fn fixed(&self) -> Vec<Symbol> {
         let mut texts = self.sizes.clone();
         let keys = self.root.table("field").map(|section| section.entries()).unwrap_or_default();
@@ -277,7 +277,7 @@ impl<'r, 's> Reading<'r, 's> {
         Some((System::Field(rates?), Chart::Free))
     }
 
-    /// The equations of `[level]`; nothing if one is wrong.
+    /// Reads the equations of `[level]`; `None` if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
             Some(section) => field::equations(&section, &self.vocabulary),
@@ -285,7 +285,7 @@ impl<'r, 's> Reading<'r, 's> {
         }
     }
 
-    /// The variables of a system that has none of its own.
+    /// Reads the variables of a system without built-in ones.
     pub fn own_state(&mut self, reach: Reach, remedy: &str) {
         match self.root.table("state") {
             Some(ranges) => self.state = state::state(&ranges, &mut self.vocabulary, reach),
@@ -299,14 +299,14 @@ impl<'r, 's> Reading<'r, 's> {
         self.add_time(reach);
     }
 
-    /// Time is a variable where formulas use it and it has no other meaning.
+    /// Adds time as a variable where formulas use it and it has no other meaning.
     fn add_time(&mut self, reach: Reach) {
         if self.assumed.time && self.vocabulary.find(TIME).is_none() {
             self.state.add_time(&mut self.vocabulary, reach);
         }
     }
 
-    /// Adds the system's own state and quantities; a parameter may hide a quantity, not a variable.
+    /// Adds the system's state and quantities; a parameter may hide a quantity, not a variable.
     fn declare(
         &mut self,
         own: &[(&str, Type)],
@@ -351,7 +351,7 @@ impl<'r, 's> Reading<'r, 's> {
         }
     }
 
-    /// The variables that `[state]` adds to a built-in system.
+    /// Reads the variables that `[state]` adds to a built-in system.
     fn further_state(&mut self) {
         let first = self.state.variables.len();
         if let Some(section) = self.root.table("state") {
@@ -367,7 +367,7 @@ impl<'r, 's> Reading<'r, 's> {
         self.add_time(Reach::Phase);
     }
 
-    /// Their rates.
+    /// Reads the rates of the added variables.
     fn further_rates(&mut self, own: usize) {
         let further = &self.state.variables[own..];
         let nothing = DeTable::new();

@@ -1,8 +1,8 @@
-//! What is no TOML: where, and what to write instead.
+//! Errors of TOML syntax, with places and corrections.
 
 use super::error::{Mistake, Problem};
 
-/// The mistakes of a text that is no TOML, one a line.
+/// Mistakes of a text that is not valid TOML, at most one for each line.
 pub fn mistakes(text: &str, errors: &[toml::de::Error]) -> Vec<Mistake> {
     let mut seen = Vec::new();
     let mut all = Vec::new();
@@ -22,7 +22,7 @@ pub fn mistakes(text: &str, errors: &[toml::de::Error]) -> Vec<Mistake> {
     all
 }
 
-/// What the line at a place should say.
+/// Suggested correction of the line at a place.
 fn help(text: &str, place: usize) -> Option<String> {
     let before = text.get(..place)?;
     let start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -62,7 +62,7 @@ fn parts(line: &str) -> Option<(&str, &str)> {
         match (quote, letter) {
             (Some(open), _) if open == letter => quote = None,
             (Some(_), _) => {}
-            // the prime of an unquoted key opens nothing
+            // the prime of an unquoted key opens no string
             (None, '\'') if equals.is_none() && !line[..place].trim().is_empty() => {}
             (None, '"' | '\'') if equals.is_none() || line[..place].trim_end().ends_with('=') => {
                 quote = Some(letter);

@@ -1,4 +1,4 @@
-//! `[variables]` and `[poisson]`: new variables, and a bracket for them.
+//! The tables `[variables]` and `[poisson]`: new variables, and a bracket for them.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use super::section::{Section, Text};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
 
-/// Reads both tables into the model, if they are there; `false` where there is a mistake.
+/// Reads both tables into the model, if they are present; `false` where there is a mistake.
 pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     let Some(section) = root.table("variables") else {
         if let Some(section) = root.table("poisson") {
@@ -56,7 +56,7 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     root.value("poisson").is_none_or(|value| value.get_ref().is_table())
 }
 
-/// The state variables as variables of the bracket that `[hamiltonian]` gives.
+/// State variables as variables of the bracket that `[hamiltonian]` gives.
 fn own_bracket(model: &Model) -> Option<Variables> {
     let System::Hamiltonian(hamiltonian) = &model.system else { return None };
     let image = |variable: &Variable| Formula::parse(&variable.name, &model.vocabulary).ok();
@@ -75,10 +75,10 @@ fn own_bracket(model: &Model) -> Option<Variables> {
     Some(Variables { model: target, images, blocks })
 }
 
-/// The model in whose names functions of the new variables are written.
+/// Model whose names functions of the new variables use.
 fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
-    // A body's quantities depend on the second state variable alone: they mean the same as long as
-    // that variable stays.
+    // A body's quantities depend on the second state variable alone: they keep their meaning as
+    // long as that variable stays.
     let stays = |index: usize| {
         let own = model.state.get(index);
         own.is_some_and(|own| {
@@ -100,20 +100,20 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     model.with_names(names, state)
 }
 
-/// The blocks of a bracket, by pairs of variables.
+/// Blocks of a bracket, by pairs of variables.
 pub type Blocks = Vec<Vec<Option<Block>>>;
 
-/// The names that a bracket is written in.
+/// Names in which a bracket is written.
 pub struct Names<'n> {
-    /// The variables that it is of.
+    /// Variables of the bracket.
     pub state: &'n [Variable],
-    /// What formulas may name.
+    /// Names that formulas may use.
     pub vocabulary: &'n Vocabulary,
-    /// How far they may reach.
+    /// Dependence allowed to formulas.
     pub reach: Reach,
 }
 
-/// The blocks of a Poisson tensor; nothing where there is a mistake.
+/// Reads the blocks of a Poisson tensor; `None` where there is a mistake.
 pub fn blocks(section: &Section<'_>, target: &Names<'_>) -> Option<Blocks> {
     let count = target.state.len();
     let mut blocks: Blocks = vec![vec![None; count]; count];
@@ -126,7 +126,7 @@ pub fn blocks(section: &Section<'_>, target: &Names<'_>) -> Option<Blocks> {
     whole.then_some(blocks)
 }
 
-/// `structure = "e(3)"`
+/// Reads `structure = "e(3)"`.
 fn structure(
     section: &Section<'_>,
     target: &Names<'_>,
@@ -151,7 +151,7 @@ fn structure(
     Ok(())
 }
 
-/// One entry of `[poisson]`.
+/// Reads one entry of `[poisson]`.
 fn block(
     key: &Spanned<Cow<'_, str>>,
     text: &Text,

@@ -1,5 +1,5 @@
-//! What the formulas of a Lagrangian system do with velocities: its equations hold for rates that
-//! are linear in the quasi-velocities, and reactions follow a rule where a constraint is not linear.
+//! Linearity in the velocities of a Lagrangian system's formulas: its equations hold for rates
+//! linear in the quasi-velocities, and a nonlinear constraint needs a rule for its reaction.
 
 use num_traits::{One, Zero};
 
@@ -9,8 +9,8 @@ use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
 use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
 
-/// Complains about a rate that is not linear in the velocities although the equations of motion need
-/// it; gives a warning for each constraint whose reaction is a matter of definition.
+/// Rejects a rate that is not linear in the velocities although the equations of motion need it.
+/// Returns a warning for each constraint whose reaction is a matter of definition.
 pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> {
     let System::Lagrangian(lagrangian) = &model.system else { return Ok(Vec::new()) };
     let nonlinear = Nonlinear::of(lagrangian, model);
@@ -32,7 +32,7 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> 
     Ok(nonlinear.constraints.iter().map(warning).collect())
 }
 
-/// What is not linear in the velocities.
+/// Formulas that are not linear in the velocities.
 #[derive(Default)]
 struct Nonlinear {
     /// Components of the state whose rates the equations of motion need to be linear.
@@ -42,7 +42,8 @@ struct Nonlinear {
 }
 
 impl Nonlinear {
-    /// A function counts as linear in w when no ∂f/∂w_i contains a velocity as it is recorded.
+    /// Finds the nonlinear formulas: f is linear in w when no ∂f/∂w_i contains a velocity as it is
+    /// recorded.
     fn of(lagrangian: &Lagrangian, model: &Model) -> Self {
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let velocities = lagrangian.velocities(&model.state);
@@ -65,7 +66,7 @@ impl Nonlinear {
         let bends = |slope: Expr| {
             velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity))
         };
-        // A variable that is only carried along, and which L does not contain, may have any rate.
+        // A variable that is only carried along, and that L does not contain, may have any rate.
         let counts = |component: usize| {
             lagrangian.algebra == Algebra::Frame
                 || graph.depends_on(function, parameters + component)
@@ -80,7 +81,7 @@ impl Nonlinear {
     }
 }
 
-/// Where `[field]` gives the rate of a variable.
+/// Place in `[field]` of the rate of a variable.
 fn place_of_rate(root: &Section<'_>, name: &str) -> Option<std::ops::Range<usize>> {
     let section = root.table("field")?;
     let is_rate = |key: &str| {

@@ -1,5 +1,5 @@
-//! Are the terms of every sum of one weight? Time for the built-in systems, and whatever base
-//! dimensions `[dimensions]` declares.
+//! Homogeneity of sums: weights in time for the built-in systems, and in the base dimensions that
+//! `[dimensions]` declares.
 
 use super::Claim;
 use super::error::{Mistake, Problem};
@@ -8,7 +8,7 @@ use crate::formula::{Formula, Scope, Symbol, Type, WeightSystem, canonical_name}
 use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, System};
 use crate::number::rational::Rational;
 
-/// Checks all formulas of a case in every base dimension that is known, and notes what is wrong.
+/// Checks all formulas of a case in every known base dimension, and notes the mistakes.
 pub fn check(
     root: &Section<'_>,
     model: &Model,
@@ -31,7 +31,7 @@ pub fn check(
         if stated().all(|formula| formula.check_weights(&mut weights).is_ok()) {
             continue;
         }
-        // a formula that is wrong says nothing of the others
+        // a wrong formula says nothing about the others
         let mut weights = start;
         for formula in stated() {
             let mut own = weights.clone();
@@ -42,7 +42,7 @@ pub fn check(
     }
 }
 
-/// Checks what a case is before anything is claimed.
+/// Checks the formulas of a case apart from its claims.
 fn of_case(root: &Section<'_>, model: &Model, weights: &mut WeightSystem) -> Result<(), Mistake> {
     for (index, formula) in model.abbreviations.iter().enumerate() {
         let weight = checked(root, formula, weights)?;
@@ -106,7 +106,7 @@ fn of_system(system: &System) -> Vec<&Formula> {
     }
 }
 
-/// The weights under t → λt: ω and S scale as 1/t, energies as 1/t², shapes and masses not at all.
+/// Weights under t → λt: ω and S scale as 1/t, energies as 1/t², shapes and masses not at all.
 fn time(model: &Model) -> WeightSystem {
     let mut weights = WeightSystem::new("time");
     let curved = match &model.system {
@@ -123,7 +123,7 @@ fn time(model: &Model) -> WeightSystem {
                 "k" if curved => Some(0),
                 _ => None,
             },
-            // What a case adds to the state has the weight that its formulas give it.
+            // Variables added to the state have the weight that their formulas give them.
             Meaning::State(index) if index >= own => None,
             Meaning::State(_) => Some(if entry.name.starts_with('ω') { -1 } else { 0 }),
             Meaning::Abbreviation(_) => None,
@@ -153,7 +153,7 @@ fn time(model: &Model) -> WeightSystem {
     weights
 }
 
-/// Base dimensions are the names that the declarations use.
+/// Base dimensions: the names that the declarations use.
 struct Bases(Vec<String>);
 
 impl Scope for Bases {
@@ -166,7 +166,7 @@ impl Scope for Bases {
     }
 }
 
-/// One system of weights for each base dimension that `[dimensions]` uses.
+/// Reads one system of weights for each base dimension that `[dimensions]` uses.
 fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, Mistake> {
     let mut entries = Vec::new();
     let mut bases: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! `liouville check`
+//! The command `liouville check`.
 
 use std::io::IsTerminal;
 
@@ -8,7 +8,7 @@ use liouville::verdict::{self, Options};
 use super::files::Judge;
 use super::{Answer, Check, colour, files, width};
 
-/// With the claims about motion, where they are asked for.
+/// Judge of cases, including the claims about motion where they are requested.
 #[cfg(feature = "explore")]
 fn judge(options: &Check) -> Judge {
     if options.motion { liouville::observe::judge } else { verdict::judge }

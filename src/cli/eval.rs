@@ -1,4 +1,4 @@
-//! `liouville eval`
+//! The command `liouville eval`.
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -35,7 +35,7 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
     Ok(Answer { text, code: 0 })
 }
 
-/// Reads a case with the values that `--set` gives.
+/// Reads a case with the values given by `--set`.
 pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
     let settings =
         settings.iter().map(|text| setting(text)).collect::<Result<Vec<Setting>, String>>()?;

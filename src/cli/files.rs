@@ -1,4 +1,4 @@
-//! Judging many files: found, read, judged in parallel, reported in order.
+//! Judging of many files: collected, read, judged in parallel, reported in order.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -10,10 +10,10 @@ use liouville::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use rayon::prelude::*;
 
-/// A progress bar appears after this time.
+/// Delay before a progress bar appears.
 const BLINK: Duration = Duration::from_millis(300);
 
-/// How a case is judged.
+/// Function that judges a case.
 pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
 
 /// Judges every case under `paths`.
@@ -48,7 +48,7 @@ pub fn judge(
     Ok(RunReport { seed: options.seed, outcomes, elapsed: started.elapsed() })
 }
 
-/// One more file is done; the bar shows itself once it is worth it.
+/// Advances the bar by one file; the bar appears after a delay.
 pub(super) fn advance(bar: &ProgressBar, started: Instant) {
     if bar.is_hidden() && std::io::stderr().is_terminal() && started.elapsed() > BLINK {
         bar.set_draw_target(ProgressDrawTarget::stderr());
@@ -66,7 +66,8 @@ pub(super) fn bar(length: u64) -> ProgressBar {
 
 pub(super) type Found = Result<PathBuf, (PathBuf, Failure)>;
 
-/// All case files under the paths, sorted within each folder; what cannot be read is kept as such.
+/// Collects all case files under the paths, sorted within each folder; unreadable entries are kept
+/// as failures.
 pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
     let mut files = Vec::new();
     for path in paths {

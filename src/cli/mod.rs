@@ -40,25 +40,25 @@ pub enum Command {
     Table(Table),
 }
 
-/// How states are drawn.
+/// Options of the sampling.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Sampling {
     /// Seed of all random states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// How many states a claim must survive (rounded up to blocks of 64)
+    /// Number of states a claim must survive (rounded up to blocks of 64)
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub states: u64,
-    /// What a claim that holds needs: a proof, or states in floating point alone (faster). By
-    /// default a proof is tried, and a confirmation taken where there is none
+    /// Evidence required for a claim to hold: a proof, or states in floating point alone (faster).
+    /// By default a proof is tried, and a confirmation accepted where there is none
     #[arg(long, value_enum)]
     pub trust: Option<Trust>,
-    /// How many threads to use; all cores by default. Results do not depend on it
+    /// Number of threads; all cores by default. Results do not depend on it
     #[arg(long)]
     pub threads: Option<usize>,
 }
 
-/// What the user insists on.
+/// Required strength of evidence.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Trust {
     Proof,
@@ -89,10 +89,10 @@ pub struct Check {
     #[arg(long)]
     pub mutants: bool,
     #[cfg(feature = "explore")]
-    /// Follow motions too, for the claims about them: minutes for all of cases/figures
+    /// Also check claims about motion (slow: minutes for cases/figures)
     #[arg(long)]
     pub motion: bool,
-    /// Show witnesses and how each verdict came about
+    /// Show witnesses and the evidence for each verdict
     #[arg(short, long)]
     pub verbose: bool,
     #[command(flatten)]
@@ -106,18 +106,18 @@ fn parse_digits(text: &str) -> Result<usize, String> {
 
 #[derive(Debug, Args)]
 pub struct Eval {
-    /// A case file
+    /// Case file
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
-    /// The state, by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
+    /// State by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
     #[arg(long, value_name = "STATE")]
     pub state: Option<String>,
-    /// The number of the state that is drawn
+    /// Number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
-    /// How many significant digits to print, all of them right (up to 2000); without it, numbers
+    /// Number of significant digits to print, all of them right (up to 2000); without it, numbers
     /// are rounded to f64 and come with a bound on their error
     #[arg(long, value_parser = parse_digits)]
     pub digits: Option<usize>,
@@ -131,7 +131,7 @@ pub struct Eval {
 
 #[derive(Debug, Args)]
 pub struct Table {
-    /// The number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
+    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
     #[arg(value_parser = clap::value_parser!(u32).range(1..=3))]
     pub number: u32,
     /// Case files, or folders of them
@@ -140,17 +140,17 @@ pub struct Table {
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
-    /// How to print it
+    /// Output format
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
     #[command(flatten)]
     pub sampling: Sampling,
 }
 
-/// How a table is printed.
+/// Format of a table.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TableFormat {
-    /// For a terminal
+    /// Text for a terminal
     Text,
     /// Markdown
     Markdown,
@@ -158,19 +158,19 @@ pub enum TableFormat {
     Latex,
 }
 
-/// What a command has to say: text for standard output, and the exit code.
+/// Result of a command: text for standard output, and the exit code.
 pub struct Answer {
     pub text: String,
     pub code: u8,
 }
 
-/// Prints the answer, or the problem; bad input exits with 2.
+/// Prints the answer, or the problem; invalid input exits with 2.
 pub fn finish(answer: Result<Answer, String>) -> ExitCode {
     match answer {
         Ok(answer) => {
             let mut out = anstream::stdout().lock();
             match out.write_all(answer.text.as_bytes()).and_then(|()| out.flush()) {
-                // A reader that closes the pipe has seen enough.
+                // A reader that closes the pipe has read enough.
                 Err(error) if error.kind() != ErrorKind::BrokenPipe => {
                     anstream::eprintln!("error: cannot write the answer: {error}");
                     return ExitCode::from(2);
@@ -186,12 +186,12 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
     }
 }
 
-/// Does this stream take colours?
+/// Whether to use colours on this stream.
 pub fn colour(terminal: bool) -> bool {
     terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// The width to lay tables out for: the terminal's, or a fixed one for files and pipes.
+/// Width to lay tables out for: that of the terminal, or a fixed one for files and pipes.
 pub fn width() -> u16 {
     const WIDE: u16 = 160;
     if !std::io::stdout().is_terminal() {

@@ -1,4 +1,4 @@
-//! `liouville table`
+//! The command `liouville table`.
 
 use liouville::report::{diagnostic, table};
 use liouville::verdict;

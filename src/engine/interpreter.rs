@@ -1,7 +1,7 @@
-//! The interpreter: the reference of what a program computes, in f64.
+//! The interpreter: the reference for the results of a program, in f64.
 //!
-//! One step at a time over a row of lanes. The last result stays in registers; where the next step
-//! is the only one that reads it, it is never stored.
+//! Steps run one at a time over a row of lanes. The last result stays in registers; where only the
+//! next step reads it, it is never stored.
 
 #![allow(clippy::needless_range_loop, reason = "loops over groups are unrolled")]
 
@@ -11,10 +11,10 @@ use super::{LANES, Row};
 use crate::graph::Vectors;
 use crate::number::{Function, Operation};
 
-/// Vectors that a result takes: there are registers for as many of an argument on every machine.
+/// Number of vectors of a result; every machine has registers for two operands of this size.
 const GROUP: usize = 8;
 
-/// What a step does with its arguments x, y, z; x may be the last result.
+/// Operation of a step on its arguments x, y, z; x may be the last result.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     /// x + y
@@ -37,7 +37,7 @@ enum Kind {
     SubFromMul,
     /// x - y z
     SubMul,
-    /// A function of x, an instruction of its own or not.
+    /// A function of x, native to the processor or not.
     Function(Function),
     /// x^y
     Pow,
@@ -47,11 +47,11 @@ enum Kind {
 #[derive(Clone, Copy, Debug)]
 struct Instruction {
     kind: Kind,
-    /// The row of x; `None` for the last result.
+    /// Row of x; `None` for the last result.
     x: Option<u32>,
     y: u32,
     z: u32,
-    /// Where the result goes; `None` where only the next step reads it.
+    /// Row of the result; `None` where only the next step reads it.
     out: Option<u32>,
 }
 
@@ -119,7 +119,7 @@ impl Code {
         }
     }
 
-    /// The memory of a run, with the constants in place.
+    /// Memory of a run, with the constants in place.
     pub(super) fn rows(&self) -> Vec<Row> {
         let mut rows = vec![Row([0.0; LANES]); self.rows];
         for (row, constant) in rows[self.inputs..].iter_mut().zip(&self.constants) {
@@ -128,7 +128,7 @@ impl Code {
         rows
     }
 
-    /// The row of an output.
+    /// Row of an output.
     pub(super) fn output(&self, index: usize) -> usize {
         self.outputs[index] as usize
     }
@@ -139,7 +139,7 @@ impl Code {
     }
 }
 
-/// A step whose first argument is the last result, if it can be.
+/// Step arranged to take the last result as its first argument, if possible.
 struct Arranged {
     kind: Kind,
     arguments: [Value; 3],
@@ -150,7 +150,7 @@ impl Arranged {
     fn new(program: &Program, index: usize) -> Self {
         let last = index.checked_sub(1).map(|last| Value::Step(last as u32));
         let is_last = |value: Value| Some(value) == last;
-        // What is not read is the first argument once more.
+        // Unused arguments repeat the first one.
         let (kind, arguments) = match program.steps[index] {
             Step::Unary(function, a) => (Kind::Function(function), [a; 3]),
             Step::Binary(operation, a, b) => match operation {
@@ -182,7 +182,7 @@ impl Arranged {
     }
 }
 
-/// Instructions over rows, with vectors still to be chosen.
+/// Instructions over rows, with the vector type still to be chosen.
 struct Run<'r> {
     instructions: &'r [Instruction],
     rows: &'r mut [Row],
@@ -241,8 +241,8 @@ impl Work for Run<'_> {
     }
 }
 
-// What follows uses loops, and functions by name: a closure of its own, or one of the standard
-// library, is compiled without the instructions that its vectors need.
+// The functions below use loops, and functions by name: a closure, or a function of the standard
+// library, would be compiled without the instructions that the vectors need.
 
 #[inline(always)]
 fn read<V: Vector>(rows: &[Row], row: u32, start: usize) -> [V; GROUP] {
@@ -283,7 +283,7 @@ fn zip3<V: Vector>(
     x
 }
 
-/// A function that is no instruction, one lane after the other.
+/// Applies a function that is not an instruction, one lane after the other.
 #[inline(always)]
 fn by_lane<V: Vector>(mut x: [V; GROUP], y: [V; GROUP], f: impl Fn(f64, f64) -> f64) -> [V; GROUP] {
     for k in 0..GROUP {

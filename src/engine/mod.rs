@@ -1,4 +1,5 @@
-//! Tapes in f64 at bulk: a row of 64 states at a time, by an interpreter or by machine code.
+//! Bulk evaluation of tapes in f64: a row of 64 states at a time, by an interpreter or by machine
+//! code.
 //!
 //! ```text
 //! Tape ─ products fused with sums ─▶ Program ─┬─▶ interpreter (any processor; the reference)
@@ -6,8 +7,8 @@
 //! ```
 //!
 //! Both give the same bits on every processor. The domain [`Float`](crate::number::float::Float)
-//! rounds a product before it is added to something; here the sum is rounded once. No verdict comes
-//! from here: these numbers have no bounds.
+//! rounds a product before it is added; here the sum is rounded once. No verdict rests on these
+//! numbers: they have no error bounds.
 //!
 //! ```
 //! use liouville::engine::{Engine, Means};
@@ -38,25 +39,24 @@ pub(crate) use machine::executable;
 
 use program::Program;
 
-/// States that are treated at once.
+/// Number of states in a row.
 pub const LANES: usize = 64;
 
-/// One number a state, on a cache line's border.
+/// Numbers of 64 states, one for each, aligned to a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Row(pub [f64; LANES]);
 
-/// How a tape is run.
+/// Means of running a tape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Means {
-    /// By machine code where there can be any, else by the interpreter. Pays from some ten thousand
-    /// states on.
+    /// Machine code where possible, else the interpreter. Pays from some ten thousand states on.
     Quickest,
-    /// By the interpreter.
+    /// The interpreter.
     Interpreter,
 }
 
-/// A tape made ready to run; clones share the code.
+/// A tape prepared to run; clones share the code.
 #[derive(Clone, Debug)]
 pub struct Engine(Arc<Code>);
 
@@ -70,7 +70,7 @@ struct Code {
 }
 
 impl Engine {
-    /// Makes a tape ready.
+    /// Prepares a tape.
     pub fn new(tape: &Tape, means: Means) -> Self {
         Self::with_vectors(tape, means, widest())
     }
@@ -86,23 +86,23 @@ impl Engine {
         Self(Arc::new(Code { steps, inputs, vectors, interpreter, machine }))
     }
 
-    /// Is there machine code? Not where the processor or the system does not allow it, nor for a
-    /// tape with functions that are no instructions of a processor: exp, sin, …
+    /// Whether there is machine code. Not where the processor or the system does not allow it, nor
+    /// for a tape with functions that are not processor instructions: exp, sin, …
     pub fn is_machine_code(&self) -> bool {
         self.0.machine.is_some()
     }
 
-    /// Steps a run takes: operations of the tape, less the products that are fused with sums.
+    /// Number of steps of a run: operations of the tape, less the products fused with sums.
     pub fn steps(&self) -> usize {
         self.0.steps
     }
 
-    /// How many inputs a run needs.
+    /// Number of inputs of a run.
     pub fn inputs(&self) -> usize {
         self.0.inputs
     }
 
-    /// The memory to run in; one for each thread.
+    /// Memory to run in, one for each thread.
     pub fn runner(&self) -> Runner {
         let memory = match &self.0.machine {
             Some(code) => Memory::Machine {
@@ -129,7 +129,7 @@ enum Memory {
 }
 
 impl Runner {
-    /// The rows of the inputs, to be filled; they keep their values from run to run.
+    /// Rows of the inputs, to be filled; they keep their values from run to run.
     pub fn inputs(&mut self) -> &mut [Row] {
         match &mut self.memory {
             Memory::Interpreter(rows) => &mut rows[..self.code.inputs],
@@ -146,7 +146,7 @@ impl Runner {
         }
     }
 
-    /// An output of the last run.
+    /// Row of an output of the last run.
     pub fn output(&self, index: usize) -> &Row {
         match &self.memory {
             Memory::Interpreter(rows) => &rows[self.code.interpreter.output(index)],

@@ -1,27 +1,28 @@
-//! A tape as single assignments: every step has a name of its own, and products that only a sum
-//! reads are fused with it.
+//! Tapes in single-assignment form: every step has a name, and products that only a sum reads are
+//! fused with it.
 //!
 //! ```text
 //! a b + c,  a b - c,  c - a b      rounded once
 //! ```
 //!
-//! A negated difference is the opposite one: 0 where the tape has -0, and nothing else. Which products are fused depends on the tape alone, and an engine without such an instruction
+//! A negated difference is the opposite one: 0 where the tape has -0, and no other change. The
+//! choice of fused products depends on the tape alone, and an engine without such an instruction
 //! computes the same correctly rounded value: all engines give the same bits. A fused sum has one
 //! rounding less than the tape in the domain `Float`.
 
 use crate::graph::{Instruction, Tape};
 use crate::number::{Function, Operation};
 
-/// What a step may read.
+/// Operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
     Input(u32),
     Constant(u32),
-    /// The result of an earlier step.
+    /// Result of an earlier step.
     Step(u32),
 }
 
-/// How a product and a third value are added.
+/// Sum of a product and a third value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sum {
     /// a b + c
@@ -32,7 +33,7 @@ pub(super) enum Sum {
     From,
 }
 
-/// One step.
+/// One step of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Step {
     Unary(Function, Value),
@@ -41,7 +42,7 @@ pub(super) enum Step {
 }
 
 impl Step {
-    /// What it reads, in order.
+    /// Values that the step reads, in order.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Value> {
         let arguments = match *self {
             Step::Unary(_, a) => [Some(a), None, None],
@@ -70,7 +71,7 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// The program of a tape.
+    /// Converts a tape to a program.
     pub(super) fn new(tape: &Tape) -> Self {
         let inputs = tape.inputs();
         let fixed = inputs + tape.constants().len();
@@ -107,7 +108,7 @@ impl Program {
         Self { inputs, constants, steps, outputs }.fused().without_negations()
     }
 
-    /// The steps that read each step's result, in order; one that reads it twice stands there twice.
+    /// Steps that read each step's result, in order; a step that reads it twice occurs twice.
     pub(super) fn reads(&self) -> Vec<Vec<u32>> {
         let mut reads = vec![Vec::new(); self.steps.len()];
         for (index, step) in self.steps.iter().enumerate() {
@@ -120,7 +121,7 @@ impl Program {
         reads
     }
 
-    /// Is each step's result an output?
+    /// Whether each step's result is an output.
     pub(super) fn is_output(&self) -> Vec<bool> {
         let mut is_output = vec![false; self.steps.len()];
         for output in &self.outputs {
@@ -131,7 +132,7 @@ impl Program {
         is_output
     }
 
-    /// Products that are read once, by a sum or a difference, become a part of it.
+    /// Fuses products that are read once, by a sum or a difference, with their reader.
     fn fused(mut self) -> Self {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
@@ -153,7 +154,7 @@ impl Program {
                 _ => None,
             };
             let (of_a, of_b) = (product(a), product(b));
-            // Of two, the later: its factors need not be kept for long.
+            // Of two, the later: its factors are needed for a shorter time.
             let later = of_a.map(|found| found.0) < of_b.map(|found| found.0);
             let (step, sum, [x, y, z]) = match (of_a, of_b) {
                 (_, Some((step, x, y))) if later => {
@@ -172,7 +173,7 @@ impl Program {
         self.without(&absorbed)
     }
 
-    /// A difference that is only read to be negated becomes the opposite difference.
+    /// Replaces a difference that is only read to be negated by the opposite difference.
     fn without_negations(mut self) -> Self {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
@@ -195,7 +196,7 @@ impl Program {
         self.without(&absorbed)
     }
 
-    /// Leaves out steps that nobody reads any more.
+    /// Removes the steps marked, which are no longer read.
     fn without(self, left_out: &[bool]) -> Self {
         let mut place = Vec::with_capacity(left_out.len());
         let mut kept = 0;

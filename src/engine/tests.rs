@@ -1,4 +1,4 @@
-//! All engines against each other, bit for bit, and against the tape's evaluator.
+//! Tests of all engines against each other, bit for bit, and against the tape's evaluator.
 
 use super::*;
 use crate::graph::{Evaluator, Expr, record};
@@ -27,7 +27,7 @@ const CORNERS: [f64; 16] = [
     1e-200,
 ];
 
-/// A sequence of numbers; the same one every time.
+/// Fixed sequence of pseudorandom numbers.
 struct Sequence(u64);
 
 impl Sequence {
@@ -44,7 +44,7 @@ impl Sequence {
     }
 }
 
-/// All ways to run a tape on this machine.
+/// Engines for all ways to run a tape on this machine.
 fn engines(tape: &Tape) -> Vec<Engine> {
     let all = [Vectors::Baseline, Vectors::Avx2, Vectors::Avx512];
     let pairs = all.iter().flat_map(|vectors| {
@@ -54,7 +54,7 @@ fn engines(tape: &Tape) -> Vec<Engine> {
     pairs.collect()
 }
 
-/// Bits of all outputs; every NaN is the same.
+/// Bits of all outputs; every NaN counts as the same.
 fn bits(engine: &Engine, inputs: &[Row], outputs: usize) -> Vec<[u64; LANES]> {
     let mut runner = engine.runner();
     runner.inputs().copy_from_slice(inputs);
@@ -101,7 +101,7 @@ fn every_operation_has_the_bits_of_the_domain() {
         all
     })
     .expect("records");
-    // One by one, so that those that are instructions are machine code; and all in one.
+    // One by one, so that instructions become machine code; and all in one.
     let single = values.iter().map(|value| Tape::new(&graph, &[*value]));
     for (index, tape) in single.chain([Tape::new(&graph, &values)]).enumerate() {
         for turn in 0..CORNERS.len() / 4 {
@@ -125,7 +125,7 @@ fn every_operation_has_the_bits_of_the_domain() {
     }
 }
 
-/// A tape of random operations on a few inputs, with as many live values as asked for.
+/// Tape of random operations on a few inputs, with `live` live values.
 fn random_tape(sequence: &mut Sequence, length: usize, live: usize) -> Tape {
     let (graph, values) = record(5, |x| {
         let mut values: Vec<Expr> = x.to_vec();

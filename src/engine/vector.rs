@@ -1,7 +1,7 @@
-//! Vectors of f64 in registers, one type an instruction set.
+//! Vectors of f64 in registers, one type for each instruction set.
 //!
-//! Arrays do not do: a compiler that meets a block of them in a loop over instructions keeps it in
-//! memory. Measured on an AVX-512 machine: see docs/performance.md.
+//! Arrays are no substitute: a compiler that meets a block of them in a loop over instructions
+//! keeps it in memory. Measured on an AVX-512 machine: see docs/performance.md.
 
 #![allow(unsafe_code, reason = "vector instructions are called after asking for them")]
 
@@ -10,10 +10,10 @@ use std::arch::x86_64::*;
 
 use crate::graph::{Vectors, widest};
 
-/// So many lanes at once; all operations are correctly rounded.
+/// A vector of `LANES` lanes; all operations are correctly rounded.
 pub(super) trait Vector: Copy {
     const LANES: usize;
-    /// The first lanes of a slice that has enough of them.
+    /// Loads the first lanes of a slice, which must have enough of them.
     fn load(from: &[f64]) -> Self;
     fn store(self, to: &mut [f64]);
     fn splat(value: f64) -> Self;
@@ -24,21 +24,21 @@ pub(super) trait Vector: Copy {
     fn neg(self) -> Self;
     fn abs(self) -> Self;
     fn sqrt(self) -> Self;
-    /// `self * b + c`
+    /// Returns `self * b + c`, rounded once.
     fn mul_add(self, b: Self, c: Self) -> Self;
-    /// `self * b - c`
+    /// Returns `self * b - c`, rounded once.
     fn mul_sub(self, b: Self, c: Self) -> Self;
-    /// `c - self * b`
+    /// Returns `c - self * b`, rounded once.
     fn neg_mul_add(self, b: Self, c: Self) -> Self;
 }
 
-/// Work on blocks, compiled for each kind of vector.
+/// Work on blocks, compiled for each type of vector.
 pub(super) trait Work {
-    /// Does it; to be marked `#[inline(always)]`, like all that it calls.
+    /// Runs the work. Mark the implementation, and everything it calls, `#[inline(always)]`.
     fn run<V: Vector>(self);
 }
 
-/// Does the work with these vectors, which the processor must have, or with the baseline's.
+/// Runs work with these vectors, which the processor must have, or with the baseline's.
 pub(super) fn with_vectors(vectors: Vectors, work: impl Work) {
     match vectors {
         #[cfg(target_arch = "x86_64")]
@@ -139,7 +139,7 @@ impl Vector for Pair {
     }
 }
 
-/// One kind of x86-64 registers: each operation is one instruction.
+/// One type of x86-64 registers: each operation is one instruction.
 #[cfg(target_arch = "x86_64")]
 macro_rules! registers {
     ($(#[$doc:meta])* $name:ident($register:ty) $lanes:literal $load:ident $store:ident $splat:ident
@@ -196,7 +196,7 @@ macro_rules! registers {
 
 #[cfg(target_arch = "x86_64")]
 registers! {
-    /// AVX-512F and AVX-512DQ.
+    /// Eight lanes, by AVX-512F and AVX-512DQ.
     Eight(__m512d) 8 _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd
     {
     add(other) = _mm512_add_pd;
@@ -214,7 +214,7 @@ registers! {
 
 #[cfg(target_arch = "x86_64")]
 registers! {
-    /// AVX2 and FMA.
+    /// Four lanes, by AVX2 and FMA.
     Four(__m256d) 4 _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd
     {
     add(other) = _mm256_add_pd;

@@ -1,4 +1,4 @@
-//! The Andoyer-like variables (1.17) of Bizyaev, Borisov, Mamaev (2013), and sections g = g₀.
+//! Andoyer-like variables (1.17) of Bizyaev, Borisov, Mamaev (2013), and the sections g = g₀.
 //!
 //! ```text
 //! ω = (√(G² - L²) sin l, √(G² - L²) cos l, L)
@@ -21,10 +21,10 @@ use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// The state has ω and γ, and nothing else.
+/// Dimension of the state: ω and γ, and nothing else.
 const DIMENSION: usize = 6;
 
-/// Are these variables defined for the model?
+/// Whether these variables are defined for the model.
 pub fn applies(model: &Model) -> bool {
     matches!(model.system, System::Rubber(_)) && model.dimension() == DIMENSION
 }
@@ -43,13 +43,13 @@ fn circular(angle: &Angle) -> (Expr, Expr) {
     }
 }
 
-/// s sin(g - g₀) and s cos(g - g₀).
+/// Returns s sin(g - g₀) and s cos(g - g₀).
 pub fn section_functions(phase: &Phase<'_, Expr>, g0: &Angle) -> [Expr; 2] {
     let state = phase.state();
     let [w1, w2, w3, y1, y2, y3] = [0, 1, 2, 3, 4, 5].map(|k| state[k]);
     let (cos, sin) = circular(g0);
     let across = y1 * w2 - y2 * w1;
-    // A quarter turn needs one of the terms only, and then |ω| > 0 is a mere factor.
+    // A quarter turn needs only one of the terms, and then |ω| > 0 is a mere factor.
     let along = match g0 {
         Angle::QuarterTurns(_) => y3,
         Angle::Radians(_) => (w1 * w1 + w2 * w2 + w3 * w3).sqrt() * y3,
@@ -57,7 +57,7 @@ pub fn section_functions(phase: &Phase<'_, Expr>, g0: &Angle) -> [Expr; 2] {
     [cos * across + sin * along, sin * across - cos * along]
 }
 
-/// g' on the section, from the rate of the section function.
+/// Returns g' on the section, from the rate of the section function.
 pub fn rate(g0: &Angle, state: &[Pair], slope: f64) -> f64 {
     let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
     let s = libm::hypot(x, y);
@@ -68,7 +68,7 @@ pub fn rate(g0: &Angle, state: &[Pair], slope: f64) -> f64 {
     }
 }
 
-/// (l, L/G) of a state, l in [0, 2π).
+/// Returns (l, L/G) of a state, with l in [0, 2π).
 pub fn coordinates(state: &[Pair]) -> [f64; 2] {
     let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
     let l = libm::atan2(x, y);
@@ -77,7 +77,7 @@ pub fn coordinates(state: &[Pair]) -> [f64; 2] {
     [if l < 0.0 { (l + turn).min(turn.next_down()) } else { l }, z / length]
 }
 
-/// The way from one state to another near it in (l, L/G), to the relative accuracy of f64.
+/// Displacement in (l, L/G) from one state to a nearby one, to the relative accuracy of f64.
 pub fn displacement(from: &[Pair], to: &[Pair]) -> [f64; 2] {
     let length = |x: &[Pair]| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
     let (a, b) = (length(from).recip(), length(to).recip());
@@ -86,13 +86,13 @@ pub fn displacement(from: &[Pair], to: &[Pair]) -> [f64; 2] {
     [libm::atan2(turned.hi, along.hi), (to[2] * b - from[2] * a).hi]
 }
 
-/// States of the section, by l, L/G, the energy, and parameters that are loose.
+/// States of the section as functions of l, L/G, the energy, and the loose parameters.
 pub(super) struct Sphere {
     tape: Tape,
 }
 
 impl Sphere {
-    /// The states of a model with g = g₀.
+    /// Records the states of a model with g = g₀.
     pub fn new(
         model: &Model,
         parameters: &[Rational],
@@ -128,7 +128,7 @@ impl Sphere {
         Ok(Self { tape: Tape::new(&graph, &outputs) })
     }
 
-    /// The state over (l, L/G), on the level set up to the rounding of pairs.
+    /// Returns the state over (l, L/G), on the level set up to the rounding of pairs.
     pub fn state(
         &self,
         at: [Pair; 2],
@@ -156,9 +156,9 @@ impl Sphere {
     }
 }
 
-/// States of the section at an energy.
+/// States of the section at a given energy.
 pub struct Chart<'m> {
-    /// The model whose states they are.
+    /// Model that the states belong to.
     pub model: &'m Model,
     parameters: Vec<Rational>,
     sphere: Sphere,
@@ -166,7 +166,7 @@ pub struct Chart<'m> {
 }
 
 impl<'m> Chart<'m> {
-    /// The states with g = g₀ and this energy.
+    /// Prepares the states with g = g₀ and this energy.
     pub fn new(
         model: &'m Model,
         parameters: &[Rational],
@@ -178,19 +178,19 @@ impl<'m> Chart<'m> {
         Ok(Self { model, parameters, sphere, energy })
     }
 
-    /// The state over (l, L/G).
+    /// Returns the state over (l, L/G).
     pub fn start(&self, at: [f64; 2]) -> Result<Start, FlowError> {
         self.start_at(at.map(Pair::from_f64))
     }
 
-    /// The same for a point of more digits.
+    /// Returns the state over a point given in double-double.
     pub fn start_at(&self, at: [Pair; 2]) -> Result<Start, FlowError> {
         let state = self.sphere.state(at, self.energy, &[])?;
         Start::near(self.model, self.parameters.clone(), state)
     }
 }
 
-/// `count` points spread evenly over the sphere: a spiral with the golden angle.
+/// Spreads `count` points evenly over the sphere, along a spiral with the golden angle.
 pub fn spread(count: usize) -> Vec<[f64; 2]> {
     let turn = 2.0 * std::f64::consts::PI;
     let golden = (3.0 - 5f64.sqrt()) / 2.0;

@@ -1,4 +1,4 @@
-//! Is the area form of a claimed density kept by the section map?
+//! Invariance of the area form of a claimed density under the section map.
 //!
 //! The Andoyer variables are canonical on |γ| = 1, (ω,γ) = 0 up to a constant: the volume there is
 //! dL∧dG∧dl∧dg. With z = L/G and E = G²T + U a density ρ gives the area form ρ |g'|/(2T) dl∧dz on a
@@ -17,31 +17,31 @@ use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// At how many starts it is looked at.
+/// Number of starts at which the area form is tested.
 const POINTS: usize = 12;
-/// Errors of the derivative by which a factor has to differ from 1.
+/// Smallest deviation of a factor from 1 that counts, in errors of the derivative.
 const ERRORS: f64 = 10.0;
-/// Distances of the differences, in parts of the widest.
+/// Distances of the finite differences, relative to the widest.
 const SCALES: [f64; 4] = [1.0, 0.25, 0.0625, 0.015625];
-/// Rounding of differences, where their error is estimated as less.
+/// Lower bound on the relative error of a finite difference, due to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What was seen of the area form of one claimed density.
+/// Test of the area form of one claimed density.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AreaForm {
-    /// The name of the claim.
+    /// Name of the claim.
     pub claim: String,
-    /// At how many points.
+    /// Number of points tested.
     pub points: usize,
-    /// The largest |J - 1|, J the factor by which the area grows over one return.
+    /// Largest |J - 1|, where J is the factor by which the area grows over one return.
     pub deviation: f64,
-    /// The error of J there, from two derivatives.
+    /// Error of J there, estimated from two derivatives.
     pub error: f64,
-    /// The first point where it is beyond that error, if there is one.
+    /// First point where the deviation exceeds the error, if any.
     pub broken: Option<[f64; 2]>,
 }
 
-/// The area forms of all densities that a case claims to hold, at some of the starts of a section.
+/// Tests the area forms of all densities that a case claims to hold, at some starts of a section.
 pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>, FlowError> {
     let densities: Vec<_> = case
         .claims
@@ -57,7 +57,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
         return Ok(Vec::new());
     }
     let parameters = fixed_parameters(case, request.seed, request.index)?;
-    // ρ/T, one a density.
+    // ρ/T for each density.
     let (graph, weights) = record(case.model.dimension(), |state| {
         let at = point(&case.model, &parameters, state);
         let (omega, gamma) = state.split_at(3);
@@ -103,7 +103,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
     Ok(seen)
 }
 
-/// The factors of the area forms over one return, with their errors.
+/// Factors of the area forms over one return, with their errors.
 fn factors(map: &SectionMap<'_>, tape: &Tape, at: [f64; 2]) -> Result<Vec<(f64, f64)>, FlowError> {
     let passage = map.passage(at, 1)?;
     let weights = |end: &End| {
@@ -116,7 +116,7 @@ fn factors(map: &SectionMap<'_>, tape: &Tape, at: [f64; 2]) -> Result<Vec<(f64, 
         let [[a, b], [c, d]] = map.derivative(at, 1, scale)?;
         Ok::<_, FlowError>((a * d - b * c).abs())
     };
-    // Truncation shrinks with the distance and rounding grows: two that agree best are right.
+    // Truncation shrinks with the distance and rounding grows: the two that agree best are right.
     let tried = SCALES.iter().map(|scale| determinant(*scale)).collect::<Result<Vec<_>, _>>()?;
     let apart = |pair: &[f64]| (pair[0] / pair[1] - 1.0).abs();
     let best = tried.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(&[1.0, 1.0]);

@@ -21,21 +21,21 @@ use crate::number::pair::Pair;
 /// A number with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// The number.
+    /// Measured value.
     pub value: f64,
-    /// The estimate; never below the rounding of `value`.
+    /// Error estimate; never below the rounding of `value`.
     pub error: f64,
 }
 
 impl Measured {
-    /// What f64 and double-double give: their difference is the error of the first, and the second
-    /// is the value.
+    /// Combines the values in f64 and in double-double: the second is the value, their difference
+    /// the error.
     pub fn twice(float: f64, pair: f64) -> Self {
         Self { value: pair, error: (float - pair).abs().max(f64::EPSILON * pair.abs()) }
     }
 }
 
-/// A closed orbit, followed in two precisions.
+/// A closed orbit computed in f64 and in double-double.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedOrbit {
     float: PeriodicPoint,
@@ -43,13 +43,13 @@ pub struct ClosedOrbit {
 }
 
 impl ClosedOrbit {
-    /// A number of the orbit with its error.
+    /// Measures a number of the orbit, with its error.
     pub fn measure(&self, number: impl Fn(&PeriodicPoint) -> f64) -> Measured {
         Measured::twice(number(&self.float), number(&self.pair))
     }
 
-    /// A number that depends on the kind of the multipliers; `None` where the two precisions do not
-    /// agree on that, or it is another.
+    /// Measures a number that depends on the kind of the multipliers. `None` where the two
+    /// precisions disagree on the kind, or `number` does not apply to it.
     pub fn measure_multipliers(
         &self,
         number: impl Fn(Multipliers) -> Option<f64>,
@@ -58,14 +58,14 @@ impl ClosedOrbit {
         Some(Measured::twice(of(&self.float)?, of(&self.pair)?))
     }
 
-    /// The point, with its numbers in double-double rounded.
+    /// The periodic point, computed in double-double and rounded to f64.
     pub fn point(&self) -> &PeriodicPoint {
         &self.pair
     }
 }
 
 impl SectionMap<'_> {
-    /// The closed orbit through the periodic point near `near`.
+    /// Finds the closed orbit through the periodic point near `near`.
     pub fn closed(&self, near: [f64; 2], period: usize) -> Result<ClosedOrbit, FlowError> {
         let found = self.periodic(near, period)?;
         let none = FlowError::NoPeriodicPoint { l: near[0], z: near[1], period };
@@ -77,7 +77,8 @@ impl SectionMap<'_> {
             let back = self.passage_from::<Pair>(&start, period, Accuracy::PAIR)?;
             let (defect, time) = (displacement(&start.state, &back.arrival.state), back.time);
             let residual = libm::hypot(defect[0], defect[1]);
-            // Steps with a derivative of eight digits gain eight digits, until rounding stops them.
+            // With a derivative of eight digits each step gains eight digits, until rounding stops
+            // them.
             let last = best.as_ref().map_or(f64::INFINITY, |(point, ..)| point.residual);
             if residual.is_nan() || residual > last / 2.0 {
                 break;
@@ -98,7 +99,7 @@ impl SectionMap<'_> {
         Ok(ClosedOrbit { float, pair })
     }
 
-    /// How far f64 and double-double are apart after some crossings.
+    /// Distance between the images in f64 and in double-double after `crossings` crossings.
     pub fn blur(&self, at: [f64; 2], crossings: usize) -> Result<f64, FlowError> {
         let start = self.chart.start(at)?;
         let float = self.passage_from::<f64>(&start, crossings, Accuracy::FLOAT)?.arrival;
@@ -107,7 +108,7 @@ impl SectionMap<'_> {
         Ok(libm::hypot(dl, dz))
     }
 
-    /// λ₁ + λ₂ and λ₁ λ₂ of the closed orbit that starts here and lasts so long.
+    /// λ₁ + λ₂ and λ₁ λ₂ of the closed orbit with this start and this period.
     fn monodromy<T: Number<One = T>>(
         &self,
         start: &Start,

@@ -1,8 +1,9 @@
-//! A program bound to places in memory: what an expansion runs.
+//! A Taylor program bound to memory, as an expansion runs it.
 //!
-//! Each row is kept forwards. The second factor of a product is kept times the coefficient of the product,
-//! and backwards where numbers are added along the order, with zeros behind order 1: a Cauchy product
-//! is then a plain dot product. Order n ≥ 1 of an operation is linear in order n of the rows before it,
+//! Each row is stored forwards. The second factor of a product is stored times the coefficient of
+//! the product, and backwards where numbers are added along the order, with zeros behind order 1: a
+//! Cauchy product is then a plain dot product. Order n ≥ 1 of an operation is linear in order n of
+//! the rows before it,
 //!
 //! ```text
 //! z_n = scale · Σ c x_k y_{n-k} + Σ slope · x_n      (Σ over k from 1 to n - 1)
@@ -15,27 +16,27 @@ use super::number::Number;
 use super::program::{Instruction, Program, Rule};
 use crate::number::rational::Rational;
 
-/// Bytes of a cache line: order 1 of each row stands on its border.
+/// Bytes of a cache line; order 1 of each row is aligned to it.
 pub(super) const LINE: usize = 64;
 
-/// Where order 0 of a row stands.
+/// Index of order 0 of a row in memory.
 pub(super) type Place = u32;
-/// A part of a list.
+/// Range of a list: first index, and one past the last.
 pub(super) type Part = (u32, u32);
 
-/// The entries of a list in a part of it.
+/// Returns the entries of a list in a range.
 #[inline(always)]
 pub(super) fn part<X>(list: &[X], part: Part) -> &[X] {
     &list[part.0 as usize..part.1 as usize]
 }
 
-/// The same to be changed.
+/// Returns the entries of a list in a range, to be changed.
 #[inline(always)]
 pub(super) fn part_mut<X>(list: &mut [X], part: Part) -> &mut [X] {
     &mut list[part.0 as usize..part.1 as usize]
 }
 
-/// The first entries of a list, which goes on with the others.
+/// Splits off the first `count` entries of a list.
 #[inline(always)]
 pub(super) fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
     let (first, others) = list.split_at(count as usize);
@@ -43,44 +44,44 @@ pub(super) fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
     first
 }
 
-/// A program bound to places.
+/// A Taylor program bound to memory.
 pub(super) struct Code<T> {
     pub(super) operations: Vec<Operation<T>>,
-    /// One an operation.
+    /// One entry for each operation.
     pub(super) finishes: Vec<Finish<T>>,
-    /// How many products each operation has that has any.
+    /// Number of products of each operation that has any.
     pub(super) counts: Vec<u32>,
     pub(super) products: Vec<Product>,
     pub(super) factors: Vec<Factor<T>>,
     pub(super) terms: Vec<Term<T>>,
-    /// The terms n x_n, whose slope is the order.
+    /// Indices of the terms n x_n, whose slope is the order n.
     pub(super) thetas: Vec<u32>,
     pub(super) copies: Vec<Copied<T>>,
-    /// How many copies of the state are before those of the operations.
+    /// Number of copies of the state, which precede those of the operations.
     pub(super) of_state: usize,
     pub(super) state: Vec<Component>,
-    /// Where the further functions stand.
+    /// Places of the further functions.
     pub(super) outputs: Vec<Place>,
 }
 
-/// x times c y
+/// Product x · (c y).
 pub(super) struct Product {
     pub(super) x: Place,
     pub(super) cy: Place,
 }
 
-/// c x y as parts of the slopes of x_n and of y_n: terms of a list, c.
+/// Contribution of a product c x y to the slopes of x_n and y_n; `x` and `y` are indices of terms.
 pub(super) struct Factor<T> {
     pub(super) x: u32,
     pub(super) y: u32,
     pub(super) weight: T,
 }
 
-/// slope · x
+/// Product slope · x.
 pub(super) struct Term<T> {
     pub(super) x: Place,
     pub(super) slope: T,
-    /// What does not depend on the values.
+    /// Part of the slope that does not depend on the values.
     pub(super) fixed: T,
 }
 
@@ -94,11 +95,11 @@ pub(super) struct Copied<T> {
 pub(super) struct Component {
     pub(super) place: Place,
     pub(super) rate: Place,
-    /// How many copies are kept of it.
+    /// Number of copies kept of the component.
     pub(super) copies: u32,
 }
 
-/// How order 0 of a row is made.
+/// Computation of order 0 of a row.
 pub(super) struct Operation<T> {
     pub(super) rule: Bound<T>,
     pub(super) constant: T,
@@ -106,29 +107,29 @@ pub(super) struct Operation<T> {
     pub(super) terms: Part,
 }
 
-/// How the orders above 0 of a row are made.
+/// Computation of the orders above 0 of a row.
 pub(super) struct Finish<T> {
     pub(super) scale: T,
     pub(super) order: Order,
-    /// Which inner sum is its own; one that is 0 if it has none.
+    /// Index of the operation's inner sum; without products, of one that is 0.
     pub(super) inner: u32,
-    /// How many terms it has.
+    /// Number of terms of the operation.
     pub(super) terms: u32,
     pub(super) place: Place,
-    /// How many copies are kept of it.
+    /// Number of copies kept of the row.
     pub(super) copies: u32,
 }
 
-/// What the order n does to an operation.
+/// Effect of the order n on an operation.
 #[derive(Clone, Copy)]
 pub(super) enum Order {
-    /// Nothing.
+    /// No effect.
     Free,
-    /// The inner sum is divided by it.
+    /// Division of the inner sum by n.
     Divides,
 }
 
-/// A rule with places in the place of rows.
+/// A rule with rows replaced by their places in memory.
 pub(super) enum Bound<T> {
     Sum,
     Theta,
@@ -142,13 +143,13 @@ pub(super) enum Bound<T> {
     Power { x: Place, exponent: Rational, factor: T },
 }
 
-/// Where rows and their copies stand.
+/// Placement of rows and their copies in memory.
 struct Layout {
     base: usize,
     copy_base: usize,
     stride: usize,
     backwards: bool,
-    /// The row of each copy, and its weight.
+    /// Row and weight of each copy.
     copies: Vec<(Row, Rational)>,
 }
 
@@ -161,7 +162,7 @@ impl Layout {
         (self.copy_base + index * self.stride) as Place
     }
 
-    /// Where weight · row stands as a second factor, if it does.
+    /// Place of weight · row as a second factor, if it is stored.
     fn factor(&self, row: Row, weight: &Rational) -> Option<Place> {
         if !self.backwards && weight.is_one() {
             return Some(self.row(row));
@@ -170,7 +171,7 @@ impl Layout {
         Some(self.copy(index))
     }
 
-    /// c x y as one factor and c times the other, such that few copies are needed.
+    /// Writes c x y as one factor and c times the other, chosen so that few copies are needed.
     fn product(&mut self, weight: &Rational, x: Row, y: Row) -> Product {
         let (x, y) = if self.factor(x, weight).is_some() { (y, x) } else { (x, y) };
         let cy = self.factor(y, weight).unwrap_or_else(|| {
@@ -182,8 +183,8 @@ impl Layout {
 }
 
 impl<T: Number> Code<T> {
-    /// Binds a program to memory that begins so many numbers before the border of a cache line; also gives
-    /// how much memory it needs.
+    /// Binds a program to memory that begins `aligned` numbers before the border of a cache line;
+    /// also returns the length of memory needed.
     pub(super) fn new(program: &Program, order: usize, aligned: usize) -> (Self, usize) {
         let width = T::WIDTH;
         let stride = width + order.next_multiple_of(width);
@@ -217,7 +218,7 @@ impl<T: Number> Code<T> {
         for instruction in &program.instructions {
             code.bind(&layout, instruction);
         }
-        // Those that have no products share an inner sum that stays 0.
+        // Operations without products share an inner sum that stays 0.
         let none = code.counts.len() as u32;
         for (finish, instruction) in code.finishes.iter_mut().zip(&program.instructions) {
             if instruction.form.products.is_empty() {
@@ -286,7 +287,7 @@ impl<T: Number> Code<T> {
         });
     }
 
-    /// The rows of a sum, those made last at the end: they are waited for.
+    /// Binds the rows of a sum, the latest made at the end: they are waited for.
     fn bind_sum(&mut self, layout: &Layout, instruction: &Instruction) -> (Part, Part) {
         let form = &instruction.form;
         let factors = form.products.iter().flat_map(|(_, x, y)| [*x, *y]);

@@ -1,4 +1,5 @@
-//! From a graph to a Taylor program: sums of products are gathered, constants folded exactly.
+//! Compilation of a graph to a Taylor program: gathers sums of products and folds constants
+//! exactly.
 
 use super::error::FlowError;
 use super::form::{Form, Row};
@@ -8,14 +9,14 @@ use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function, Operation};
 
-/// Coefficients are folded as long as they stay below this size.
+/// Size above which coefficients are no longer folded.
 const MAX_COEFFICIENT_BITS: u64 = 1 << 13;
-/// A sum that is read by several others is a row of its own unless it is as short as this.
+/// Largest number of terms of a sum that its readers repeat instead of sharing a row.
 const MAX_REPEATED_TERMS: usize = 1;
 
 impl Program {
-    /// The program of a field: `rates` and `outputs` as functions of the graph's inputs, which are
-    /// the state alone.
+    /// Compiles a field: `rates` and `outputs` as functions of the graph's inputs, which are the
+    /// state alone.
     pub fn compile(graph: &Graph, rates: &[Expr], outputs: &[Expr]) -> Result<Self, FlowError> {
         let dimension = rates.len();
         let wanted: Vec<usize> =
@@ -61,7 +62,7 @@ impl Program {
     }
 }
 
-/// The values of the steps that depend on constants alone, such as √2.
+/// Values of the steps that depend only on constants, such as √2.
 fn constants(graph: &Graph) -> Vec<Option<Pair>> {
     let mut values: Vec<Option<Pair>> = Vec::with_capacity(graph.len());
     for step in graph.steps() {
@@ -88,13 +89,13 @@ fn constants(graph: &Graph) -> Vec<Option<Pair>> {
 struct Compiler {
     uses: Vec<usize>,
     forms: Vec<Option<Form>>,
-    /// Steps that have a row, up to a factor.
+    /// Row of each step that has one, up to a factor.
     rows: Vec<Option<(Rational, Row)>>,
     instructions: Vec<Instruction>,
     next: Row,
-    /// Sine and cosine of an argument are made together.
+    /// Sines and cosines, made together: argument, sine, cosine.
     circular: Vec<(Row, Row, Row)>,
-    /// The row θx of a row x.
+    /// Pairs of a row x and its row θx.
     thetas: Vec<(Row, Row)>,
 }
 
@@ -147,7 +148,7 @@ impl Compiler {
             Step::Power(a, exponent) => {
                 let x = self.row(a);
                 let theta = self.theta(x);
-                // The row itself, and the θ of it that comes after it.
+                // The row itself, and its θ, which comes after it.
                 let (out, own_theta) = (self.next, self.next + 1);
                 let form = Form::of_product(exponent.clone(), theta, out).plus(Form::of_product(
                     Rational::from(-1),
@@ -234,7 +235,7 @@ impl Compiler {
         Form::of_product(&p * &q, x, y)
     }
 
-    /// What a step adds to a sum: its own terms, or the row that holds them.
+    /// Contribution of a step to a sum: its own terms, or the row that holds them.
     fn term(&mut self, place: usize) -> Form {
         if let Some((factor, row)) = &self.rows[place] {
             return Form::of_row(factor.clone(), *row);
@@ -247,7 +248,7 @@ impl Compiler {
         Form::of_row(factor, row)
     }
 
-    /// A step as factor times row.
+    /// A step as a factor times a row.
     fn factor(&mut self, place: usize) -> (Rational, Row) {
         if let Some(known) = &self.rows[place] {
             return known.clone();
@@ -261,7 +262,7 @@ impl Compiler {
         known
     }
 
-    /// A step as a row of its own.
+    /// A step as a separate row, without a factor.
     fn row(&mut self, place: usize) -> Row {
         let (factor, row) = self.factor(place);
         if factor.is_one() {

@@ -1,9 +1,9 @@
-//! Why a motion cannot be computed.
+//! Reasons why a motion cannot be computed.
 
 use crate::graph::Fault;
 use crate::number::Function;
 
-/// Why a motion cannot be computed.
+/// Reason why a motion cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlowError {
     /// The field contains a function that has no Taylor series.
@@ -15,88 +15,88 @@ pub enum FlowError {
     /// The steps become too small, or values are no longer finite.
     #[error("{}", singular(*time, state))]
     Singular {
-        /// When.
+        /// Time of the last state.
         time: f64,
-        /// Where.
+        /// Last state.
         state: Vec<f64>,
     },
-    /// The section has other variables than this system.
+    /// The section uses variables that this system does not have.
     #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
     NoAndoyer,
-    /// A section that the case does not have.
+    /// The case has no section.
     #[error("the case has no [section]")]
     NoSection,
-    /// A motion of a system that is not fixed.
+    /// The system has an arbitrary function, so that no single motion is determined.
     #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
     Arbitrary,
-    /// A point that is not on the sphere.
+    /// The point does not lie on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
     },
-    /// The energy does not reach the potential.
+    /// The energy is not above the potential at the start.
     #[error(
         "over (l, L/G) = ({l:.6}, {z:.6}) the potential is {potential:.6}, at or above the energy {energy}"
     )]
     BelowPotential {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
-        /// U there.
+        /// Potential at the start.
         potential: f64,
-        /// The energy.
+        /// Energy of the section.
         energy: f64,
     },
-    /// The motion does not come back to the section.
+    /// The motion does not return to the section.
     #[error("{}", never_crossed(*time, *crossings, *others))]
     NeverCrossed {
-        /// Until when.
+        /// Time up to which the motion was followed.
         time: f64,
-        /// How often it was met.
+        /// Number of crossings found.
         crossings: usize,
-        /// How often it was crossed in the direction that does not count.
+        /// Number of crossings in the direction that does not count.
         others: usize,
     },
-    /// A claim that the case does not have, or that is about no formula.
+    /// The case has no such claim, or it is not about a formula.
     #[error("the case has no claim `{0}` about a formula")]
     NoSuchClaim(String),
-    /// A one-sided motion does not determine its past.
+    /// A motion under a one-sided constraint does not determine its past.
     #[error("a motion with a one-sided constraint cannot be followed backwards")]
     OneSidedBackwards,
-    /// A start beyond the constraint.
+    /// The start violates the one-sided constraint.
     #[error("the start violates the one-sided constraint: its function is {by:e} there")]
     BehindConstraint {
-        /// r, which should not be negative.
+        /// Value of r, which must not be negative.
         by: f64,
     },
     /// Contact and free motion alternate without end.
     #[error("contact and free motion alternate without end near t = {time}")]
     TooManyPhases {
-        /// When.
+        /// Time near which the phases accumulate.
         time: f64,
     },
     /// Newton's method does not converge.
     #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
     NoPeriodicPoint {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
-        /// How many crossings.
+        /// Period, in crossings of the section.
         period: usize,
     },
-    /// A point without separatrices.
+    /// The point has no separatrices.
     #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
     NotHyperbolic {
-        /// l
+        /// Coordinate l.
         l: f64,
-        /// L/G
+        /// Coordinate L/G.
         z: f64,
-        /// What it is.
+        /// Kind of the periodic point.
         kind: &'static str,
     },
     /// No state on the level set was found.
@@ -129,7 +129,7 @@ fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
 }
 
 impl FlowError {
-    /// What to do about it.
+    /// Advice on how to avoid the error.
     pub fn help(&self) -> &'static str {
         match self {
             FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
@@ -161,7 +161,7 @@ impl FlowError {
         }
     }
 
-    /// The complaint about a function without a Taylor rule.
+    /// The error for a function without a Taylor rule.
     pub(super) fn of_function(function: Function) -> Self {
         match function {
             Function::Abs => FlowError::NotAnalytic("|x|"),

@@ -1,34 +1,34 @@
-//! Events: where a function of the state vanishes within a piece of a motion.
+//! Events: zeros of a function of the state within a piece of a motion.
 //!
 //! The function is known as a polynomial on each piece. Its sign at the ends, and at the extremum
 //! between them if there is one, brackets each root; Newton's method finds it, guarded by bisection.
-//! An extremum whose value is 0 up to rounding is a tangency, and no crossing.
+//! An extremum whose value is 0 up to rounding is a tangency, not a crossing.
 
 use super::number::Number;
 
-/// More than bisection alone would take.
+/// Iteration limit, above the count of bisection alone.
 const MAX_STEPS: usize = 200;
-/// A value below this many roundings of the largest term may as well be 0.
+/// Values below this many roundings of the largest term count as 0.
 const ROUNDINGS: f64 = 256.0;
 
-/// Something that happens to a function within a piece.
+/// A zero of a function within a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event<T> {
-    /// It goes through 0 at this time after the beginning; upwards in time?
+    /// The function changes its sign.
     Crossing {
-        /// When.
+        /// Time after the beginning of the piece.
         after: T,
-        /// Does it grow with time there?
+        /// Whether the function grows with time there.
         rising: bool,
     },
-    /// It touches 0 and turns back.
+    /// The function touches 0 and turns back.
     Tangency {
-        /// When.
+        /// Time after the beginning of the piece.
         after: T,
     },
 }
 
-/// The value of a polynomial and its slope.
+/// Evaluates a polynomial and its derivative.
 pub fn value<T: Number>(polynomial: &[T], at: T) -> (T, T) {
     let (mut sum, mut slope) = (T::ZERO, T::ZERO);
     for coefficient in polynomial.iter().rev() {
@@ -38,13 +38,13 @@ pub fn value<T: Number>(polynomial: &[T], at: T) -> (T, T) {
     (sum, slope)
 }
 
-/// The polynomial of the slope.
+/// Coefficients of the derivative of a polynomial.
 pub fn slope<T: Number>(polynomial: &[T]) -> Vec<T> {
     let terms = polynomial.iter().enumerate().skip(1);
     terms.map(|(n, coefficient)| T::float(n as f64) * *coefficient).collect()
 }
 
-/// The side of 0 on which a function was last seen, from piece to piece.
+/// Side of 0 on which a function was last seen, from piece to piece.
 ///
 /// A piece that ends at a root up to rounding leaves it to the next one, which begins there: the
 /// side that is remembered decides, so that no crossing is missed or counted twice.
@@ -54,12 +54,12 @@ pub struct Sides {
 }
 
 impl Sides {
-    /// A function that is known to come from this side.
+    /// The sides of a function that is known to come from this side.
     pub fn on(positive: bool) -> Self {
         Self { positive: Some(positive) }
     }
 
-    /// What happens between 0 and `length`; not at 0, if that is where the motion starts.
+    /// Finds the events between 0 and `length`, except at 0 if the motion starts there.
     pub fn events<T: Number<One = T>>(&mut self, polynomial: &[T], length: T) -> Vec<Event<T>> {
         if length.leading() == 0.0 {
             return Vec::new();
@@ -89,7 +89,7 @@ fn between<T: Number<One = T>>(
     if begin != end {
         return vec![crossing(root(polynomial, T::ZERO, length, begin), end)];
     }
-    // Between equal signs, the function may only come to 0 where its slope turns.
+    // Between equal signs, the function can reach 0 only where its slope changes sign.
     let rate = slope(polynomial);
     let (first, last) = (value(&rate, T::ZERO).0.leading(), value(&rate, length).0.leading());
     let leaves = ((first > 0.0) == forward) == begin;
@@ -110,8 +110,8 @@ fn between<T: Number<One = T>>(
     ]
 }
 
-/// Which sign it takes just after a beginning at which it vanishes: that of the first term that is not
-/// rounding.
+/// Sign of a function just after a beginning at which it vanishes: that of the first term that is
+/// not rounding.
 fn starts_positive<T: Number>(polynomial: &[T], rounding: f64, length: T) -> bool {
     let mut power = 1.0;
     for coefficient in polynomial {
@@ -124,7 +124,7 @@ fn starts_positive<T: Number>(polynomial: &[T], rounding: f64, length: T) -> boo
     true
 }
 
-/// The largest term of a polynomial on a piece.
+/// Largest term of a polynomial on a piece.
 pub(super) fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
     let mut power = 1.0;
     let mut largest: f64 = 0.0;
@@ -135,7 +135,7 @@ pub(super) fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
     largest
 }
 
-/// The root between `a`, where the sign is `positive`, and `b`, where it is the other.
+/// Finds the root between `a`, where the sign is `positive`, and `b`, where it is the other.
 fn root<T: Number<One = T>>(polynomial: &[T], a: T, b: T, positive: bool) -> T {
     let (mut a, mut b) = (a, b);
     let half = T::float(0.5);
@@ -168,7 +168,7 @@ fn root<T: Number<One = T>>(polynomial: &[T], a: T, b: T, positive: bool) -> T {
 mod tests {
     use super::*;
 
-    /// (τ - r)… for some roots, and no higher terms.
+    /// Coefficients of Π (τ - r) over the given roots, and no higher terms.
     fn with_roots(roots: &[f64]) -> Vec<f64> {
         roots.iter().fold(vec![1.0], |polynomial, root| {
             let mut product = vec![0.0; polynomial.len() + 1];

@@ -1,8 +1,8 @@
-//! One expansion: the coefficients of all rows, order by order, in two phases each.
+//! Expansion of a motion: the coefficients of all rows, order by order, in two phases each.
 //!
 //! The inner sums of all products need lower orders only, and are made first, as dot products; then
-//! each row is finished in turn, from the same order of the rows before it. Where many expansions are asked for,
-//! machine code does the same.
+//! each row is finished in turn, from the same order of the rows before it. Where there are many
+//! expansions, machine code does the same.
 
 use super::code::{Bound, Code, Copied, Order, Place, first, part, part_mut};
 use super::number::{BLOCK, Number};
@@ -10,7 +10,7 @@ use super::series::Series;
 use crate::graph::Work;
 use crate::number::Function;
 
-/// One expansion.
+/// Work of one expansion.
 pub(super) struct Expansion<'s, T: Number>(pub(super) &'s mut Series<T>);
 
 impl<T: Number> Work for Expansion<'_, T> {
@@ -33,7 +33,7 @@ impl<T: Number> Work for Expansion<'_, T> {
 }
 
 impl<T: Number> Series<T> {
-    /// Order 0 of all rows and order 1 of the state, with the slopes.
+    /// Computes order 0 of all rows and order 1 of the state, with the slopes.
     #[inline(always)]
     pub(super) fn begin(&mut self) {
         self.values();
@@ -41,10 +41,10 @@ impl<T: Number> Series<T> {
         self.next_order(0);
     }
 
-    /// Σ c x_k y_{n-k} from k = 1 to n - 1 for each operation; lower orders only.
+    /// Computes Σ c x_k y_{n-k} from k = 1 to n - 1 for each operation, from lower orders only.
     #[inline(always)]
     fn inner_sums(&mut self, n: usize) {
-        // A length that is known when this is compiled makes the loops straight.
+        // A length known at compile time lets the loops be unrolled.
         match (n - 1).next_multiple_of(T::WIDTH) {
             8 if T::WIDTH == 8 => self.inner_sums_of(n, 8),
             16 if T::WIDTH == 8 => self.inner_sums_of(n, 16),
@@ -74,7 +74,7 @@ impl<T: Number> Series<T> {
         }
     }
 
-    /// Order n ≥ 1 of every row.
+    /// Computes order n ≥ 1 of every row.
     #[inline(always)]
     fn finish(&mut self, n: usize) {
         for theta in &self.code.thetas {
@@ -96,7 +96,7 @@ impl<T: Number> Series<T> {
         }
     }
 
-    /// Order n + 1 of the state.
+    /// Computes order n + 1 of the state.
     #[inline(always)]
     fn next_order(&mut self, n: usize) {
         let by_next = self.inverses[n + 1];
@@ -109,7 +109,7 @@ impl<T: Number> Series<T> {
         }
     }
 
-    /// Order 0 of every operation: the functions themselves.
+    /// Computes order 0 of every operation: the functions themselves.
     #[inline(always)]
     fn values(&mut self) {
         let copied = T::copied(self.orders, 0);
@@ -138,17 +138,17 @@ impl<T: Number> Series<T> {
                 Bound::Atan { x, .. } => at(x).apply(Function::Atan),
                 Bound::Power { x, exponent, .. } => at(x).power(exponent),
             };
-            // Order 0 is outside the inner sums: behind order 1 there are zeros.
+            // Order 0 does not enter the inner sums: behind order 1 there are zeros.
             rows.put(finish.place, &[], value);
         }
     }
 }
 
-/// Rows at one order.
+/// View of all rows at one order.
 struct Rows<'m, T> {
     memory: &'m mut [T],
     n: usize,
-    /// How far the order stands behind the place of a copy.
+    /// Distance of the order from the place of a copy.
     copied: usize,
 }
 
@@ -169,7 +169,7 @@ impl<T: Number> Rows<'_, T> {
 }
 
 impl<T: Number> Code<T> {
-    /// The slopes and scales, which are the same at all orders.
+    /// Computes the slopes and scales, which are the same at all orders.
     #[inline(always)]
     fn slopes(&mut self, memory: &[T]) {
         let at = |x: &Place| memory[*x as usize];

@@ -1,11 +1,11 @@
-//! Sums of products with exact coefficients: what one instruction of a program computes.
+//! Sums of products with exact coefficients, the operands of a program's instructions.
 
 use crate::number::rational::Rational;
 
-/// A row of Taylor coefficients, by number.
+/// Index of a row of Taylor coefficients.
 pub type Row = usize;
 
-/// constant + Σ c x + Σ c x y over rows x, y.
+/// A form constant + Σ c x + Σ c x y over rows x, y.
 #[derive(Clone, Debug, Default)]
 pub struct Form {
     pub constant: Option<Rational>,
@@ -22,12 +22,12 @@ impl Form {
         Self { linear: vec![(coefficient, row)], ..Self::default() }
     }
 
-    /// c x y, the rows in the order of their numbers.
+    /// The form c x y, with the rows in increasing order.
     pub fn of_product(coefficient: Rational, a: Row, b: Row) -> Self {
         Self { products: vec![(coefficient, a.min(b), a.max(b))], ..Self::default() }
     }
 
-    /// c x, if it is no more than that.
+    /// Returns c and x if the form is c x.
     pub fn as_row(&self) -> Option<(&Rational, Row)> {
         match (&self.constant, self.linear.as_slice(), self.products.as_slice()) {
             (None, [(coefficient, row)], []) => Some((coefficient, *row)),
@@ -35,7 +35,7 @@ impl Form {
         }
     }
 
-    /// The constant, if it is no more than that.
+    /// Returns the constant if the form has no other terms.
     pub fn as_constant(&self) -> Option<Rational> {
         (self.linear.is_empty() && self.products.is_empty())
             .then(|| self.constant.clone().unwrap_or_else(|| Rational::from(0)))
@@ -70,7 +70,7 @@ impl Form {
         self
     }
 
-    /// How many terms it has.
+    /// Number of terms.
     pub fn len(&self) -> usize {
         usize::from(self.constant.is_some()) + self.linear.len() + self.products.len()
     }

@@ -1,4 +1,4 @@
-//! Several f64 side by side.
+//! Vectors of f64, one lane for each orbit.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -7,7 +7,7 @@ use crate::number::Function;
 use crate::number::pair::{Pair, two_sum};
 use crate::number::rational::Rational;
 
-/// `N` f64 side by side, one orbit a lane.
+/// A vector of `N` f64, one lane for each orbit.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Lanes<const N: usize>(pub [f64; N]);

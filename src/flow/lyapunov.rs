@@ -1,47 +1,47 @@
-//! Lyapunov exponents, the mean divergence and the alignment index of a motion, and its class.
+//! Lyapunov exponents, mean divergence and alignment index of a motion, and its class.
 //!
-//! The time after the first tenth is cut into blocks, whose spread gives the standard error: an
-//! honest one only where a block is longer than the slow drift between regions.
+//! The time after the first tenth is cut into blocks, whose spread gives the standard error. The
+//! error is reliable only where a block is longer than the slow drift between regions.
 
-/// Blocks after the part that is left out.
+/// Number of blocks after the transient.
 const BLOCKS: usize = 10;
-/// The part of the time that is left out, in blocks' ends.
+/// Fraction of the time left out as transient.
 const SKIPPED: f64 = 0.1;
-/// Standard errors by which a mean has to differ from 0.
+/// Smallest deviation of a mean from 0 that counts, in standard errors.
 const ERRORS: f64 = 3.0;
-/// Two unit vectors nearer than that, or than it to opposite, are parallel but for rounding.
+/// Distance below which two unit vectors count as parallel or antiparallel.
 const PARALLEL: f64 = 1e-8;
-/// The logarithm of the largest volume that a bounded motion gains or loses between its ends.
+/// Logarithm of the largest volume that a bounded motion gains or loses between its ends.
 const ENDS: f64 = 10.0;
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The mean over all blocks.
+    /// Mean over all blocks.
     pub mean: f64,
-    /// Its standard error, from their spread.
+    /// Standard error of the mean, from the spread of the blocks.
     pub error: f64,
-    /// The mean over the later half of the blocks.
+    /// Mean over the later half of the blocks.
     pub later: f64,
 }
 
-/// What kind of motion it looks like; the numbers beside it say how sure that is.
+/// Apparent kind of motion; the estimates next to it show how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Character {
-    /// No positive exponent: periodic, quasiperiodic, or drawn to such a motion.
+    /// No positive exponent: periodic, quasiperiodic, or attracted to such a motion.
     Regular,
-    /// A positive exponent, and volume is kept on average.
+    /// A positive exponent; volume is kept on average.
     ConservativeChaos,
-    /// A positive exponent, and a divergence that does not keep one sign.
+    /// A positive exponent; the divergence does not keep one sign.
     DissipativeChaos,
-    /// A positive exponent, and volume grows in time: the attractor of the reversed motion.
+    /// A positive exponent; volume grows in time: the attractor of the reversed motion.
     StrangeRepeller,
-    /// A positive exponent, and volume shrinks in time.
+    /// A positive exponent; volume shrinks in time.
     StrangeAttractor,
 }
 
 impl Character {
-    /// All of them, from order to the furthest from it.
+    /// All classes, in order of distance from regular motion.
     pub const ALL: [Self; 5] = [
         Character::Regular,
         Character::ConservativeChaos,
@@ -50,7 +50,7 @@ impl Character {
         Character::StrangeAttractor,
     ];
 
-    /// Its name in reports.
+    /// Name of the class in reports.
     pub fn name(self) -> &'static str {
         match self {
             Character::Regular => "regular",
@@ -62,32 +62,32 @@ impl Character {
     }
 }
 
-/// How two vectors along the flow come to lie along one line (SALI; Skokos 2001).
+/// Alignment of two tangent vectors carried along the flow (SALI; Skokos 2001).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alignment {
     /// min(|u + w|, |u - w|) of the two unit vectors at the end.
     pub index: f64,
-    /// When they were parallel up to rounding, if they ever were.
+    /// Time since which they have been parallel up to rounding, if they are.
     pub since: Option<f64>,
 }
 
-/// The largest exponent, the mean divergence and the alignment index along a motion.
+/// Largest exponent, mean divergence and alignment index of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponents {
-    /// How long the motion was followed.
+    /// Time for which the motion was followed.
     pub time: f64,
-    /// The largest Lyapunov exponent, in the time of the equations.
+    /// Largest Lyapunov exponent, in the time of the equations.
     pub largest: Estimate,
-    /// The mean of div v along the motion.
+    /// Mean of div v along the motion.
     pub divergence: Estimate,
-    /// How two vectors along the flow align; `None` where one alone was followed.
+    /// Alignment of two tangent vectors; `None` where only one was followed.
     pub alignment: Option<Alignment>,
-    /// What it looks like.
+    /// Apparent kind of motion.
     pub character: Character,
 }
 
 impl Exponents {
-    /// The class of a motion that was followed in both directions of time: chaos is conservative where
+    /// Class of a motion that was followed in both directions of time: chaos is conservative where
     /// volume is kept either way.
     pub fn class(&self, backward: &Exponents) -> Character {
         use Character::{ConservativeChaos, DissipativeChaos, StrangeAttractor};
@@ -110,28 +110,28 @@ impl Exponents {
 }
 
 impl Estimate {
-    /// Does a mean divergence differ from 0, by its error, and by more than the volume that a motion of
-    /// finite length gains or loses at its ends?
+    /// Whether a mean divergence differs from 0 by more than its error, and by more than the volume
+    /// that a motion of finite length gains or loses at its ends.
     fn is_settled(&self, time: f64) -> bool {
         self.mean.abs() > ERRORS * self.error && self.mean.abs() * time.abs() >= ENDS
     }
 }
 
-/// The sums along one motion, from block to block.
+/// Sums along one motion, block by block.
 pub(super) struct Record {
     time: f64,
-    /// The logarithm of how much the vector has grown.
+    /// Logarithm of the growth of the vector so far.
     expanded: f64,
     growth: Vec<f64>,
     volume: Vec<f64>,
     at_last_end: (f64, f64),
     alignment: Option<Alignment>,
-    /// Standard errors by which an exponent has to be positive.
+    /// Smallest exponent that counts as positive, in standard errors.
     errors: f64,
 }
 
 impl Record {
-    /// Of a motion that will be followed for this time.
+    /// An empty record of a motion that will be followed for this time.
     pub fn new(time: f64) -> Self {
         Self {
             time,
@@ -144,8 +144,8 @@ impl Record {
         }
     }
 
-    /// Of a motion that is too short for its blocks to say how far off its exponent is: what grows
-    /// faster than a power of the time is chaos.
+    /// An empty record of a motion too short for its blocks to estimate the error of its exponent:
+    /// growth faster than a power of the time counts as chaos.
     pub fn short(time: f64) -> Self {
         Self { errors: 0.0, ..Self::new(time) }
     }
@@ -154,18 +154,18 @@ impl Record {
         self.time * (1.0 - SKIPPED) / BLOCKS as f64
     }
 
-    /// When the block at hand ends; `None` after the last one.
+    /// Time at which the current block ends; `None` after the last one.
     pub fn end(&self) -> Option<f64> {
         let done = self.growth.len();
         (done <= BLOCKS).then(|| self.time * SKIPPED + self.block() * done as f64)
     }
 
-    /// The vector has this length now, and is made a unit vector.
+    /// Records the length of the vector, which is then normalised.
     pub fn grow(&mut self, length: f64) {
         self.expanded += libm::log(length);
     }
 
-    /// The two unit vectors have this index now.
+    /// Records the alignment index of the two unit vectors at a time.
     pub fn align(&mut self, now: f64, index: f64) {
         let before = self.alignment.and_then(|known| known.since);
         let since = match index < PARALLEL {
@@ -175,7 +175,7 @@ impl Record {
         self.alignment = Some(Alignment { index, since });
     }
 
-    /// A block ends, where ∫ div v is `volume`.
+    /// Ends a block, at which ∫ div v is `volume`.
     pub fn finish_block(&mut self, volume: f64) {
         let (expanded, before) = self.at_last_end;
         self.growth.push((self.expanded - expanded) / self.block().abs());
@@ -183,7 +183,7 @@ impl Record {
         self.at_last_end = (self.expanded, volume);
     }
 
-    /// What it comes to.
+    /// Evaluates the sums.
     pub fn exponents(&self) -> Exponents {
         let (largest, divergence) = (estimate(&self.growth[1..]), estimate(&self.volume[1..]));
         let (time, alignment) = (self.time, self.alignment);
@@ -191,13 +191,14 @@ impl Record {
         Exponents { time, largest, divergence, alignment, character }
     }
 
-    /// An exponent counts as positive when it is so by its error, also in the later half alone, beyond
-    /// (ln t)/t, which a regular motion shows, and if vectors came to be as parallel as it lets expect.
+    /// Classifies the motion. An exponent counts as positive when it exceeds its error, also in the
+    /// later half alone, and (ln t)/t, which a regular motion shows, and if the vectors became as
+    /// parallel as it predicts.
     fn character(&self, largest: Estimate, divergence: Estimate) -> Character {
         let time = self.time.abs();
         let regular = libm::log(time.max(std::f64::consts::E)) / time;
         let least = (self.errors * largest.error).max(regular);
-        // They align like e^(-λt), where the second exponent is 0.
+        // The vectors align like e^(-λt), where the second exponent is 0.
         let expected = libm::exp(-largest.mean * time / 2.0).max(PARALLEL);
         let is_aligned = self.alignment.is_none_or(|found| found.index <= expected);
         if largest.mean <= least || largest.later <= least || !is_aligned {

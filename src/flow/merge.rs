@@ -1,9 +1,9 @@
-//! Steps of a rolling body's field that are proportional on the level set are one step.
+//! Merging of the steps of a rolling body's field that are proportional on the level set.
 //!
-//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are seen modulo a prime at a few
-//! states of the level, and their factors computed exactly at one of them. The level itself stays an
-//! integral near it, whatever is put for r, Ĩ and the torques: γ' is across γ, and the multiplier keeps
-//! (ω,γ).
+//! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are found modulo a prime at a
+//! few states of the level, and their factors computed exactly at one of them. The level functions
+//! stay integrals near the level for any values of r, Ĩ and the torques: γ' is orthogonal to γ, and
+//! the multiplier keeps (ω,γ).
 
 use std::cell::RefCell;
 
@@ -15,16 +15,16 @@ use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
 use crate::number::{Domain, Function, Operation};
 
-/// At how many states relations are seen.
+/// Number of states at which relations are tested.
 const STATES: usize = 5;
-/// 2⁶¹ - 1: steps that are not proportional look so once in 10¹⁸ pairs.
+/// 2⁶¹ - 1: steps that are not proportional appear so once in 10¹⁸ pairs.
 const PRIME: u64 = (1 << 61) - 1;
-/// Exact values larger than that are not looked at.
+/// Size above which exact values are dropped, in bits.
 const MAX_BITS: u64 = 4096;
-/// Factors larger than that are coincidences of constants, and bring nothing.
+/// Size above which factors are coincidences of constants and useless, in bits.
 const MAX_FACTOR_BITS: u64 = 256;
 
-/// The same values over a graph in which steps that are proportional on the level are one.
+/// Rewrites values over a graph in which steps that are proportional on the level are one.
 pub fn merged(
     model: &Model,
     graph: &Graph,
@@ -66,7 +66,7 @@ pub fn merged(
     Ok(graph.rebuilt(wanted, &members, Choice::First)?)
 }
 
-/// A step with its values modulo the prime at all states.
+/// Step with its values modulo the prime at all states.
 struct Seen {
     place: usize,
     residues: [u64; STATES],
@@ -82,8 +82,8 @@ impl Seen {
     }
 }
 
-/// The values of a step modulo the prime; `None` where one is undefined, or no number of the field.
-/// A root is one of a constant: others are not looked at.
+/// Values of a step modulo the prime. `None` where one is undefined or not in the field. Only roots
+/// of constants are handled.
 fn residues(
     step: Step<'_>,
     earlier: &[Option<Seen>],
@@ -127,16 +127,16 @@ fn residues(
     }
 }
 
-/// Exact values of steps at the first state, where they are asked for.
+/// Exact values of steps at the first state, computed on demand.
 struct FirstState<'g> {
     graph: &'g Graph,
     state: &'g [Rational],
-    /// `Some(None)` where one is irrational, undefined or too large.
+    /// `Some(None)` where a value is irrational, undefined or too large.
     values: Vec<Option<Option<Rational>>>,
 }
 
 impl FirstState<'_> {
-    /// The value of a step, computed with all that it needs.
+    /// Computes the value of a step, with all that it needs.
     fn at(&mut self, place: usize) -> Option<Rational> {
         let mut needed = vec![false; place + 1];
         needed[place] = true;
@@ -159,7 +159,7 @@ impl FirstState<'_> {
         match step {
             Step::Constant(value) => out = Some(value.clone()),
             Step::Input(input) => out = self.state.get(input).cloned(),
-            // What is not rational is not looked at.
+            // Irrational values are dropped.
             Step::Unary(function @ (Function::Neg | Function::Recip | Function::Sqrt), a) => {
                 Exact.unary(function, &argument(a), &mut out);
             }

@@ -4,9 +4,9 @@
 //! case, start ─ record ─▶ graph of the field ─ compile ─▶ Program ─ expand at a state ─▶ Series ─ step ─▶ trajectory
 //! ```
 //!
-//! A program says how the coefficients of order n of every intermediate result follow from those
-//! of lower orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or
-//! over double-double.
+//! A program gives the coefficients of order n of every intermediate result from those of lower
+//! orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or over
+//! double-double.
 
 mod andoyer;
 mod area;

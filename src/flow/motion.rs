@@ -8,7 +8,7 @@ use crate::mechanics::{Model, Phase};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// A point over exprs whose parameters are exact constants.
+/// Point over recorded scalars whose parameters are exact constants.
 pub(super) fn point<'m>(
     model: &'m Model,
     parameters: &[Rational],
@@ -17,19 +17,19 @@ pub(super) fn point<'m>(
     Phase::new(model, &filled(parameters, &[], &[]), state)
 }
 
-/// A component of the free parameters that differs from motion to motion: centre + half x, where x is
+/// Component of the free parameters that differs from motion to motion: centre + half x, with x
 /// between -1 and 1.
 #[derive(Clone, Debug)]
 pub(super) struct Loose {
-    /// Which component.
+    /// Index of the component.
     pub component: usize,
-    /// The middle of its range.
+    /// Midpoint of its range.
     pub centre: Rational,
     /// Half the length of its range.
     pub half: Rational,
 }
 
-/// The parameters, those that are loose by their inputs x.
+/// Returns the parameters, with loose ones replaced by functions of their inputs x.
 pub(super) fn filled(parameters: &[Rational], loose: &[Loose], inputs: &[Expr]) -> Vec<Expr> {
     let mut filled: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
     for (one, x) in loose.iter().zip(inputs) {
@@ -38,8 +38,8 @@ pub(super) fn filled(parameters: &[Rational], loose: &[Loose], inputs: &[Expr]) 
     filled
 }
 
-/// The program of a case's field with these values of its free parameters, and of further
-/// functions of the state beside it.
+/// Compiles a case's field with these values of its free parameters, and further functions of the
+/// state.
 pub fn program(
     model: &Model,
     parameters: &[Rational],
@@ -48,8 +48,8 @@ pub fn program(
     extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
 }
 
-/// The program of a field in the state and some more variables: `build` is given a point and those
-/// variables, and gives the rates of all, and further functions.
+/// Compiles a field in the state and `more` further variables. `build` receives a point and those
+/// variables, and returns the rates of all, and further functions.
 pub(super) fn extended_program(
     model: &Model,
     parameters: &[Rational],

@@ -1,4 +1,4 @@
-//! What Taylor coefficients are made of: f64, several f64 side by side, or double-double.
+//! Numbers of Taylor coefficients: f64, vectors of f64, or double-double.
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -21,72 +21,73 @@ pub trait Number:
     + Mul<Output = Self>
     + Neg<Output = Self>
 {
-    /// One lane of it.
+    /// Type of one lane.
     type One: Number<One = Self::One>;
-    /// 0
+    /// The number 0.
     const ZERO: Self;
-    /// 1
+    /// The number 1.
     const ONE: Self;
-    /// How many orbits are side by side.
+    /// Number of orbits carried in one number.
     const LANES: usize;
-    /// How many coefficients a dot product takes at once; rows are padded to multiples of it.
+    /// Number of coefficients that a dot product takes at once; rows are padded to multiples of it.
     const WIDTH: usize;
-    /// The spacing of numbers at 1.
+    /// Spacing of numbers at 1.
     const EPSILON: f64;
-    /// A dot product before its parts are added up.
+    /// Dot product before its parts are added up.
     type Partial: Copy;
 
-    /// An exact constant, rounded once.
+    /// Rounds an exact constant once.
     fn rational(value: &Rational) -> Self;
-    /// One number a lane.
+    /// Builds a number lane by lane.
     fn from_lanes(value: impl Fn(usize) -> Self::One) -> Self;
-    /// One lane.
+    /// Returns one lane.
     fn lane(self, lane: usize) -> Self::One;
-    /// An f64 in all lanes.
+    /// Copies an f64 to all lanes.
     fn float(value: f64) -> Self;
-    /// The leading part of the first lane.
+    /// Leading part of the first lane.
     fn leading(self) -> f64;
-    /// The first lane as a pair.
+    /// First lane as a pair.
     fn pair(self) -> Pair;
-    /// A pair in all lanes, and what rounding leaves of it.
+    /// Splits a pair into a number in all lanes and the rounding remainder.
     fn split(value: Pair) -> (Self, Self);
-    /// self + x y, to be settled after the last term.
+    /// Returns self + x y, to be settled after the last term.
     fn fused(self, x: Self, y: Self) -> Self;
-    /// A sum that is complete.
+    /// Normalises a sum after its last term.
     #[inline(always)]
     fn settled(self) -> Self {
         self
     }
-    /// 1/x
+    /// Returns 1/x.
     fn recip(self) -> Self;
-    /// f(x)
+    /// Returns f(x).
     fn apply(self, function: Function) -> Self;
-    /// x^q
+    /// Returns x^q.
     fn power(self, exponent: &Rational) -> Self;
     /// Adds an increment to a compensated sum hi + lo.
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
 
-    /// All orders of an expansion by machine code; no where there is none for such numbers.
+    /// Computes all orders of an expansion by machine code. Returns `false` where there is none for
+    /// such numbers.
     #[inline(always)]
     fn by_machine(_: &mut Series<Self>) -> bool {
         false
     }
 
-    /// No products yet.
+    /// An empty sum of products.
     fn nothing() -> Self::Partial;
-    /// How far order n of a copy stands behind its place.
+    /// Offset of order n of a copy from its place.
     #[inline(always)]
     fn copied(orders: usize, n: usize) -> usize {
         if Self::WIDTH > 1 { orders - n } else { n }
     }
-    /// sum + Σ x_k y_k; both have the same length, a multiple of `WIDTH`; y is in the opposite order where
-    /// `WIDTH` is 1.
+    /// Returns sum + Σ x_k y_k. Both have the same length, a multiple of `WIDTH`; y is in the
+    /// opposite order where `WIDTH` is 1.
     fn dot(sum: Self::Partial, x: &[Self], y: &[Self]) -> Self::Partial;
-    /// The sums of all parts, of several products at once.
+    /// Adds the parts of several dot products at once.
     fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
 }
 
-/// A function of an f64, by the platform-independent implementation that tapes use.
+/// Applies a function to an f64, by the platform-independent implementation that tapes use.
 #[inline(always)]
 pub(super) fn applied(function: Function, x: f64) -> f64 {
     let mut out = [0.0];
@@ -100,9 +101,9 @@ pub(super) fn powered(x: f64, exponent: &Rational) -> f64 {
     out[0]
 }
 
-/// Lanes in which dot products along the order are taken.
+/// Number of lanes of a dot product along the order.
 const WIDTH: usize = 8;
-/// How many of them are finished at once.
+/// Number of dot products finished at once.
 pub(super) const BLOCK: usize = 8;
 
 impl Number for f64 {
@@ -184,7 +185,7 @@ impl Number for f64 {
     }
 }
 
-/// Each run of 2H numbers folded in the middle: those of a, then those of b.
+/// Folds each run of 2H numbers in the middle: those of a, then those of b.
 #[inline(always)]
 fn folded<const H: usize>(a: &[f64; WIDTH], b: &[f64; WIDTH]) -> [f64; WIDTH] {
     let (mut near, mut far) = ([0.0; WIDTH], [0.0; WIDTH]);
@@ -233,7 +234,8 @@ impl Number for Pair {
     }
     #[inline(always)]
     fn fused(self, x: Pair, y: Pair) -> Pair {
-        // The rounding errors of products and sums are added up behind them (Ogita, Rump, Oishi 2005).
+        // The rounding errors of products and sums are added up in the low part (Ogita, Rump, Oishi
+        // 2005).
         let (product, error) = two_product(x.hi, y.hi);
         let (hi, rest) = two_sum(self.hi, product);
         let cross = x.hi.mul_add(y.lo, x.lo.mul_add(y.hi, error));
@@ -290,7 +292,7 @@ impl Number for Pair {
     }
 }
 
-/// Sums in double-double side by side, not settled.
+/// Sums in double-double, one in each lane, not normalised.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct PairLanes {

@@ -1,9 +1,9 @@
 //! Motion under a one-sided constraint r(x) ≥ 0: free phases and phases of contact.
 //!
-//! The motion is free while r > 0. It comes into contact where r falls through 0, and then obeys the
-//! field of contact, which keeps r = 0, as long as the reaction λ is not negative; where λ falls
-//! through 0 it is free again. A motion that has left grazes r = 0 again: a minimum of r that is 0 up
-//! to rounding is told, and no contact.
+//! The motion is free while r > 0. It comes into contact where r falls through 0, and then obeys
+//! the field of contact, which keeps r = 0, as long as the reaction λ is not negative; where λ
+//! falls through 0 it is free again. A minimum of r that is 0 up to rounding is reported as
+//! grazing, not as contact.
 
 use super::error::FlowError;
 use super::event::{Event, Sides, size, slope, value};
@@ -17,38 +17,38 @@ use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Model, System};
 use crate::number::pair::Pair;
 
-/// A minimum of r counts as contact below this many roundings of the largest term of r.
+/// Roundings of the largest term of r below which a minimum counts as 0.
 const ROUNDINGS: f64 = 4096.0;
-/// More phases than any motion of interest has.
+/// Limit on the number of phases, above that of any motion of interest.
 const MAX_PHASES: usize = 100_000;
 
-/// What happens at the constraint.
+/// Kind of event at the constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
     /// The motion arrives, and stays.
     Arrives,
-    /// The reaction vanishes, and the motion is free again.
+    /// The reaction vanishes, and the motion becomes free.
     Leaves,
     /// The constraint is touched in passing.
     Grazes,
 }
 
-/// Something that happens at the constraint.
+/// An event at the constraint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactEvent {
-    /// What.
+    /// Kind of the event.
     pub kind: Contact,
-    /// When.
+    /// Time of the event.
     pub time: Pair,
-    /// Where.
+    /// State at the event.
     pub state: Vec<Pair>,
 }
 
-/// Both fields with the function that ends each phase.
+/// Both fields, each with the function that ends its phase.
 struct Phases {
-    /// The free field, with r and r' beside it.
+    /// Free field, with r, r' and λ as further functions.
     free: Program,
-    /// The field of contact, with λ beside it.
+    /// Field of contact, with λ as a further function.
     contact: Program,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct OneSidedMotion {
     pub events: Vec<ContactEvent>,
 }
 
-/// Follows a motion from a start with r ≥ 0; `look` is shown the state after each step.
+/// Follows a motion from a start with r ≥ 0; `look` receives the state after each step.
 pub(super) fn follow<T: Number<One = T>>(
     case: &Case,
     rule: &OneSided,
@@ -120,7 +120,8 @@ struct Walk<T: Number> {
 }
 
 impl<T: Number<One = T>> Walk<T> {
-    /// r > 0: free. r = 0: in contact if r would fall, or if it would not move and λ > 0.
+    /// Whether the motion begins in contact: r = 0, and r would fall, or would not move while λ >
+    /// 0.
     fn begins_in_contact(&mut self) -> Result<bool, FlowError> {
         self.free.start(0, &self.state, self.until);
         self.free.expand();
@@ -139,7 +140,7 @@ impl<T: Number<One = T>> Walk<T> {
         }
     }
 
-    /// A free phase; does the motion end in it?
+    /// Follows a free phase. Returns whether the motion ends in it.
     fn fly(&mut self, look: &mut dyn FnMut(Pair, &[Pair])) -> Result<bool, FlowError> {
         self.free.start(0, &self.state, self.until - self.now);
         let mut sides = Sides::on(true);
@@ -158,7 +159,7 @@ impl<T: Number<One = T>> Walk<T> {
                     true => Contact::Arrives,
                     false => Contact::Grazes,
                 };
-                // The tangency at which a free phase begins is no event.
+                // The tangency at which a free phase begins is not an event.
                 let begins =
                     self.free.steps(0) == 0 && after.leading() < 1e-3 * piece.length().leading();
                 if kind == Contact::Grazes && begins {
@@ -184,7 +185,7 @@ impl<T: Number<One = T>> Walk<T> {
         }
     }
 
-    /// A phase of contact; does the motion end in it?
+    /// Follows a phase of contact. Returns whether the motion ends in it.
     fn touch(&mut self, look: &mut dyn FnMut(Pair, &[Pair])) -> Result<bool, FlowError> {
         self.contact.start(0, &self.state, self.until - self.now);
         let mut sides = Sides::on(true);
@@ -214,8 +215,8 @@ impl<T: Number<One = T>> Walk<T> {
     }
 }
 
-/// Does the function fall below 0 behind this root by more than rounding? With slope s and curvature
-/// c its minimum is -s²/2c.
+/// Whether the function falls below 0 behind this root by more than rounding. With slope s and
+/// curvature c its minimum is -s²/2c.
 fn is_deep<T: Number>(polynomial: &[T], root: T, length: T) -> bool {
     let rate = slope(polynomial);
     let (fall, curvature) = value(&rate, root);

@@ -1,4 +1,4 @@
-//! One motion from start to end, and how far what should be constant drifts.
+//! A single motion from start to end, and the drift of quantities that should be constant.
 
 use super::error::FlowError;
 use super::motion::{point, program};
@@ -16,65 +16,65 @@ use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// At how many times the drift is looked at.
+/// Number of times at which the drift is measured.
 const LOOKS: u32 = 256;
 
-/// The arithmetic that a motion is computed in.
+/// Arithmetic in which a motion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
     /// f64 with compensated sums.
     Float,
-    /// Double-double: some 32 digits.
+    /// Double-double: about 32 digits.
     Pair,
 }
 
-/// Why a quantity is followed.
+/// Role of a followed quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A function that defines the level set.
     Level,
     /// The energy.
     Energy,
-    /// A claimed integral.
+    /// An integral that is claimed.
     Integral,
-    /// A formula that is no integral: it has to drift.
+    /// A formula that is not an integral and has to drift.
     Decoy,
 }
 
 /// A function of the state along a motion.
 #[derive(Clone, Debug)]
 pub struct Followed {
-    /// Its name.
+    /// Name of the quantity.
     pub name: String,
-    /// Why it is followed.
+    /// Role of the quantity.
     pub role: Role,
-    /// Its components at the start.
+    /// Components at the start.
     pub value: Vec<Pair>,
-    /// The largest |F(t) - F(0)|/|F(0)| at the times looked at; |F(t) - F(0)| where f64 does not tell
-    /// F(0) from 0.
+    /// Largest |F(t) - F(0)|/|F(0)| at the times sampled; |F(t) - F(0)| where f64 cannot
+    /// distinguish F(0) from 0.
     pub drift: f64,
-    /// The same at the end.
+    /// The same quotient at the end.
     pub drift_at_end: f64,
-    /// What the drift is divided by.
+    /// Divisor of the drift.
     scale: f64,
 }
 
-/// One motion.
+/// A computed motion.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    /// Where it starts.
+    /// Initial state.
     pub start: Start,
-    /// How long it lasts.
+    /// Duration.
     pub time: Pair,
-    /// The state at the end.
+    /// Final state.
     pub end: Vec<Pair>,
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
-    /// The order of the series.
+    /// Order of the series.
     pub order: usize,
-    /// What was followed.
+    /// Quantities followed along the motion.
     pub followed: Vec<Followed>,
-    /// What happened at a one-sided constraint.
+    /// Events at a one-sided constraint.
     pub events: Vec<ContactEvent>,
 }
 
@@ -129,18 +129,18 @@ fn orbit_over<T: Number<One = T>>(
     Ok(Orbit { start, time, end, steps, order, followed: watch.followed, events })
 }
 
-/// The quantities that are followed, on a tape.
+/// Followed quantities, recorded on a tape.
 struct Watch {
     tape: Tape,
     followed: Vec<Followed>,
 }
 
-/// What a followed quantity is computed from.
+/// Origin of a followed quantity.
 enum Source<'c> {
     Level(&'c LevelFunction),
     Energy,
     Formula(&'c Formula),
-    /// Σ k x_k over the components of the state
+    /// Σ k x_k over the components of the state.
     Sum,
 }
 
@@ -195,7 +195,7 @@ impl Watch {
             let change = norm(own.iter().zip(&followed.value).map(|(x, y)| (*x - *y).hi));
             let drift = change / followed.scale;
             followed.drift_at_end = drift;
-            // A drift that is undefined is worse than any other.
+            // An undefined drift is worse than any other.
             followed.drift = if drift.is_nan() { drift } else { followed.drift.max(drift) };
         }
     }
@@ -205,7 +205,7 @@ fn norm(parts: impl Iterator<Item = f64>) -> f64 {
     parts.map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The components of a formula at a state.
+/// Evaluates the components of a formula at a state.
 pub fn value_at(
     model: &Model,
     formula: &Formula,
@@ -224,7 +224,7 @@ fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
     evaluator.outputs().copied().collect()
 }
 
-/// The relative change of the energy from a start to another state; 0 where there is no energy.
+/// Relative change of the energy from a start to another state; 0 for a system without energy.
 pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result<f64, FlowError> {
     let (graph, energy) = record(model.dimension(), |state| {
         Source::Energy.values(&point(model, &start.parameters, state))
@@ -235,7 +235,7 @@ pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result
     Ok((*end - *begin).hi.abs() / begin.hi.abs())
 }
 
-/// The level functions, the energy, the claimed integrals, and formulas that have to drift.
+/// Lists the level functions, the energy, the claimed integrals, and formulas that have to drift.
 fn sources(case: &Case) -> Vec<(String, Role, Source<'_>)> {
     let model = &case.model;
     let level = model.level.iter();

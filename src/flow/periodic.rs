@@ -14,53 +14,53 @@ use crate::case::{Angle, Case};
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 
-/// Newton's method converges in far fewer from a point that is near.
+/// Iteration limit; Newton's method converges in far fewer from a nearby point.
 const MAX_STEPS: usize = 40;
-/// A return that takes more steps than that is none.
+/// Number of steps after which a motion counts as never returning.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
-/// Far later than any return.
+/// Time limit, far later than any return.
 const NEVER: f64 = 1e15;
-/// Half the distance of central differences: errors of order four are taken out by a second one.
+/// Half the distance of central differences; a second difference removes errors of order four.
 const DISTANCE: f64 = 1e-3;
-/// Residuals below this are rounding.
+/// Residual below which only rounding is left.
 const RESIDUAL: f64 = 1e-12;
 
 /// A periodic point of the section map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodicPoint {
-    /// l and L/G.
+    /// Position: l and L/G.
     pub at: [f64; 2],
-    /// After how many crossings it comes back.
+    /// Number of crossings after which it returns.
     pub period: usize,
-    /// After what time.
+    /// Time after which it returns.
     pub time: f64,
-    /// How far from itself it comes back.
+    /// Distance between the point and its image.
     pub residual: f64,
-    /// The derivative of the map there, row by row.
+    /// Derivative of the map there, row by row.
     pub derivative: [[f64; 2]; 2],
-    /// Its trace, the sum of the multipliers.
+    /// Trace of the derivative, the sum of the multipliers.
     pub trace: f64,
-    /// Its determinant, the product of the multipliers: 1 where an area is kept, and for symmetric
-    /// points.
+    /// Determinant of the derivative, the product of the multipliers: 1 where an area is kept, and
+    /// for symmetric points.
     pub determinant: f64,
 }
 
-/// The eigenvalues of the derivative of the map.
+/// Eigenvalues of the derivative of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Multipliers {
-    /// r e^(±iφ)
+    /// A complex pair r e^(±iφ).
     Complex {
-        /// r
+        /// Modulus r.
         modulus: f64,
-        /// φ in (0, π)
+        /// Argument φ in (0, π).
         argument: f64,
     },
-    /// Two real ones, the larger modulus first.
+    /// Two real multipliers, the larger modulus first.
     Real(f64, f64),
 }
 
 impl PeriodicPoint {
-    /// The roots of λ² - trace λ + determinant.
+    /// Roots of λ² - trace λ + determinant.
     pub fn multipliers(&self) -> Multipliers {
         let half = self.trace / 2.0;
         let square = half * half - self.determinant;
@@ -72,17 +72,17 @@ impl PeriodicPoint {
         Multipliers::Real(larger, self.determinant / larger)
     }
 
-    /// The unit vector that the derivative multiplies by a real multiplier.
+    /// Unit eigenvector of the derivative for a real multiplier.
     pub fn direction(&self, multiplier: f64) -> [f64; 2] {
         let [[a, b], [c, d]] = self.derivative;
-        // Across a row of the derivative less the multiplier: the longer one is the safer.
+        // Orthogonal to a row of the derivative less the multiplier: the longer one is safer.
         let (first, second) = ([b, multiplier - a], [multiplier - d, c]);
         let length = |[x, y]: [f64; 2]| libm::hypot(x, y);
         let vector = if length(first) >= length(second) { first } else { second };
         vector.map(|x| x / length(vector))
     }
 
-    /// What kind of point it is.
+    /// Kind of the point, in words.
     pub fn kind(&self) -> &'static str {
         // Beyond the error of the derivative.
         let near_one = |modulus: f64| (modulus - 1.0).abs() < 1e-6;
@@ -98,22 +98,22 @@ impl PeriodicPoint {
     }
 }
 
-/// A point of a motion on the section.
+/// State of a motion on the section, with the rate of g.
 #[derive(Clone, Debug)]
 pub(super) struct End {
     pub state: Vec<Pair>,
-    /// g'
+    /// Rate g'.
     pub rate: f64,
 }
 
-/// A motion from the section back to it.
+/// Motion from the section back to it.
 pub(super) struct Passage {
     pub departure: End,
     pub arrival: End,
     pub time: Pair,
 }
 
-/// The map from the section g = g₀ to itself, crossings in both directions.
+/// Map from the section g = g₀ to itself, over crossings in both directions.
 pub struct SectionMap<'c> {
     g0: Angle,
     pub(super) chart: Chart<'c>,
@@ -121,7 +121,7 @@ pub struct SectionMap<'c> {
 }
 
 impl<'c> SectionMap<'c> {
-    /// The map of a case at an energy.
+    /// Prepares the section map of a case at an energy.
     pub fn new(
         case: &'c Case,
         g0: &Angle,
@@ -138,19 +138,19 @@ impl<'c> SectionMap<'c> {
         Ok(Self { chart: Chart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
     }
 
-    /// Where a point is after some crossings, and when.
+    /// Returns the image of a point after some crossings, and the time.
     pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
         let ends = self.passage(at, crossings)?;
         Ok((coordinates(&ends.arrival.state), ends.time.hi))
     }
 
-    /// How a motion leaves the section, and how it comes back after some crossings.
+    /// Follows a motion from the section back to it after some crossings.
     pub(super) fn passage(&self, at: [f64; 2], crossings: usize) -> Result<Passage, FlowError> {
         let start = self.chart.start(at)?;
         self.passage_from::<f64>(&start, crossings, Accuracy::FLOAT)
     }
 
-    /// The same from a state, in any precision.
+    /// Follows a motion from a state back to the section, in any precision.
     pub(super) fn passage_from<T: Number<One = T>>(
         &self,
         start: &Start,
@@ -188,14 +188,14 @@ impl<'c> SectionMap<'c> {
         Err(FlowError::NeverCrossed { time: stepper.time(0).hi, crossings: met, others: 0 })
     }
 
-    /// Φⁿ(x) - x, the angle taken the short way.
+    /// Returns Φⁿ(x) - x, the angle taken the short way, and the time.
     fn defect(&self, at: [f64; 2], period: usize) -> Result<([f64; 2], f64), FlowError> {
         let (image, time) = self.image(at, period)?;
         Ok(([short(image[0] - at[0]), image[1] - at[1]], time))
     }
 
-    /// The derivative of Φⁿ, row by row: central differences at two distances, extrapolated. `scale`
-    /// shrinks both.
+    /// Returns the derivative of Φⁿ, row by row: central differences at two distances,
+    /// extrapolated. `scale` shrinks both.
     pub(super) fn derivative(
         &self,
         at: [f64; 2],
@@ -225,7 +225,7 @@ impl<'c> SectionMap<'c> {
         Ok([[a, b], [c, d]])
     }
 
-    /// The periodic point near `near`.
+    /// Finds the periodic point near `near`.
     pub fn periodic(&self, near: [f64; 2], period: usize) -> Result<PeriodicPoint, FlowError> {
         let mut at = near;
         let mut best = f64::INFINITY;
@@ -258,14 +258,14 @@ impl<'c> SectionMap<'c> {
     }
 }
 
-/// (Φ' - E) step = -defect, Φ' row by row.
+/// Solves (Φ' - E) step = -defect, with Φ' row by row.
 pub(super) fn newton_step([[a, b], [c, d]]: [[f64; 2]; 2], [dl, dz]: [f64; 2]) -> [f64; 2] {
     let (p, s) = (a - 1.0, d - 1.0);
     let determinant = p * s - b * c;
     [-(s * dl - b * dz) / determinant, -(p * dz - c * dl) / determinant]
 }
 
-/// An angle difference between -π and π.
+/// Reduces an angle difference to the interval from -π to π.
 fn short(angle: f64) -> f64 {
     angle - 2.0 * PI * (angle / (2.0 * PI)).round()
 }

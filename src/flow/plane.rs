@@ -1,4 +1,4 @@
-//! A plane of motions, each classified: two of the parameters, the energy, or the start on a section.
+//! Classification of motions over a plane of two parameters, energies, or starts on a section.
 
 use super::andoyer::Sphere;
 use super::error::FlowError;
@@ -12,44 +12,45 @@ use crate::mechanics::{Draw, Model, Origin, Range, Recipe, components};
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 
-/// What varies along an axis.
+/// Quantity that varies along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
-    /// A component of a parameter of the case.
+    /// Component of a parameter of the case.
     Parameter {
-        /// Which of the model's parameters.
+        /// Index of the parameter in the model.
         index: usize,
-        /// Which of its components, row by row.
+        /// Index of its component, row by row.
         component: usize,
     },
-    /// l of the start on the section.
+    /// Coordinate l of the start on the section.
     L,
-    /// L/G of the start on the section.
+    /// Coordinate L/G of the start on the section.
     Z,
-    /// The energy of the start on the section.
+    /// Energy of the start on the section.
     Energy,
 }
 
 /// One axis of the plane.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What varies.
+    /// Quantity along the axis.
     pub coordinate: Coordinate,
-    /// Where it begins.
+    /// Lower end.
     pub from: Rational,
-    /// Where it ends.
+    /// Upper end.
     pub to: Rational,
-    /// How many points; the first and the last are half a step inside.
+    /// Number of points; the first and the last are half a step inside.
     pub count: usize,
 }
 
 impl Axis {
-    /// The place of a point between -1 and 1.
+    /// Position of a point, between -1 and 1.
     fn place(&self, index: usize) -> Rational {
         Rational::new(2 * index as i64 + 1 - self.count as i64, self.count as i64)
     }
 
-    /// The component of the free parameters that varies, where each parameter's begin.
+    /// Component of the free parameters that varies along the axis, given the offset of each
+    /// parameter.
     fn loose(&self, places: &[usize]) -> Option<Loose> {
         let Coordinate::Parameter { index, component } = self.coordinate else { return None };
         let half = Rational::new(1, 2);
@@ -60,45 +61,45 @@ impl Axis {
         })
     }
 
-    /// The value at a point.
+    /// Value at a point of the axis.
     pub fn value(&self, index: usize) -> Rational {
         let share = Rational::new(2 * index as i64 + 1, 2 * self.count as i64);
         &self.from + &(&(&self.to - &self.from) * &share)
     }
 }
 
-/// Where the motions of a plane start, where the axes do not say.
+/// Starts of the motions of a plane, as far as the axes leave them open.
 #[derive(Clone, Debug)]
 pub enum Launch {
     /// On the section g = g₀.
     Section {
-        /// g₀
+        /// Angle g₀ of the section.
         g0: Angle,
-        /// The energy.
+        /// Energy of the motions.
         energy: Rational,
-        /// l and L/G.
+        /// Coordinates l and L/G.
         at: [f64; 2],
     },
-    /// At a state, moved to the level set; at one that is drawn where there is none.
+    /// At a given state moved to the level set, or at a drawn one.
     State(Option<Vec<Rational>>),
 }
 
-/// Which motions.
+/// Request for a plane of motions.
 #[derive(Clone, Debug)]
 pub struct PlaneRequest {
-    /// The horizontal and the vertical axis.
+    /// Horizontal and vertical axis.
     pub axes: [Axis; 2],
-    /// Where the motions start.
+    /// Starts of the motions.
     pub launch: Launch,
-    /// How long each is followed; negative: backwards.
+    /// Time for which each motion is followed; negative for backwards.
     pub time: f64,
-    /// Seed of what is drawn.
+    /// Seed of the random draws.
     pub seed: u64,
 }
 
-/// The motions of a plane, row by row from the least value of the second axis.
+/// Classifies the motions of a plane, row by row from the least value of the second axis.
 ///
-/// A motion that cannot start, or runs into a singularity, is told by its error.
+/// A motion that cannot start, or runs into a singularity, yields its error.
 pub fn plane(
     case: &Case,
     request: &PlaneRequest,
@@ -117,12 +118,12 @@ pub fn plane(
     Ok(equations.follow(&begins, request.time, threads, progress))
 }
 
-/// The model with those parameters free that vary.
+/// Model in which the varied parameters are free.
 struct Free {
     model: Model,
-    /// The components of all free parameters.
+    /// Components of all free parameters.
     parameters: Vec<Rational>,
-    /// Where those of each parameter begin.
+    /// Offset of each parameter in the components.
     places: Vec<usize>,
 }
 
@@ -155,7 +156,7 @@ impl Free {
     }
 }
 
-/// A recipe for any value of a kind; nothing is drawn by it.
+/// Recipe that admits any value of a type; nothing is drawn from it.
 fn open(kind: Type) -> Recipe {
     let draw = Draw::Within(Range { low: Rational::from(-1), high: Rational::from(1) });
     match kind {
@@ -165,7 +166,7 @@ fn open(kind: Type) -> Recipe {
     }
 }
 
-/// Makes the starts.
+/// Source of the starts of a plane.
 struct Launcher<'r> {
     axes: &'r [Axis; 2],
     source: Source,
@@ -197,7 +198,7 @@ impl<'r> Launcher<'r> {
         Ok(Self { axes: &request.axes, source })
     }
 
-    /// The start at a point of the plane.
+    /// Returns the start at a point of the plane.
     fn begin(&self, level: &Level, at: [usize; 2]) -> Result<Begin, FlowError> {
         let axes = || self.axes.iter().zip(at);
         let is_loose = |axis: &Axis| matches!(axis.coordinate, Coordinate::Parameter { .. });

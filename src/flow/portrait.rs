@@ -1,5 +1,5 @@
-//! The section that shows a body's motion where nobody said which: an energy at which it can turn to
-//! any side, and starts spread over the sphere.
+//! A default section of a body's motion: an energy at which the body can turn to any side, and
+//! starts spread over the sphere.
 
 use super::andoyer::{applies, spread};
 use super::error::FlowError;
@@ -12,25 +12,25 @@ use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// Orbits, and crossings of each.
+/// Numbers of orbits, and of crossings of each.
 const ORBITS: usize = 24;
 const CROSSINGS: usize = 120;
-/// Directions in which the potential is looked at.
+/// Number of directions in which the potential is evaluated.
 const DIRECTIONS: usize = 400;
-/// The energy is above the largest potential by this part of the potential's range.
+/// Excess of the energy over the largest potential, relative to the potential's range.
 const ABOVE: f64 = 0.25;
 
-/// A section with what it was asked for.
+/// A section with its request.
 pub struct Portrait {
-    /// Which section.
+    /// Request of the section.
     pub request: SectionRequest,
-    /// Its orbits.
+    /// Orbits of the section.
     pub orbits: Vec<SectionOrbit>,
-    /// Are parameters drawn?
+    /// Whether parameters are drawn at random.
     pub is_drawn: bool,
 }
 
-/// The section of the case, or one at an energy above the potential, of few orbits.
+/// Computes the section of the case, or one of few orbits at an energy above the potential.
 pub fn portrait(case: &Case, seed: u64, threads: usize) -> Result<Portrait, FlowError> {
     if !applies(&case.model) {
         return Err(FlowError::NoAndoyer);
@@ -61,7 +61,7 @@ pub fn portrait(case: &Case, seed: u64, threads: usize) -> Result<Portrait, Flow
     }
 }
 
-/// An energy somewhat above the largest value of the potential; 1 without one.
+/// Returns an energy somewhat above the largest value of the potential; 1 without a potential.
 fn energy(case: &Case, seed: u64) -> Result<Rational, FlowError> {
     let parameters = fixed_parameters(case, seed, 0)?;
     let (graph, potential) = record(3, |gamma| {

@@ -1,4 +1,4 @@
-//! A Taylor program: how the coefficients of order n follow from those of lower orders.
+//! Taylor programs: rules that give the coefficients of order n from those of lower orders.
 //!
 //! With x = Σ x_k τ^k and θx = Σ k x_k τ^k, each instruction makes one row from others by the rule
 //! (Σ from k = 1 to n - 1, n ≥ 1; order 0 is the function itself)
@@ -14,12 +14,12 @@
 //! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})
 //! ```
 //!
-//! The inner sums need lower orders only, whatever the instruction: they are all made first.
+//! The inner sums need lower orders only, whatever the instruction: all are made first.
 
 use super::form::{Form, Row};
 use crate::number::rational::Rational;
 
-/// How an instruction finishes its row, given the inner sum Σ c x_k y_{n-k} of its products.
+/// Last stage of an instruction, given the inner sum Σ c x_k y_{n-k} of its products.
 #[derive(Clone, Debug)]
 pub enum Rule {
     /// constant + Σ c x + Σ c x y
@@ -49,7 +49,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// The row that it is a function of; a sum has several.
+    /// Row that the rule is a function of; `None` for a sum, which has several.
     pub(super) fn argument(&self) -> Option<Row> {
         match self {
             Rule::Sum => None,
@@ -64,16 +64,16 @@ impl Rule {
     }
 }
 
-/// One row to be computed.
+/// Computation of one row.
 #[derive(Clone, Debug)]
 pub struct Instruction {
     pub rule: Rule,
     pub out: Row,
-    /// What a sum adds up; for the other rules, the products of the inner sum.
+    /// Terms of a sum; for the other rules, the products of the inner sum.
     pub form: Form,
 }
 
-/// A field, and further functions of the state, as instructions over rows of coefficients.
+/// Field and further functions of the state, as instructions over rows of coefficients.
 ///
 /// Rows `0..dimension` are the state; each instruction makes one further row.
 #[derive(Clone, Debug)]
@@ -81,14 +81,14 @@ pub struct Program {
     pub(super) dimension: usize,
     pub(super) rows: usize,
     pub(super) instructions: Vec<Instruction>,
-    /// The rows of the rates of the state's components.
+    /// Rows of the rates of the state's components.
     pub(super) rates: Vec<Row>,
-    /// The rows of the further functions.
+    /// Rows of the further functions.
     pub(super) outputs: Vec<Row>,
 }
 
 impl Program {
-    /// How many components the state has.
+    /// Number of components of the state.
     pub fn dimension(&self) -> usize {
         self.dimension
     }

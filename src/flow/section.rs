@@ -1,4 +1,4 @@
-//! Poincaré sections: many orbits, several side by side in lanes, on several threads.
+//! Poincaré sections: many orbits, several in the lanes of each of several threads.
 //!
 //! An orbit that has all its crossings gives its lane to the next one.
 
@@ -18,68 +18,68 @@ use crate::graph::{Evaluator, Tape, record};
 use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 
-/// A section that is not met in so many steps is not met again.
+/// Number of steps without a crossing after which an orbit counts as lost.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
-/// So many crossings in the other direction alone, and there is none in the one that counts.
+/// Number of crossings in the other direction alone after which an orbit counts as lost.
 const MAX_OTHERS: usize = 1000;
-/// Far later than any crossing.
+/// Time limit, far later than any crossing.
 const NEVER: f64 = 1e15;
 
-/// Which section, and of which orbits.
+/// Request for a section.
 #[derive(Clone, Debug)]
 pub struct SectionRequest {
-    /// g₀
+    /// Angle g₀ of the section.
     pub g0: Angle,
-    /// The energy.
+    /// Energy of the orbits.
     pub energy: Rational,
-    /// The crossings that count.
+    /// Direction of the crossings that count.
     pub direction: Direction,
-    /// How many of them for each orbit.
+    /// Number of crossings to collect for each orbit.
     pub crossings: usize,
-    /// How many are left out at the beginning.
+    /// Number of crossings left out at the beginning.
     pub skip: usize,
-    /// Where the orbits start: (l, L/G).
+    /// Starts of the orbits: (l, L/G).
     pub starts: Vec<[f64; 2]>,
-    /// Follow them backwards in time?
+    /// Whether to follow the orbits backwards in time.
     pub backwards: bool,
-    /// Seed and index of the free parameters.
+    /// Seed of the free parameters.
     pub seed: u64,
-    /// The index of the free parameters among the draws.
+    /// Index of the free parameters among the draws.
     pub index: u64,
 }
 
 /// A crossing of the section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// l and L/G.
+    /// Position: l and L/G.
     pub at: [f64; 2],
-    /// When.
+    /// Time of the crossing.
     pub time: f64,
-    /// Does g grow with time there?
+    /// Whether g grows with time there.
     pub rising: bool,
 }
 
-/// An orbit's crossings.
+/// Crossings of one orbit.
 #[derive(Clone, Debug)]
 pub struct SectionOrbit {
-    /// Where it starts.
+    /// Start of the orbit.
     pub start: [f64; 2],
-    /// The crossings that count, those at the beginning left out.
+    /// Crossings that count, without those at the beginning.
     pub crossings: Vec<Crossing>,
-    /// Crossings in the other direction, which are not drawn.
+    /// Number of crossings in the other direction, which are not drawn.
     pub others: usize,
-    /// Where the orbit touches the section without crossing it.
+    /// Number of points where the orbit touches the section without crossing it.
     pub tangencies: usize,
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
-    /// The relative change of the energy between start and end.
+    /// Relative change of the energy between start and end.
     pub drift: f64,
-    /// Why it ended early, or did not start.
+    /// Reason why the orbit ended early, or did not start.
     pub problem: Option<FlowError>,
 }
 
-/// The section of a case: one entry a start, in their order. `progress` is told of each orbit that
-/// is done.
+/// Computes the section of a case: one entry for each start, in their order. Calls `progress` after
+/// each orbit.
 pub fn section(
     case: &Case,
     request: &SectionRequest,
@@ -113,7 +113,7 @@ pub fn section(
         .collect()
 }
 
-/// The states over points (l, L/G) of a section.
+/// Returns the states over points (l, L/G) of a section.
 pub fn section_starts(
     case: &Case,
     g0: &Angle,
@@ -129,7 +129,7 @@ pub fn section_starts(
     Ok(points.iter().map(|at| chart.start(*at)).collect())
 }
 
-/// The value of a claim's formula at each start, NaN where there is no state.
+/// Evaluates a claim's formula at each start; NaN where there is no state.
 pub fn values_at_starts(
     case: &Case,
     request: &SectionRequest,
@@ -151,10 +151,10 @@ pub fn values_at_starts(
     Ok(request.starts.iter().map(|l_z| chart.start(*l_z).map_or(f64::NAN, &mut at)).collect())
 }
 
-/// Orbits that are done, by their index, with their states at the end.
+/// Finished orbits by index, with their final states.
 type Done = Vec<(usize, (SectionOrbit, Option<Vec<Pair>>))>;
 
-/// The orbits of one thread.
+/// Orbits of one thread.
 struct Worker<'w, T: Number<One = f64>> {
     request: &'w SectionRequest,
     starts: &'w [Result<Start, FlowError>],
@@ -164,14 +164,14 @@ struct Worker<'w, T: Number<One = f64>> {
     done: Done,
 }
 
-/// An orbit in a lane.
+/// Orbit in a lane.
 struct Running {
     index: usize,
     orbit: SectionOrbit,
     sides: Sides,
-    /// Crossings in the direction that counts, those left out included.
+    /// Number of crossings in the direction that counts, including those left out.
     counted: usize,
-    /// Steps and crossings in the other direction at the last one that counts.
+    /// Steps and crossings in the other direction at the last crossing that counts.
     last_met: (u64, usize),
 }
 
@@ -208,7 +208,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
         }
     }
 
-    /// Puts the next orbit into a lane; those that have no start are done at once.
+    /// Puts the next orbit into a lane; orbits without a start are finished at once.
     fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
         loop {
             let Some(index) = self.queue.take() else { return };
@@ -240,7 +240,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
         }
     }
 
-    /// Collects the crossings of the present piece; is the orbit done?
+    /// Collects the crossings of the present piece. Returns whether the orbit is done.
     fn look(&mut self, lane: usize) -> bool {
         let Some(running) = &mut self.running[lane] else { return false };
         if let Err(problem) = self.stepper.check(lane) {
@@ -275,7 +275,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
 }
 
 impl Running {
-    /// Takes note of an event; has the orbit all its crossings?
+    /// Records an event. Returns whether the orbit has all its crossings.
     fn meet<T: Number<One = f64>>(
         &mut self,
         event: Event<f64>,

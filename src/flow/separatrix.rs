@@ -1,4 +1,4 @@
-//! The stable and the unstable curve of a hyperbolic periodic point of a section.
+//! Stable and unstable curves of a hyperbolic periodic point of a section.
 //!
 //! A short piece of the straight line along an eigenvector, from s to λs, is a fundamental domain of
 //! the curve up to s²: its images under the map are the curve.
@@ -8,26 +8,26 @@ use super::periodic::{Multipliers, PeriodicPoint, SectionMap};
 use super::section::{SectionOrbit, SectionRequest, section};
 use crate::case::{Case, Direction};
 
-/// Where the piece begins: its square is far below a pixel.
+/// Distance at which the piece begins; its square is far below a pixel.
 const BEGIN: f64 = 1e-4;
-/// How long the curves are followed, as if they were straight.
+/// Length up to which the curves are followed, as if they were straight.
 const LENGTH: f64 = 20.0;
-/// No further than that, near multipliers of 1.
+/// Limit on the number of images, near multipliers of 1.
 const MAX_IMAGES: f64 = 300.0;
-/// Points of the piece on each side.
+/// Number of points of the piece on each side.
 const POINTS: usize = 300;
 
-/// The curves of a hyperbolic point.
+/// Stable and unstable curves of a hyperbolic point.
 pub struct Separatrices {
-    /// The point.
+    /// Periodic point.
     pub point: PeriodicPoint,
-    /// The points that come from it.
+    /// Orbits on the unstable curve.
     pub unstable: Vec<SectionOrbit>,
-    /// The points that tend to it.
+    /// Orbits on the stable curve.
     pub stable: Vec<SectionOrbit>,
 }
 
-/// The curves of the periodic point near `near`.
+/// Computes the curves of the periodic point near `near`.
 pub fn separatrices(
     case: &Case,
     request: &SectionRequest,

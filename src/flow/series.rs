@@ -1,4 +1,4 @@
-//! The Taylor coefficients of a motion at a state, by a program.
+//! Taylor coefficients of a motion at a state.
 
 use super::code::{Code, LINE};
 use super::expand::Expansion;
@@ -8,20 +8,20 @@ use super::program::Program;
 use crate::graph::with_widest_vectors;
 use crate::number::rational::Rational;
 
-/// A program over one kind of number with the memory to run it.
+/// A program over one type of number, with the memory to run it.
 pub struct Series<T: Number> {
     pub(super) order: usize,
-    /// The order to which rows are padded.
+    /// Order to which rows are padded.
     pub(super) orders: usize,
     pub(super) code: Code<T>,
-    /// 1/n
+    /// Reciprocals 1/n.
     pub(super) inverses: Vec<T>,
-    /// The inner sums of the operations that have any at the current order, before and after their parts are
-    /// added.
+    /// Inner sums of the operations that have any, at the current order, before and after their
+    /// parts are added.
     pub(super) partial: Vec<T::Partial>,
     pub(super) inner: Vec<T>,
     pub(super) memory: Vec<T>,
-    /// How many expansions there were, up to where machine code pays.
+    /// Number of expansions so far, up to where machine code pays.
     pub(super) expansions: u32,
     pub(super) machine: Option<Box<Machine>>,
 }
@@ -50,7 +50,7 @@ impl<T: Number> Series<T> {
         }
     }
 
-    /// The highest order of the state's coefficients.
+    /// Highest order of the state's coefficients.
     pub fn order(&self) -> usize {
         self.order
     }
@@ -63,17 +63,17 @@ impl<T: Number> Series<T> {
         with_widest_vectors(Expansion(self));
     }
 
-    /// Forgets what it holds: what is not finite must not meet the zeros behind a row.
+    /// Clears the memory: values that are not finite must not meet the zeros behind a row.
     pub fn clear(&mut self) {
         self.memory.fill(T::ZERO);
     }
 }
 
-/// So many expansions take as long as making machine code.
+/// Number of expansions that take as long as generating machine code.
 const MANY: u32 = 32;
 
 impl Series<f64> {
-    /// All orders by machine code; no where there is none.
+    /// Computes all orders by machine code. Returns `false` where there is none.
     #[inline(always)]
     pub(super) fn by_machine(&mut self) -> bool {
         if self.expansions < MANY {
@@ -94,14 +94,14 @@ impl Series<f64> {
 }
 
 impl<T: Number> Series<T> {
-    /// The coefficients of a component of the state, orders 0 to `order`.
+    /// Coefficients of a component of the state, orders 0 to `order`.
     #[inline(always)]
     pub fn component(&self, index: usize) -> &[T] {
         let place = self.code.state[index].place as usize;
         &self.memory[place..=place + self.order]
     }
 
-    /// The coefficients of a further function, orders 0 to `order` - 1.
+    /// Coefficients of a further function, orders 0 to `order` - 1.
     pub fn output(&self, index: usize) -> &[T] {
         let place = self.code.outputs[index] as usize;
         &self.memory[place..place + self.order]

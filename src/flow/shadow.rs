@@ -1,8 +1,8 @@
-//! Quick exponents of many motions: each with a shadow beside it, and seven digits.
+//! Fast estimates of the exponents of many motions, each with a nearby shadow, to seven digits.
 //!
-//! The shadow is a motion at a small distance, put back to it when it has come far (Benettin, Galgani,
-//! Strelcyn 1976); the mean divergence is a sum over two Gauss nodes a step. That takes an eighth of
-//! the work of the variational equations; `variational` is the exact form.
+//! The shadow is a motion at a small distance, to which it is reset when it has drifted far
+//! (Benettin, Galgani, Strelcyn 1976); the mean divergence is a sum over two Gauss nodes per step.
+//! That takes an eighth of the work of the variational equations; `variational` is the exact form.
 //!
 //! Parameters that differ from motion to motion are constant components of the state, so that one
 //! program serves all.
@@ -23,29 +23,29 @@ use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// A motion and its shadow.
+/// Lanes of a motion and its shadow.
 const COUPLE: usize = 2;
-/// The distance of a shadow, in parts of the state; rounding is 10⁻¹⁰ of it.
+/// Distance of a shadow, relative to the state; rounding is 10⁻¹⁰ of it.
 const DISTANCE: f64 = 1e-6;
-/// It is put back where it has come nearer or farther by this factor.
+/// Factor of growth or decay of the distance at which the shadow is put back.
 const FAR: f64 = 30.0;
 
-/// A motion to be followed: its state, and the loose parameters by their places in their ranges.
+/// Start of a motion: its state, and the loose parameters by their positions in their ranges.
 pub(super) struct Begin {
     pub state: Vec<Pair>,
     pub loose: Vec<Pair>,
 }
 
-/// The equations of all motions.
+/// Equations shared by all motions.
 pub(super) struct Shadowed {
     program: Program,
-    /// div v, by the state and the loose parameters.
+    /// div v as a function of the state and the loose parameters.
     divergence: Tape,
     level: Level,
 }
 
 impl Shadowed {
-    /// The equations of a model with these parameters, some of them loose.
+    /// Compiles the equations of a model with these parameters, some of them loose.
     pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
         let program = extended_program(model, parameters, loose.len(), |phase, more| {
             let phase = Phase::new(model, &filled(parameters, loose, more), &phase.state());
@@ -62,12 +62,13 @@ impl Shadowed {
         Ok(Self { program, divergence: Tape::new(&graph, &[divergence]), level })
     }
 
-    /// The level set on which motions start.
+    /// Level set on which motions start.
     pub fn level(&self) -> &Level {
         &self.level
     }
 
-    /// Follows motions for a time, negative for backwards; those without a start keep their problem.
+    /// Follows motions for a time, negative for backwards. A motion without a start yields its
+    /// error.
     pub fn follow(
         &self,
         begins: &[Result<Begin, FlowError>],
@@ -83,7 +84,7 @@ impl Shadowed {
 
 type Done = Vec<(usize, Result<Exponents, FlowError>)>;
 
-/// A motion in two lanes.
+/// Motion with its shadow, in two lanes.
 struct Running {
     index: usize,
     record: Record,
@@ -91,7 +92,7 @@ struct Running {
     volume: f64,
 }
 
-/// The motions of one thread.
+/// Motions of one thread.
 struct Worker<'w> {
     equations: &'w Shadowed,
     begins: &'w [Result<Begin, FlowError>],
@@ -139,7 +140,7 @@ impl<'w> Worker<'w> {
         }
     }
 
-    /// Puts a motion and its shadow into two lanes; one that has no start is done at once.
+    /// Puts a motion and its shadow into two lanes; one without a start is finished at once.
     fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn() + Sync)) {
         let Begin { state, loose } = match &self.begins[index] {
             Ok(begin) => begin,
@@ -160,7 +161,7 @@ impl<'w> Worker<'w> {
         self.running[couple] = Some(Running { index, record, distance, volume: 0.0 });
     }
 
-    /// Adds what the steps at hand contribute to ∫ div v.
+    /// Adds the contribution of the present steps to ∫ div v.
     fn integrate_divergence(&mut self) {
         let away = 0.5 / 3f64.sqrt();
         for share in [0.5 - away, 0.5 + away] {
@@ -177,7 +178,7 @@ impl<'w> Worker<'w> {
         }
     }
 
-    /// Measures the distance of the shadow after a step; is the motion done?
+    /// Measures the distance of the shadow after a step. Returns whether the motion is done.
     fn look(&mut self, couple: usize) -> bool {
         let Some(running) = &mut self.running[couple] else { return false };
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);

@@ -1,4 +1,4 @@
-//! Where a motion starts: a state that is typed or drawn, put on the level set to working precision.
+//! Initial states, given or drawn, moved to the level set to working precision.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,21 +14,21 @@ use crate::number::pair::{Pair, Pairs};
 use crate::number::rational::Rational;
 use crate::verdict::Sampler;
 
-/// Newton's method converges in far fewer; a state that takes more is not near the level.
+/// Iteration limit; Newton's method converges in far fewer from a state near the level.
 const MAX_STEPS: usize = 60;
 
-/// A state on the level set, and the parameters it belongs to.
+/// State on the level set, with its parameters.
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// The components of the free parameters.
+    /// Components of the free parameters.
     pub parameters: Vec<Rational>,
-    /// The components of the state.
+    /// Components of the state.
     pub state: Vec<Pair>,
-    /// How far the state that was asked for lies from it.
+    /// Distance from the state requested.
     pub moved: f64,
 }
 
-/// The components of the free parameters at an index of the seed, and the state drawn with them.
+/// Components of the free parameters at an index of the seed, and the state drawn with them.
 fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
     let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
     let mut values: Vec<Rational> = sampler
@@ -40,13 +40,14 @@ fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Ratio
     Ok((values, state))
 }
 
-/// The components of the free parameters at an index of the seed.
+/// Returns the components of the free parameters at an index of the seed.
 pub fn fixed_parameters(case: &Case, seed: u64, index: u64) -> Result<Vec<Rational>, FlowError> {
     drawn(case, seed, index).map(|(parameters, _)| parameters)
 }
 
 impl Start {
-    /// The state `index` of the seed, or the one that is given, with the parameters of that index.
+    /// Builds a start from the state given, or from the one drawn at `index`, with the parameters
+    /// of that index.
     pub fn new(
         case: &Case,
         state: Option<&[Rational]>,
@@ -58,7 +59,7 @@ impl Start {
         Self::near(&case.model, parameters, state)
     }
 
-    /// A point of a claim, with these values of the free parameters.
+    /// Builds a start at a point of a claim, with these values of the free parameters.
     pub fn at(
         model: &Model,
         parameters: Vec<Rational>,
@@ -73,7 +74,7 @@ impl Start {
         Self::near(model, parameters, state)
     }
 
-    /// The state of the level set nearest to this one, by Newton's method across the level.
+    /// Moves a state to the level set along the gradients, by Newton's method.
     pub fn near(
         model: &Model,
         parameters: Vec<Rational>,
@@ -84,14 +85,14 @@ impl Start {
     }
 }
 
-/// The level functions of a model and their gradients.
+/// Level functions of a model and their gradients.
 pub(super) struct Level {
     tape: Tape,
     equations: usize,
 }
 
 impl Level {
-    /// Those of a model with these parameters, some of them loose.
+    /// Records the level functions of a model with these parameters, some of them loose.
     pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
         let kept = Place::level(model).kept;
         let (graph, outputs) = record(model.dimension() + loose.len(), |inputs| {
@@ -106,14 +107,14 @@ impl Level {
         Ok(Self { tape: Tape::new(&graph, &outputs), equations: model.level.len() })
     }
 
-    /// The level functions, then their gradients one by one, at a state.
+    /// Evaluates the level functions, then their gradients one by one, at a state.
     fn values(&self, state: &[Pair], loose: &[Pair]) -> Vec<f64> {
         let mut evaluator = Evaluator::new(&self.tape, Pairs);
         evaluator.run(&[state, loose].concat());
         evaluator.outputs().map(|value| value.hi).collect()
     }
 
-    /// Moves a state to the level; gives the distance.
+    /// Moves a state to the level. Returns the distance.
     pub fn correct(&self, state: &mut [Pair], loose: &[Pair]) -> Result<f64, FlowError> {
         if self.equations == 0 {
             return Ok(0.0);
@@ -146,8 +147,8 @@ impl Level {
         Err(FlowError::NoStart)
     }
 
-    /// A unit vector along the level set at a state, in no special direction; another one for each
-    /// index.
+    /// Returns a unit vector tangent to the level set at a state, in no special direction;
+    /// different for each index.
     pub fn along(&self, state: &[Pair], loose: &[Pair], index: usize) -> Vec<f64> {
         let outputs = self.values(state, loose);
         let gradients: Vec<Vec<f64>> =
@@ -161,8 +162,8 @@ impl Level {
     }
 }
 
-/// An orthonormal basis of the tangent space of the level set at a start, by the method of Gram and
-/// Schmidt: the gradients first, then the axes, that with the longest rest next.
+/// Orthonormal basis of the tangent space of the level set at a start, by the Gram–Schmidt method:
+/// the gradients first, then the axes, that with the longest remainder next.
 pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>, FlowError> {
     let level = Level::new(model, &start.parameters, &[])?;
     let mut evaluator = Evaluator::new(&level.tape, Pairs);
@@ -195,7 +196,7 @@ fn normalised(vector: Vec<Pair>) -> Vec<Pair> {
     vector.into_iter().map(|x| x * factor).collect()
 }
 
-/// What is left of a vector across unit vectors; twice is enough against rounding.
+/// Component of a vector orthogonal to unit vectors; two passes are enough against rounding.
 fn across(vector: &[Pair], unit: &[Vec<Pair>]) -> Vec<Pair> {
     let mut rest = vector.to_vec();
     for e in unit.iter().chain(unit) {

@@ -1,4 +1,4 @@
-//! Step by step along motions: step sizes from the series, compensated states, dense output.
+//! Stepping along motions: step sizes from the series, compensated states, dense output.
 //!
 //! The step is ρ e^(-κ), ρ the least of (‖x₀‖/‖x_n‖)^(1/n) over the last two orders, with maximum
 //! norms (Jorba, Zou 2005, with κ in place of their 2 + 0.7/(n - 1)). The field does not depend on
@@ -13,47 +13,48 @@ use super::series::Series;
 use crate::graph::{Work, with_widest_vectors};
 use crate::number::pair::Pair;
 
-/// Order of the series, and κ.
+/// Order of the series, and step size constant κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// The highest power of the step that is kept.
+    /// Highest power of the step that is kept.
     pub order: usize,
-    /// The step is ρ e^(-κ); the first term left out is about e^(-κ(order + 1)) of the state.
+    /// Constant κ of the step ρ e^(-κ); the first term left out is about e^(-κ(order + 1)) of the
+    /// state.
     pub kappa: f64,
 }
 
 impl Accuracy {
-    /// For f64: e^(-κ·21) is a tenth of a unit in the last place.
+    /// Accuracy for f64: e^(-κ·21) is a tenth of a unit in the last place.
     pub const FLOAT: Self = Self { order: 20, kappa: 1.85 };
-    /// For what needs no more than seven digits: e^(-κ·13) is about 10⁻⁸.
+    /// Accuracy of seven digits: e^(-κ·13) is about 10⁻⁸.
     pub const ROUGH: Self = Self { order: 12, kappa: 1.4 };
-    /// For double-double.
+    /// Accuracy for double-double.
     pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
 }
 
-/// Motions side by side, one a lane.
+/// Motions in lockstep, one in each lane.
 pub struct Stepper<T: Number> {
     series: Series<T>,
     kappa: f64,
-    /// The state, and what rounding left of it.
+    /// State, and its rounding remainder.
     state: Vec<T>,
     rest: Vec<T>,
     lanes: Vec<Lane<T::One>>,
 }
 
-/// One motion.
+/// Time and step of one motion.
 #[derive(Clone, Copy)]
 struct Lane<One> {
     time: Pair,
-    /// Where it ends; its sign against `time` is the direction.
+    /// Final time; its sign relative to `time` is the direction.
     until: Pair,
-    /// The step from the present expansion.
+    /// Step from the present expansion.
     step: One,
     steps: u64,
 }
 
 impl<T: Number> Stepper<T> {
-    /// Motions of a program's field; each lane is to be given a start.
+    /// Prepares motions of a program's field; each lane needs a start.
     pub fn new(program: &Program, accuracy: Accuracy) -> Self {
         let idle =
             Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
@@ -67,7 +68,7 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// Starts a motion at time 0 that goes on to time `until`, which may be negative.
+    /// Starts a motion at time 0 that ends at time `until`, which may be negative.
     pub fn start(&mut self, lane: usize, state: &[Pair], until: Pair) {
         if T::LANES == 1 {
             self.series.clear();
@@ -76,7 +77,7 @@ impl<T: Number> Stepper<T> {
         self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
     }
 
-    /// Puts a motion to another state, at the same time.
+    /// Moves a motion to another state, at the same time.
     pub fn place(&mut self, lane: usize, state: &[Pair]) {
         for (index, value) in state.iter().enumerate() {
             let (value, rest) = T::One::split(*value);
@@ -95,7 +96,7 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// Changes where a motion ends.
+    /// Changes the final time of a motion.
     pub fn extend(&mut self, lane: usize, until: Pair) {
         self.lanes[lane].until = until;
     }
@@ -115,7 +116,7 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// Lets neighbouring motions, so many at a time, take the same step.
+    /// Makes neighbouring motions, in groups of `together`, take the same step.
     pub fn keep_pace(&mut self, together: usize) {
         for group in self.lanes.chunks_mut(together) {
             let steps = group.iter().map(|lane| lane.step);
@@ -127,19 +128,19 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// The states of all motions after a part of their steps, without what rounding left of them.
+    /// States of all motions after a fraction of their steps, without the rounding remainders.
     pub fn within(&self, share: f64) -> Vec<T> {
         let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
         let rows = self.state.iter().enumerate();
         rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
     }
 
-    /// The present step of a motion.
+    /// Present step of a motion.
     pub fn step(&self, lane: usize) -> T::One {
         self.lanes[lane].step
     }
 
-    /// Is the present expansion of a motion of any use? No where it runs into a singularity.
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
@@ -169,30 +170,30 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// Has a motion come to its end?
+    /// Whether a motion has reached its end.
     pub fn is_done(&self, lane: usize) -> bool {
         let motion = &self.lanes[lane];
         let left = motion.until - motion.time;
         left.hi.abs() <= f64::EPSILON * motion.step.leading().abs()
     }
 
-    /// The time of a motion.
+    /// Time of a motion.
     pub fn time(&self, lane: usize) -> Pair {
         self.lanes[lane].time
     }
 
-    /// How many steps a motion has taken.
+    /// Number of steps that a motion has taken.
     pub fn steps(&self, lane: usize) -> u64 {
         self.lanes[lane].steps
     }
 
-    /// The state of a motion.
+    /// State of a motion.
     pub fn pairs(&self, lane: usize) -> Vec<Pair> {
         let parts = self.state.iter().zip(&self.rest);
         parts.map(|(x, rest)| x.lane(lane).pair() + rest.lane(lane).pair()).collect()
     }
 
-    /// The present piece of a motion.
+    /// Present piece of a motion.
     pub fn piece(&self, lane: usize) -> Piece<'_, T> {
         Piece { stepper: self, lane }
     }
@@ -216,7 +217,7 @@ fn set<T: Number>(target: &mut T, lane: usize, value: T::One) {
     *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
 }
 
-/// The states at the ends of the steps.
+/// Work of advancing all states to the ends of their steps.
 struct Advance<'s, T: Number>(&'s mut Stepper<T>);
 
 impl<T: Number> Work for Advance<'_, T> {
@@ -231,7 +232,7 @@ impl<T: Number> Work for Advance<'_, T> {
     }
 }
 
-/// Σ x_k h^k from k = 1 on.
+/// Returns Σ x_k h^k from k = 1 on.
 #[inline(always)]
 fn increment<T: Number>(coefficients: &[T], step: T) -> T {
     let mut sum = T::ZERO;
@@ -248,22 +249,22 @@ pub struct Piece<'s, T: Number> {
 }
 
 impl<T: Number> Piece<'_, T> {
-    /// The time at which it begins.
+    /// Time at which the piece begins.
     pub fn begin(&self) -> Pair {
         self.stepper.lanes[self.lane].time
     }
 
-    /// How long it lasts; negative backwards in time.
+    /// Duration; negative backwards in time.
     pub fn length(&self) -> T::One {
         self.stepper.lanes[self.lane].step
     }
 
-    /// The coefficients of a further function of the program.
+    /// Coefficients of a further function of the program.
     pub fn output(&self, index: usize) -> Vec<T::One> {
         self.stepper.series.output(index).iter().map(|x| x.lane(self.lane)).collect()
     }
 
-    /// The state some time after the beginning.
+    /// State at a time after the beginning.
     pub fn state(&self, after: T::One) -> Vec<Pair> {
         let stepper = self.stepper;
         (0..stepper.state.len())

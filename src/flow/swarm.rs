@@ -1,40 +1,41 @@
-//! Many motions on several threads, several side by side in the lanes of each.
+//! Many motions on several threads, several in the lanes of each.
 //!
-//! A motion that is done gives its lane to the next one that nobody has taken. Lanes do not know of
-//! each other, so that results do not depend on how motions meet lanes and threads.
+//! A motion that is done gives its lane to the next one in the queue. Lanes are independent, so
+//! that results do not depend on the assignment of motions to lanes and threads.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Motions side by side.
+/// Number of motions in the lanes of one thread.
 pub const LANES: usize = 8;
-/// Fewer motions than that are faster one by one.
+/// Number of motions below which one at a time is faster.
 const FEW: usize = 4;
 
-/// The motions that nobody has taken yet.
+/// Queue of the motions not yet taken.
 pub struct Queue {
     next: AtomicUsize,
     count: usize,
 }
 
 impl Queue {
-    /// The index of the next motion.
+    /// Takes the index of the next motion.
     pub fn take(&self) -> Option<usize> {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
         (index < self.count).then_some(index)
     }
 }
 
-/// How the motions of a swarm are followed.
+/// Number of motions that a thread follows at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Abreast {
-    /// One at a time.
+    /// One motion.
     One,
-    /// `LANES` of them.
+    /// `LANES` motions.
     Lanes,
 }
 
-/// Runs a worker on each thread until the queue is empty; gives the results in the order of the motions.
+/// Runs a worker on each thread until the queue is empty. Returns the results in the order of the
+/// motions.
 pub fn swarm<R: Send>(
     count: usize,
     threads: usize,

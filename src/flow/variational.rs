@@ -1,7 +1,7 @@
-//! Motions with vectors along the flow, by the variational equations w' = (dv)w, and ∫ div v.
+//! Motions with tangent vectors, by the variational equations w' = (dv)w, and ∫ div v.
 //!
-//! num-dual records the field of the vectors. Each is made a unit vector after each step; the sum of
-//! the logarithms over the time is the largest exponent.
+//! num-dual records the field of the vectors. Each is normalised after each step; the sum of the
+//! logarithms over the time is the largest exponent.
 
 use std::ops::Range;
 
@@ -19,25 +19,24 @@ use crate::mechanics::calculus::Jet;
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 
-/// The alignment index takes two vectors.
+/// Number of tangent vectors; the alignment index takes two.
 const VECTORS: usize = 2;
 
-/// The equations of a motion with vectors along the flow: the rows are the state, the vectors, and
-/// ∫ div v.
+/// Equations of a motion with tangent vectors: the rows are the state, the vectors, and ∫ div v.
 struct Bundle {
     program: Program,
     dimension: usize,
 }
 
 impl Bundle {
-    /// The equations of a model with these parameters.
+    /// Compiles the equations of a model with these parameters.
     fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
         let dimension = model.dimension();
         let program = variational_program(model, parameters, VECTORS)?;
         Ok(Self { program, dimension })
     }
 
-    /// All rows at the start of a motion, the vectors along the level set.
+    /// All rows at the start of a motion, with the vectors tangent to the level set.
     fn begin(&self, level: &Level, state: &[Pair]) -> Vec<Pair> {
         let mut begin = state.to_vec();
         for index in 0..VECTORS {
@@ -55,7 +54,8 @@ impl Bundle {
         (VECTORS + 1) * self.dimension
     }
 
-    /// Follows motions for a time, negative for backwards; those without a start keep their problem.
+    /// Follows motions for a time, negative for backwards. A motion without a start yields its
+    /// error.
     fn follow(
         &self,
         begins: &[Result<Vec<Pair>, FlowError>],
@@ -71,7 +71,7 @@ impl Bundle {
     }
 }
 
-/// The field with this many vectors along the flow, and div v on the level, behind the state.
+/// Compiles the field with this many tangent vectors, and div v on the level, after the state.
 pub(super) fn variational_program(
     model: &Model,
     parameters: &[Rational],
@@ -90,7 +90,7 @@ pub(super) fn variational_program(
     })
 }
 
-/// What is to be followed, and how.
+/// Motions to follow, with their equations and time.
 struct Task<'t> {
     bundle: &'t Bundle,
     begins: &'t [Result<Vec<Pair>, FlowError>],
@@ -99,7 +99,7 @@ struct Task<'t> {
 
 type Done = Vec<(usize, Result<Exponents, FlowError>)>;
 
-/// The motions of one thread.
+/// Motions of one thread.
 struct Worker<'t, T: Number<One = f64>> {
     task: &'t Task<'t>,
     stepper: Stepper<T>,
@@ -140,7 +140,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
         }
     }
 
-    /// Puts a motion into a lane; one that has no start is done at once.
+    /// Puts a motion into a lane; one without a start is finished at once.
     fn fill(&mut self, lane: usize, index: usize, progress: &(dyn Fn() + Sync)) {
         match &self.task.begins[index] {
             Ok(begin) => {
@@ -156,7 +156,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
         }
     }
 
-    /// Measures the vectors after a step; is the motion done?
+    /// Measures the vectors after a step. Returns whether the motion is done.
     fn look(&mut self, lane: usize) -> bool {
         let Some((_, record)) = &mut self.running[lane] else { return false };
         let bundle = self.task.bundle;
@@ -199,19 +199,19 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
     }
 }
 
-/// Motions of one system, each with two vectors along the flow and ∫ div v beside it.
+/// Motions of one system, each with two tangent vectors and ∫ div v.
 pub struct Variational {
     bundle: Bundle,
     begins: Vec<Result<Vec<Pair>, FlowError>>,
 }
 
 impl Variational {
-    /// The motion from a start, the vectors along the level set.
+    /// Prepares the motion from a start, with vectors tangent to the level set.
     pub fn new(model: &Model, start: &Start) -> Result<Self, FlowError> {
         Self::all(model, &start.parameters, &[Ok(start.clone())])
     }
 
-    /// Motions from several starts with the same parameters.
+    /// Prepares motions from several starts with the same parameters.
     pub fn all(
         model: &Model,
         parameters: &[Rational],
@@ -230,7 +230,7 @@ impl Variational {
         found.pop().unwrap_or(Err(FlowError::NoStart))
     }
 
-    /// Follows all motions; `progress` is told of each that is done.
+    /// Follows all motions; calls `progress` after each.
     pub fn all_exponents(
         &self,
         time: f64,

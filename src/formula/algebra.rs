@@ -1,64 +1,64 @@
 //! Vector and matrix algebra of ℝ³ over any [`Scalar`].
 //!
-//! Written out by hand because a recorded scalar cannot be compared: no pivoting, no test for
-//! zero, none of nalgebra's inverse, determinant or blocked products.
+//! Written out by hand because a recorded scalar cannot be compared: no pivoting, no test for zero,
+//! none of nalgebra's inverse, determinant or blocked products.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::scalar::Scalar;
 
-/// `(a,b)`.
+/// Dot product `(a,b)`.
 pub(super) fn dot<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// `a × b`.
+/// Cross product `a × b`.
 pub(super) fn cross<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> Vector3<T> {
     Vector3::new(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 }
 
-/// `a ⊗ b`, the matrix with entries `a[i] b[j]`.
+/// Outer product `a ⊗ b`, the matrix with entries `a[i] b[j]`.
 pub(super) fn outer<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| a[i] * b[j])
 }
 
-/// `A v`.
+/// Product `A v`.
 pub(super) fn apply<T: Scalar>(a: &Matrix3<T>, v: &Vector3<T>) -> Vector3<T> {
     Vector3::from_fn(|i, _| a[(i, 0)] * v[0] + a[(i, 1)] * v[1] + a[(i, 2)] * v[2])
 }
 
-/// `A B`.
+/// Product `A B`.
 pub(super) fn compose<T: Scalar>(a: &Matrix3<T>, b: &Matrix3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| a[(i, 0)] * b[(0, j)] + a[(i, 1)] * b[(1, j)] + a[(i, 2)] * b[(2, j)])
 }
 
-/// `Aᵀ`.
+/// Transpose `Aᵀ`.
 pub(super) fn transpose<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| a[(j, i)])
 }
 
-/// The identity matrix.
+/// Identity matrix.
 pub(super) fn identity<T: Scalar>() -> Matrix3<T> {
     diagonal(&Vector3::new(T::one(), T::one(), T::one()))
 }
 
-/// The matrix with `v` on its diagonal.
+/// Diagonal matrix with the diagonal `v`.
 pub(super) fn diagonal<T: Scalar>(v: &Vector3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| if i == j { v[i] } else { T::zero() })
 }
 
-/// The sum of the diagonal.
+/// Trace.
 pub(super) fn trace<T: Scalar>(a: &Matrix3<T>) -> T {
     a[(0, 0)] + a[(1, 1)] + a[(2, 2)]
 }
 
-/// The determinant, along the first row.
+/// Determinant, expanded along the first row.
 pub(super) fn determinant<T: Scalar>(a: &Matrix3<T>) -> T {
     let cofactors = adjugate(a);
     a[(0, 0)] * cofactors[(0, 0)] + a[(0, 1)] * cofactors[(1, 0)] + a[(0, 2)] * cofactors[(2, 0)]
 }
 
-/// The adjugate: `adj(A) A = det(A) E`.
+/// Adjugate, with `adj(A) A = det(A) E`.
 pub(crate) fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| {
         // cyclic indices give the cofactor its sign
@@ -67,23 +67,23 @@ pub(crate) fn adjugate<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
     })
 }
 
-/// `A⁻¹`, as adjugate over determinant.
+/// Inverse `A⁻¹`, as adjugate over determinant.
 pub(super) fn inverse<T: Scalar>(a: &Matrix3<T>) -> Matrix3<T> {
     let cofactors = adjugate(a);
     let determinant = determinant(a);
     Matrix3::from_fn(|i, j| cofactors[(i, j)] / determinant)
 }
 
-/// `A⁻¹ b`, by Cramer's rule.
+/// Solution `A⁻¹ b` of a linear system, by Cramer's rule.
 pub(super) fn solve<T: Scalar>(a: &Matrix3<T>, b: &Vector3<T>) -> Vector3<T> {
     let numerators = apply(&adjugate(a), b);
     let determinant = determinant(a);
     Vector3::from_fn(|i, _| numerators[i] / determinant)
 }
 
-/// `A^n` for `n ≥ 1`, by repeated squaring.
+/// Power `A^n` for `n ≥ 1`, by repeated squaring.
 pub(super) fn power<T: Scalar>(a: &Matrix3<T>, n: u32) -> Matrix3<T> {
-    // from the bit below the leading one down, so that no identity is multiplied in
+    // from the bit below the leading one down, so that there is no product with the identity
     (0..n.ilog2()).rev().fold(*a, |result, bit| {
         let square = compose(&result, &result);
         if n >> bit & 1 == 1 { compose(&square, a) } else { square }

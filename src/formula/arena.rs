@@ -1,4 +1,4 @@
-//! The parsed formula: a flat list of typed nodes, arguments before their users.
+//! Arena of a parsed formula: a flat list of typed nodes, arguments before their users.
 
 use std::collections::HashMap;
 
@@ -7,13 +7,13 @@ use super::kind::Type;
 use super::scope::Symbol;
 use crate::number::rational::Rational;
 
-/// Exact constants wider than this are left to the evaluation.
+/// Size above which exact constants are left to the evaluation, in bits.
 pub(super) const MAX_CONSTANT_BITS: u64 = 4096;
 
-/// The place of a node in the arena.
+/// Index of a node in the arena.
 pub(super) type NodeId = usize;
 
-/// One operation, its type and the text it was read from.
+/// Operation with its type and the text it was read from.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub operation: Operation,
@@ -21,16 +21,16 @@ pub(super) struct Node {
     pub span: Span,
 }
 
-/// What a node computes from earlier nodes. Operand types are settled when it is built.
+/// Operation of a node on earlier nodes. Operand types are checked when it is built.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Operation {
     Number(Rational),
     Constant(Constant),
-    /// The value of the symbol in this slot of [`Arena::symbols`].
+    /// Value of the symbol in this slot of [`Arena::symbols`].
     Symbol(usize),
-    /// The identity matrix of its type.
+    /// Identity matrix of the node's type.
     Identity,
-    /// The zero of its type; as a scalar a sum of no terms, which any type may be added to.
+    /// Zero of the node's type; as a scalar an empty sum, which can be added to any type.
     Zero,
     Negate(NodeId),
     Add(NodeId, NodeId),
@@ -43,12 +43,12 @@ pub(super) enum Operation {
     Apply(NodeId, NodeId),
     /// Matrix times matrix.
     Compose(NodeId, NodeId),
-    /// Anything by a scalar.
+    /// Any value over a scalar.
     Divide(NodeId, NodeId),
     Dot(NodeId, NodeId),
     Cross(NodeId, NodeId),
     Outer(NodeId, NodeId),
-    /// Scalar to a rational power.
+    /// Scalar to a constant rational power.
     Power(NodeId, Rational),
     /// Scalar to a scalar power.
     PowerOf(NodeId, NodeId),
@@ -67,36 +67,36 @@ pub(super) enum Operation {
     Trace(NodeId),
     /// `A⁻¹ b`.
     Solve(NodeId, NodeId),
-    /// The vector of some scalars.
+    /// Vector with these scalars as components.
     Vector(Box<[NodeId]>),
-    /// The matrix with some vectors as rows.
+    /// Matrix with these vectors as rows.
     Rows(Box<[NodeId]>),
-    /// The sum of terms of one type, one for each index.
+    /// Sum of terms of one type, one for each index.
     Sum(Box<[NodeId]>),
-    /// The product of scalars, one for each index.
+    /// Product of scalars, one for each index.
     Product(Box<[NodeId]>),
-    /// The matrix with a vector on its diagonal.
+    /// Matrix with a vector on its diagonal.
     Diagonal(NodeId),
-    /// A function of one scalar.
+    /// Function of one scalar.
     Function(Function, NodeId),
-    /// The angle of the point (x, y), given as `(y, x)`.
+    /// Angle of the point (x, y), given as `(y, x)`.
     Angle(NodeId, NodeId),
-    /// The least or the greatest of some scalars.
+    /// Least or greatest of some scalars.
     Extreme(Extreme, Box<[NodeId]>),
-    /// `∫(integrand, variable)`.
+    /// Antiderivative `∫(integrand, variable)`.
     Antiderivative(NodeId, NodeId),
 }
 
-/// The numbers that have a name.
+/// Numbers that have a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Constant {
-    /// π
+    /// The number π.
     Pi,
-    /// e, Euler's number.
+    /// Euler's number e.
     Euler,
 }
 
-/// The functions of one scalar.
+/// Functions of one scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Function {
     Sqrt,
@@ -118,18 +118,18 @@ pub(super) enum Function {
     Sign,
 }
 
-/// Which of some scalars is meant.
+/// Choice of the least or the greatest of some scalars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extreme {
     Least,
     Greatest,
 }
 
-/// The nodes of a formula under construction and, once built, of the formula.
+/// Nodes of a formula, during construction and after.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arena {
     pub nodes: Vec<Node>,
-    /// Each symbol once, in order of first use.
+    /// Symbols, each once, in order of first use.
     pub symbols: Vec<(Symbol, Type)>,
     /// Symbols whose values are written into the formula: those in indices, bounds and sizes.
     pub fixed: Vec<Symbol>,
@@ -152,7 +152,7 @@ impl Arena {
         self.push(Operation::Symbol(slot), value_type, span)
     }
 
-    /// The number a node holds, if it is one.
+    /// Number held by a node, if it is a constant.
     pub fn constant(&self, node: NodeId) -> Option<&Rational> {
         match &self.nodes[node].operation {
             Operation::Number(value) => Some(value),
@@ -160,7 +160,7 @@ impl Arena {
         }
     }
 
-    /// Takes the number off the end that a node holds, if it is one and the last.
+    /// Removes and returns the number held by a node, if it is a constant and the last node.
     pub fn take_constant(&mut self, node: NodeId) -> Option<Rational> {
         let last = node + 1 == self.nodes.len();
         let value = self.constant(node).filter(|_| last)?.clone();
@@ -168,10 +168,10 @@ impl Arena {
         Some(value)
     }
 
-    /// Appends a scalar operation, or, if all it acts on are numbers, the number it gives.
+    /// Appends a scalar operation, or its value if all operands are numbers.
     ///
-    /// The numbers it acted on are then the last nodes and are taken away, so that the arena
-    /// holds nothing unused.
+    /// The operands are then the last nodes and are removed, so that the arena holds nothing
+    /// unused.
     pub fn push_folded(
         &mut self,
         operation: Operation,

@@ -1,4 +1,4 @@
-//! What the values of the body of an indexed form are put together to.
+//! Assembly of the values of an indexed form: sums, products, vectors and matrices.
 
 use super::arena::Operation;
 use super::binders::{Term, usage};
@@ -8,7 +8,7 @@ use super::typing::{Builder, Built, Operand};
 use crate::number::rational::Rational;
 
 impl Builder<'_> {
-    /// The value of the form `name` with so many indices.
+    /// Builds the form `name` with `indices` indices from the values of its body.
     pub fn assemble(&mut self, name: &str, terms: Vec<Term>, indices: usize, span: Span) -> Built {
         let opens_row: Vec<bool> = terms.iter().map(|term| term.opens_row).collect();
         let mut parts: Vec<Operand> = terms.into_iter().map(|term| term.operand).collect();

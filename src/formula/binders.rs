@@ -22,26 +22,26 @@ use super::names::canonical_name;
 use super::parser::{Parsed, Parser};
 use super::typing::Operand;
 
-/// How many tokens are read at most while indexed forms are written out.
+/// Limit on the tokens read while indexed forms are written out.
 const MOST_TOKENS: usize = 1_000_000;
 
-/// How many indices a form has at most.
+/// Limit on the indices of a form.
 const MOST_INDICES: usize = 6;
 
-/// The forms that bind indices, and the condition.
+/// Names of the forms that bind indices, and of the condition.
 const FORMS: [&str; 5] = ["sum", "product", "vector", "matrix", "if"];
 
-/// Is this the name of a form with indices, or of one that takes whole numbers?
+/// Whether this is the name of a form with indices, or of one that takes whole numbers.
 pub(super) fn is_form(name: &str) -> bool {
     FORMS.contains(&name) || name == "zero"
 }
 
-/// Every name of such a form.
+/// Names of all such forms.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FORMS.into_iter().chain(["zero"])
 }
 
-/// How a form is written, for help.
+/// Syntax of a form, for help.
 pub(super) fn usage(name: &str) -> &'static str {
     match name {
         "sum" => "write `sum(i, 1..n, a[i])`",
@@ -55,31 +55,31 @@ pub(super) fn usage(name: &str) -> &'static str {
     }
 }
 
-/// One index with the ends of its range, where they stand among the tokens.
+/// Index of a form with its range.
 struct Index {
     name: String,
-    /// The token at which its range begins.
+    /// Position of the token at which the range begins.
     range: usize,
 }
 
-/// The head of a form: its indices, its conditions, and where its body begins and ends.
+/// Head of a form: its indices, its conditions, and the positions of its body's ends.
 struct Head {
     indices: Vec<Index>,
     conditions: Vec<usize>,
     body: usize,
-    /// The token behind the body.
+    /// Position of the token behind the body.
     end: usize,
 }
 
-/// What the values of the body are put together to.
+/// Value of the body for one choice of the indices.
 pub(super) struct Term {
     pub operand: Operand,
-    /// Is it the first for a new value of the first index?
+    /// Whether it is the first for a new value of the first index.
     pub opens_row: bool,
 }
 
 impl<'t> Parser<'t> {
-    /// `name(…)` for one of the forms; the name has been read.
+    /// Reads one of the forms `name(…)`; the name has been read.
     pub(super) fn form(&mut self, name: &str, span: Span) -> Parsed {
         if self.peek() != Kind::Open {
             let error = FormulaError::new(span, format!("`{name}` is written with brackets"));
@@ -101,7 +101,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// `E(n)`: the sizes in brackets behind the name of the unit matrix.
+    /// Reads the sizes in brackets of a unit matrix `E(n)`; the name has been read.
     pub(super) fn unit_matrix(&mut self, span: Span) -> Parsed {
         let (sizes, brackets) = self.sizes()?;
         let span = span.start..brackets.end;
@@ -130,7 +130,7 @@ impl<'t> Parser<'t> {
         Ok((sizes, open.start..self.advance().end))
     }
 
-    /// A form with indices, behind its name.
+    /// Reads a form with indices; the name has been read.
     fn indexed(&mut self, name: &str, span: Span) -> Parsed {
         let open = self.token().span.clone();
         let head = self.head(name)?;
@@ -144,7 +144,7 @@ impl<'t> Parser<'t> {
         self.builder.assemble(name, terms, head.indices.len(), span)
     }
 
-    /// Reads the indices and passes over conditions, up to the body.
+    /// Reads the indices and skips the conditions, up to the body.
     fn head(&mut self, name: &str) -> Result<Head, FormulaError> {
         self.advance();
         let mut head = Head { indices: Vec::new(), conditions: Vec::new(), body: 0, end: 0 };
@@ -183,12 +183,12 @@ impl<'t> Parser<'t> {
         Ok(head)
     }
 
-    /// Does a token of this kind stand in the argument that begins here?
+    /// Whether a token of this kind occurs in the argument that begins here.
     fn passes(&self, kind: Kind) -> bool {
         self.argument(self.position).any(|(_, found)| found == kind)
     }
 
-    /// The tokens of the argument that begins at a token, without those in inner brackets.
+    /// Tokens of the argument that begins at a token, without those in inner brackets.
     fn argument(&self, from: usize) -> impl Iterator<Item = (usize, Kind)> {
         let mut depth = 0usize;
         let ends = move |kind: Kind| {
@@ -213,7 +213,7 @@ impl<'t> Parser<'t> {
             .map(|(_, place, kind)| (place, kind))
     }
 
-    /// The token behind the argument that begins at a token.
+    /// Position of the token behind the argument that begins at a token.
     fn closing(&self, from: usize) -> usize {
         let mut depth = 0usize;
         let mut place = from;
@@ -229,7 +229,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Goes to the argument behind this one.
+    /// Skips to the next argument.
     fn next_argument(&mut self, name: &str) -> Result<(), FormulaError> {
         self.position = self.closing(self.position);
         if self.peek() != Kind::Comma {
@@ -241,7 +241,7 @@ impl<'t> Parser<'t> {
         Ok(())
     }
 
-    /// Gives the index at `level` and those behind it their values, and reads the body for each.
+    /// Gives the index at `level` and those after it their values, and reads the body for each.
     fn fill(
         &mut self,
         head: &Head,
@@ -298,7 +298,7 @@ impl<'t> Parser<'t> {
         Ok(true)
     }
 
-    /// `if(condition, a, b)`, behind the name.
+    /// Reads `if(condition, a, b)`; the name has been read.
     fn choice(&mut self, span: Span) -> Parsed {
         let open = self.advance();
         let holds = self.condition()?;
@@ -322,7 +322,7 @@ impl<'t> Parser<'t> {
         Ok(Operand { span, ..chosen })
     }
 
-    /// Counts what is read while forms are written out.
+    /// Counts the tokens read while forms are written out, up to the limit.
     fn count(&mut self, tokens: usize, open: &Span) -> Result<(), FormulaError> {
         self.written_out += tokens.max(1);
         if self.written_out <= MOST_TOKENS {

@@ -1,4 +1,4 @@
-//! Messages for text that does not follow the grammar.
+//! Messages for text that violates the grammar.
 
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
@@ -9,7 +9,7 @@ use super::typing::Operand;
 const NO_EQUATION: &str = "a formula is a value, not an equation";
 
 impl Parser<'_> {
-    /// An operand follows `left` with no operator between them.
+    /// The error for an operand that follows `left` with no operator between them.
     pub(super) fn missing_times(&mut self, left: &Operand) -> FormulaError {
         let token = self.token().clone();
         let right = match (self.attempt(), token.kind) {
@@ -34,18 +34,18 @@ impl Parser<'_> {
         FormulaError::new(token.span, "missing `*`").with_help(format!("write `{a}*{b}`"))
     }
 
-    /// A bar where an operator should stand, and the error that reading on from it gave.
+    /// The error for a bar in place of an operator, given the error from reading on.
     fn odd_bar(&self, bar: &Span, error: FormulaError) -> FormulaError {
         let (before, after) = (&self.builder.text[..bar.start], &self.builder.text[bar.end..]);
         match self.innermost() {
             _ if after.contains('|') => error,
-            // `|(a|`: the bracket is missing its end, not the bar
+            // `|(a|`: the end of the bracket is missing, not that of the bar
             Some(bracket) if before.contains('|') => self.unclosed_before(&bracket, bar),
             _ => FormulaError::new(bar.clone(), "this `|` has no partner"),
         }
     }
 
-    /// Something else stands where a number, a name or a bracket should.
+    /// The error for a token in place of a number, a name or a bracket.
     pub(super) fn missing_operand(&self) -> FormulaError {
         let span = self.token().span.clone();
         let error = match self.peek() {
@@ -75,7 +75,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The bracket or bar opened at `open` meets something that does not close it.
+    /// The error for a bracket or bar opened at `open` and not closed here.
     pub(super) fn unclosed(&self, open: &Span) -> FormulaError {
         self.unclosed_before(open, &self.token().span)
     }
@@ -91,7 +91,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A token that nothing before it calls for, behind a complete formula.
+    /// The error for an extra token behind a complete formula.
     pub(super) fn unexpected_end(&self) -> FormulaError {
         let span = self.token().span.clone();
         let found = self.text(&span);
@@ -111,7 +111,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `a × b × c`, read up to its second sign.
+    /// The error for `a × b × c`, read up to its second sign.
     pub(super) fn chained_products(&mut self, a: &Operand, b: &Operand) -> FormulaError {
         let first_sign = self.builder.text[a.span.end..b.span.start].trim();
         let sign = self.advance();

@@ -1,27 +1,27 @@
-//! Numbers and functions made of those that every [`Scalar`] has.
+//! Numbers and functions expressed by those that every [`Scalar`] has.
 
 use super::arena::Extreme;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// π = 4 atan 1
+/// Returns π = 4 atan 1.
 pub(super) fn pi<T: Scalar>() -> T {
     T::one().atan() * T::from(4.0)
 }
 
-/// acos x = π/2 - asin x
+/// Returns acos x = π/2 - asin x.
 pub(super) fn arccosine<T: Scalar>(x: T) -> T {
     T::one().atan() * T::from(2.0) - x.arcsine()
 }
 
-/// 2 atan(y/(x + r)), r² = x² + y²: the angle of the point (x, y), between -π and π.
+/// Angle of the point (x, y) between -π and π: 2 atan(y/(x + r)), r² = x² + y².
 ///
-/// It has no value on the ray y = 0, x ≤ 0, where the angle jumps.
+/// Undefined on the ray y = 0, x ≤ 0, where the angle jumps.
 pub(super) fn angle<T: Scalar>(y: T, x: T) -> T {
     y.angle_from(x)
 }
 
-/// (a + b - |a - b|)/2 or (a + b + |a - b|)/2
+/// Minimum (a + b - |a - b|)/2 or maximum (a + b + |a - b|)/2.
 pub(super) fn extreme<T: Scalar>(which: Extreme, a: T, b: T) -> T {
     let half = T::rational(&Rational::new(1, 2));
     let gap = (a - b).modulus();

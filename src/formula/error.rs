@@ -1,14 +1,14 @@
-//! What is wrong with a formula, where, and what would be right.
+//! Errors in formulas, with their place and a remedy.
 
 use std::fmt;
 use std::ops::Range;
 
-/// A byte range of the formula's text.
+/// Byte range of the formula's text.
 pub(super) type Span = Range<usize>;
 
 /// An error in a formula, ready to be shown below the line it was written on.
 ///
-/// One pointer wide: every step of reading a formula returns one or a piece of the formula.
+/// One pointer wide, since every step of reading a formula returns a result with one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormulaError(Box<Fault>);
 
@@ -18,7 +18,7 @@ struct Fault {
     span: Span,
     help: Option<String>,
     unknown: Option<String>,
-    /// Is an index too large or too small?
+    /// Whether an index is too large or too small.
     out_of_range: bool,
 }
 
@@ -38,46 +38,46 @@ impl FormulaError {
         self
     }
 
-    /// The same about a name that is not known.
+    /// Marks the error as one about an unknown name.
     pub(super) fn with_unknown(mut self, name: &str) -> Self {
         self.0.unknown = Some(name.to_string());
         self
     }
 
-    /// The same about an index that is too large or too small.
+    /// Marks the error as one about an index that is too large or too small.
     pub(super) fn with_index_out_of_range(mut self) -> Self {
         self.0.out_of_range = true;
         self
     }
 
-    /// Is an index too large or too small?
+    /// Whether the error is an index that is too large or too small.
     pub fn is_out_of_range(&self) -> bool {
         self.0.out_of_range
     }
 
-    /// The name that is not known, as it is written, where that is the trouble.
+    /// Unknown name that caused the error, as written.
     pub fn unknown_name(&self) -> Option<&str> {
         self.0.unknown.as_deref()
     }
 
-    /// What is wrong.
+    /// Message that describes the error.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// Where it is wrong, in bytes of the formula's text.
+    /// Place of the error, in bytes of the formula's text.
     pub fn span(&self) -> Range<usize> {
         self.0.span.clone()
     }
 
-    /// What would be right, if that can be told.
+    /// Suggested correction, if there is one.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 }
 
 impl fmt::Display for FormulaError {
-    /// The message and, after a colon, the help.
+    /// Writes the message and, after a colon, the help.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(&self.0.message)?;
         self.0.help.iter().try_for_each(|help| write!(out, ": {help}"))
@@ -86,7 +86,7 @@ impl fmt::Display for FormulaError {
 
 impl std::error::Error for FormulaError {}
 
-/// The text shown for a piece of a formula in a message; a long one is cut in the middle.
+/// Text of a piece of a formula in a message; a long one is cut in the middle.
 pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 60;
     const END: usize = 25;

@@ -1,7 +1,7 @@
-//! The value of a formula: one pass over its nodes.
+//! Evaluation of a formula in one pass over its nodes.
 //!
-//! What lies in ℝ³ is computed by the algebra written out for it; vectors and matrices of other
-//! sizes by loops over their components.
+//! Values in ℝ³ are computed by the algebra written out for it; vectors and matrices of other sizes
+//! by loops over their components.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -12,7 +12,7 @@ use super::value::{Table, Value};
 use super::{algebra, elementary, tables};
 use crate::scalar::Scalar;
 
-/// The values of nodes already passed.
+/// Values of the nodes already passed.
 struct Values<T>(Vec<Value<T>>);
 
 const TYPED: &str = "operand types are settled when a formula is read";
@@ -85,10 +85,10 @@ fn table<T: Scalar>(entries: Table<T>) -> Value<T> {
     }
 }
 
-/// The value of every node, each computed once and each symbol looked up once.
+/// Evaluates every node once, looking up each symbol once.
 ///
 /// # Panics
-/// If `lookup` gives a value of another type than the scope declared for the symbol.
+/// If `lookup` returns a value of another type than the scope declared for the symbol.
 pub(super) fn values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
@@ -102,7 +102,7 @@ pub(super) fn values<T: Scalar>(
     steps(arena, &symbols)
 }
 
-/// The same, with a value exactly where every operation that is written has one.
+/// Evaluates every node such that a value is defined exactly where all operations as written are.
 pub(super) fn literal_values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
@@ -186,7 +186,7 @@ fn step<T: Scalar>(
     }
 }
 
-/// The operations of linear algebra where all operands lie in ℝ³.
+/// Evaluates an operation of linear algebra if all its operands lie in ℝ³.
 fn in_space<T: Scalar>(operation: &Operation, v: &Values<T>) -> Option<Value<T>> {
     use Value::{Matrix, Scalar, Vector};
     let vector = |node: &NodeId| match &v.0[*node] {
@@ -234,7 +234,7 @@ fn of_any_size<T: Scalar>(operation: &Operation, v: &Values<T>) -> Value<T> {
     }
 }
 
-/// The sum of values of one type.
+/// Sum of values of one type.
 fn sum<T: Scalar>(terms: &[NodeId], v: &Values<T>) -> Value<T> {
     let (first, rest) = terms.split_first().expect(TYPED);
     let mut total = v.0[*first].components();

@@ -1,4 +1,4 @@
-//! The named functions: their spellings, what they take, and the nodes they become.
+//! Named functions: their spellings, their arguments, and the nodes they become.
 
 use super::arena::{Extreme, Function, Operation};
 use super::error::{FormulaError, Span};
@@ -6,18 +6,18 @@ use super::kind::Type;
 use super::typing::{Builder, Built, Infix, Operand};
 use crate::number::rational::Rational;
 
-/// The most rows of a matrix whose determinant, adjugate or inverse is taken.
+/// Limit on the rows of a matrix whose determinant, adjugate or inverse is taken.
 const MOST_ROWS: usize = 16;
 
-/// Builds the nodes of a function whose arguments have the right number and kinds.
+/// Builder of the nodes of a function whose arguments have the right number and types.
 type Build = fn(&mut Builder<'_>, &[Operand], Span) -> Built;
 
-/// What an argument has to be.
+/// Type required of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
     Scalar,
     Vector,
-    /// A vector of ℝ³.
+    /// Vector of ℝ³.
     Spatial,
     Matrix,
     Square,
@@ -46,12 +46,12 @@ impl Wanted {
     }
 }
 
-/// What a function takes.
+/// Arguments of a function.
 #[derive(Clone, Copy, Debug)]
 enum Arguments {
-    /// One each.
+    /// One argument for each entry.
     These(&'static [Wanted]),
-    /// So many of one kind, or more.
+    /// At least this number of arguments of one kind.
     Several(usize, Wanted),
 }
 
@@ -85,7 +85,7 @@ impl Arguments {
     }
 }
 
-/// One way to call a function.
+/// Overload of a function.
 struct Overload {
     names: &'static [&'static str],
     arguments: Arguments,
@@ -181,7 +181,7 @@ fn solve(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
     Ok(f.push(Operation::Solve(a[0].node, a[1].node), a[1].value_type, span))
 }
 
-/// `mat(a,b,c,d)`: a square matrix by its entries.
+/// Builds a square matrix `mat(a,b,c,d)` from its entries.
 fn square_of_entries(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
     let rows = a.len().isqrt();
     if rows * rows != a.len() {
@@ -194,7 +194,7 @@ fn square_of_entries(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
     f.rows(&lines, span)
 }
 
-/// `[a]×`, the matrix with `[a]× b = a × b`.
+/// Builds `[a]×`, the matrix with `[a]× b = a × b`.
 fn hat(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
     let zero = f.push(Operation::Number(Rational::from(0)), Type::Scalar, span.clone());
     let [x, y, z] =
@@ -207,7 +207,7 @@ fn hat(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
 }
 
 impl Builder<'_> {
-    /// `a⁻¹`
+    /// Builds `a⁻¹`.
     pub fn inverse(&mut self, a: &Operand, span: Span) -> Built {
         self.small(a)?;
         Ok(self.push(Operation::Inverse(a.node), a.value_type, span))
@@ -218,7 +218,7 @@ impl Builder<'_> {
         self.push_sized(Operation::Diagonal(a.node), Type::Matrix(rows, rows), span)
     }
 
-    /// The rows of a matrix that is small enough for its determinant to be taken.
+    /// Number of rows of a matrix, or an error if it is too large for a determinant.
     fn small(&self, a: &Operand) -> Result<usize, FormulaError> {
         let Type::Matrix(rows, _) = a.value_type else { return Ok(1) };
         if rows <= MOST_ROWS {
@@ -230,17 +230,17 @@ impl Builder<'_> {
     }
 }
 
-/// Every spelling of every function.
+/// All spellings of all functions.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().flat_map(|function| function.names.iter().copied())
 }
 
-/// Is this the name of a function?
+/// Whether this is the name of a function.
 pub(super) fn is_function(name: &str) -> bool {
     names().any(|known| known == name)
 }
 
-/// How a function is called, for help: `solve(matrix, vector)`.
+/// Syntax of a call of a function, for help: `solve(matrix, vector)`.
 pub(super) fn usage(name: &str) -> String {
     let call = |function: &Overload| match (name, function.arguments) {
         ("atan2", _) => "`atan2(y, x)`".to_string(),
@@ -264,7 +264,7 @@ fn overloads(name: &str) -> impl Iterator<Item = &'static Overload> {
     FUNCTIONS.iter().filter(move |function| function.names.contains(&name))
 }
 
-/// The operand for `name(arguments)`, the whole call standing at `span`.
+/// Builds `name(arguments)`; `span` covers the whole call.
 pub(super) fn call(
     builder: &mut Builder<'_>,
     name: &str,

@@ -1,4 +1,4 @@
-//! Weights of formulas: what scales how, and whether terms that are added scale alike.
+//! Homogeneity of formulas: weights of nodes, and equality of the weights of added terms.
 
 use super::arena::{Arena, Function, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
@@ -30,7 +30,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    /// The weight of a node from those of its operands.
+    /// Weight of a node, from those of its operands.
     fn form(&mut self, node: NodeId) -> Result<Option<Form>, FormulaError> {
         let one = Rational::from(1);
         Ok(match &self.arena.nodes[node].operation {
@@ -80,7 +80,7 @@ impl Check<'_> {
         })
     }
 
-    /// The rows of a matrix, as a number to multiply by.
+    /// Number of rows of a matrix, as a factor of weights; 1 for other values.
     fn rows(&self, node: NodeId) -> i64 {
         match self.arena.nodes[node].value_type {
             Type::Matrix(rows, _) => rows as i64,
@@ -88,7 +88,7 @@ impl Check<'_> {
         }
     }
 
-    /// The common weight of terms that have to agree.
+    /// Common weight of terms that have to agree.
     fn equal(&mut self, node: NodeId, terms: &[NodeId]) -> Result<Option<Form>, FormulaError> {
         let mut first: Option<(NodeId, Form)> = None;
         for term in terms {
@@ -116,7 +116,7 @@ impl Check<'_> {
         self.forms[a].as_ref().map(|form| form.times(factor))
     }
 
-    /// A power whose exponent is not a number: its weight is open unless the base has none.
+    /// Weight of a power whose exponent is not a number: open unless the base is weightless.
     fn power_of(&mut self, base: NodeId, exponent: NodeId) -> Result<Option<Form>, FormulaError> {
         self.weightless(exponent, "an exponent")?;
         let Some(form) = self.forms[base].clone() else {
@@ -184,7 +184,7 @@ impl Check<'_> {
         FormulaError::new(self.arena.nodes[sum].span.clone(), message)
     }
 
-    /// The first term with a weight of a sum written without brackets.
+    /// First term with a weight of a sum written without brackets.
     fn first_term(&self, mut node: NodeId) -> NodeId {
         let nodes = &self.arena.nodes;
         while let Operation::Add(a, b) | Operation::Subtract(a, b) = nodes[node].operation {

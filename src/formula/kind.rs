@@ -1,28 +1,28 @@
-//! The kinds of values: scalars, vectors and matrices of any size.
+//! Types of values: scalars, vectors and matrices of any size.
 
 use std::fmt;
 
-/// The most components that a value has.
+/// Limit on the components of a value.
 pub const MAX_COMPONENTS: usize = 1024;
 
-/// The kind of value a name or a formula stands for; known when the formula is read.
+/// Type of the value of a name or a formula; known when the formula is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
     /// A number.
     Scalar,
-    /// So many components.
+    /// Vector of this number of components.
     Vector(usize),
-    /// So many rows of so many entries.
+    /// Matrix with these numbers of rows and columns.
     Matrix(usize, usize),
 }
 
 impl Type {
-    /// The vectors of ℝ³.
+    /// Vectors of ℝ³.
     pub const VECTOR: Type = Type::Vector(3);
-    /// The 3×3 matrices.
+    /// Matrices of size 3×3.
     pub const MATRIX: Type = Type::Matrix(3, 3);
 
-    /// How many scalars make up a value of this type: 1, 3 and 9 for those of ℝ³.
+    /// Number of components of a value: 1, 3 and 9 for scalars, vectors and matrices of ℝ³.
     pub fn size(self) -> usize {
         match self {
             Type::Scalar => 1,
@@ -31,7 +31,7 @@ impl Type {
         }
     }
 
-    /// The kind with its size, also where that is the usual one.
+    /// Name of the type with its size, also for those of ℝ³.
     pub fn in_full(self) -> String {
         match self {
             Type::Scalar => "scalar".to_string(),
@@ -40,12 +40,12 @@ impl Type {
         }
     }
 
-    /// Both are vectors, or both are matrices, of different sizes.
+    /// Whether the types are both vectors, or both matrices, of different sizes.
     pub(crate) fn differs_in_size(self, other: Type) -> bool {
         self != other && std::mem::discriminant(&self) == std::mem::discriminant(&other)
     }
 
-    /// How the component at `place` of a value called `name` is written: `γ3`, `L[2,12]`.
+    /// Notation for the component at `place` of a value called `name`: `γ3`, `L[2,12]`.
     pub fn component(self, name: &str, place: usize) -> String {
         match self {
             Type::Scalar => name.to_string(),
@@ -57,7 +57,7 @@ impl Type {
         }
     }
 
-    /// A value with these components in order, between the brackets of lists and rows.
+    /// Notation for a value with these components, between the brackets of lists and rows.
     pub fn listed(self, components: &[String], [open, between, close]: [&str; 3]) -> String {
         let list = |parts: &[String]| format!("{open}{}{close}", parts.join(between));
         match self {
@@ -70,7 +70,7 @@ impl Type {
         }
     }
 
-    /// The indices of the components, as they are written: none for a scalar, `[3]`, `[2,1]`.
+    /// Indices of the components, as they are written: none for a scalar, `[3]`, `[2,1]`.
     pub fn indices(self) -> Vec<String> {
         match self {
             Type::Scalar => vec![String::new()],
@@ -84,7 +84,7 @@ impl Type {
 }
 
 impl fmt::Display for Type {
-    /// The kind, with its size unless that is 3.
+    /// Writes the name of the type, with its size unless that is 3.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Type::VECTOR => out.write_str("vector"),

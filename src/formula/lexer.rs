@@ -1,14 +1,14 @@
-//! Text into tokens. Knows characters, not grammar.
+//! Tokens of a formula: characters without grammar.
 
 use super::error::{FormulaError, Span};
 use super::names::identifier_length;
 
-/// What a token is; texts of numbers and names are read off the span.
+/// Kind of a token; the texts of numbers and names are read off the span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Number,
     Name,
-    /// `²`, `⁻¹`: a power written above the line.
+    /// A power written above the line: `²`, `⁻¹`.
     Superscript,
     Transpose,
     Plus,
@@ -26,22 +26,22 @@ pub(super) enum Kind {
     CloseSquare,
     Bar,
     Comma,
-    /// `..`, between the ends of a range.
+    /// The sign `..` between the ends of a range.
     Range,
-    /// `=`, `≠`, `<` and the like, in conditions on indices.
+    /// A comparison such as `=`, `≠`, `<` in a condition on indices.
     Comparison,
-    /// After the last token; its span is empty.
+    /// End of the text; its span is empty.
     End,
 }
 
-/// One token and where it stands.
+/// Token with its place.
 #[derive(Clone, Debug)]
 pub(super) struct Token {
     pub kind: Kind,
     pub span: Span,
 }
 
-/// The tokens of a formula, an [`Kind::End`] last.
+/// Splits a formula into tokens, an [`Kind::End`] last.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
     let mut tokens = Vec::new();
     let mut start = 0;
@@ -59,7 +59,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
     Ok(tokens)
 }
 
-/// The token at the start of `rest` and its length in bytes.
+/// Reads the token at the start of `rest`; returns its kind and its length in bytes.
 fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
     if let Some(length) = comparison_length(rest) {
         return Some((Kind::Comparison, length));
@@ -98,13 +98,13 @@ fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
     Some((sign, first.len_utf8()))
 }
 
-/// How many bytes at the start of the text compare two numbers.
+/// Length in bytes of a comparison sign at the start of the text.
 fn comparison_length(text: &str) -> Option<usize> {
     let signs = ["!=", "<=", ">=", "==", "≠", "≤", "≥", "=", "<", ">"];
     signs.into_iter().find(|sign| text.starts_with(sign)).map(str::len)
 }
 
-/// `12`, `3.5`, `.5`, `1e-3`: how many bytes at the start of the text are one number.
+/// Length in bytes of a number at the start of the text: `12`, `3.5`, `.5`, `1e-3`.
 fn number_length(text: &str) -> usize {
     if let Some(c) = text.chars().next().filter(|c| fraction(*c).is_some()) {
         return c.len_utf8();
@@ -125,7 +125,7 @@ fn number_length(text: &str) -> usize {
     length
 }
 
-/// `½` and its like, written out.
+/// Plain form of `½` and the like.
 pub(super) fn fraction(c: char) -> Option<&'static str> {
     let known = [('½', "1/2"), ('⅓', "1/3"), ('⅔', "2/3"), ('¼', "1/4"), ('¾', "3/4")];
     known.into_iter().find(|(sign, _)| *sign == c).map(|(_, text)| text)
@@ -143,7 +143,7 @@ fn superscript_digit(c: char) -> Option<char> {
     char::from_digit(u32::try_from(digit).ok()?, 10)
 }
 
-/// A superscript as the number it raises to, written in ordinary digits.
+/// Number that a superscript raises to, in ordinary digits.
 pub(super) fn superscript_number(text: &str) -> String {
     let plain = |c| match c {
         '⁻' => Some('-'),
@@ -153,7 +153,7 @@ pub(super) fn superscript_number(text: &str) -> String {
     text.chars().filter_map(plain).collect()
 }
 
-/// A character that stands for nothing; `before` is the text before it.
+/// The error for a character without meaning; `before` is the text before it.
 fn stray(c: char, span: Span, before: &str) -> FormulaError {
     let error = FormulaError::new(span, format!("`{c}` has no meaning in a formula"));
     match c {

@@ -1,4 +1,4 @@
-//! The derivative of the logarithm of a formula, taken factor by factor.
+//! Derivative of the logarithm of a formula, taken factor by factor.
 //!
 //! A density is a product of powers and exponentials. Its value may overflow or need a root that
 //! an exact number does not have, while `(ln ρ)' = Σ q f'/f` over its factors `f^q` does not.
@@ -13,7 +13,7 @@ use super::value::Value;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// `(ln f)'` of the arena's last node, along the direction in the dual parts of `lookup`.
+/// Returns `(ln f)'` of the arena's last node, along the direction in the dual parts of `lookup`.
 ///
 /// Zero if the formula is not a scalar.
 pub(super) fn logarithmic_derivative<T: Scalar>(

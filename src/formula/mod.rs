@@ -1,8 +1,8 @@
-//! The language in which formulas are written, nearly as in the papers.
+//! Language of formulas, nearly that of the papers.
 //!
-//! In goes a text such as `|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)` and a [`Scope`] that knows its
-//! names; out comes a [`Formula`], typed and ready to be evaluated over any [`Scalar`], or a
-//! [`FormulaError`] that says where the text is wrong and what to write instead.
+//! A text such as `|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)` is read in a [`Scope`] that knows its names.
+//! The result is a [`Formula`], typed and ready to be evaluated over any [`Scalar`], or a
+//! [`FormulaError`] with the place of the error and a correction.
 //!
 //! Operators, loosest first:
 //!
@@ -92,11 +92,11 @@ pub use weights::{Weight, WeightSystem};
 
 use arena::{Arena, Node, Operation};
 
-/// A formula that has been read: its names known, its types checked.
+/// A formula with its names resolved and its types checked.
 #[derive(Clone, Debug)]
 pub struct Formula {
     text: String,
-    /// Arguments stand before their users, the whole formula is the last node.
+    /// Nodes, arguments before their users; the whole formula is the last node.
     arena: Arena,
 }
 
@@ -107,58 +107,58 @@ impl Formula {
         Ok(Formula { text: text.to_string(), arena })
     }
 
-    /// The whole number that a text is, in names whose values the scope knows.
+    /// Reads a text as a whole number, in names whose values the scope knows.
     pub(crate) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, FormulaError> {
         parser::whole_number(text, scope)
     }
 
-    /// The text as written.
+    /// Text as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Whether the formula is a scalar, a vector or a matrix.
+    /// Type of the value: scalar, vector or matrix.
     pub fn value_type(&self) -> Type {
         self.root().value_type
     }
 
-    /// The symbols used, each once, in the order they are first written.
+    /// Symbols used, each once, in the order of first use.
     pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
         self.arena.symbols.iter().map(|(symbol, _)| *symbol)
     }
 
-    /// The symbols whose values are written into the formula: the whole numbers in its indices, bounds,
+    /// Symbols whose values are written into the formula: the whole numbers in its indices, bounds,
     /// sizes and powers of matrices.
     pub fn fixed_symbols(&self) -> &[Symbol] {
         &self.arena.fixed
     }
 
-    /// The number the formula is, such as `3/7` or `-0.5`; `None` if it contains anything else.
+    /// Constant value of the formula, such as `3/7` or `-0.5`; `None` if it contains anything else.
     pub fn constant(&self) -> Option<Rational> {
         self.arena.constant(self.arena.nodes.len() - 1).cloned()
     }
 
-    /// The value, given the values of the symbols it uses; each is asked for once.
+    /// Evaluates the formula, looking up each symbol once.
     ///
     /// # Panics
-    /// If `lookup` gives a value of another type than the scope declared for the symbol.
+    /// If `lookup` returns a value of another type than the scope declared for the symbol.
     pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
         let mut values = evaluate::values(&self.arena, lookup);
         // a formula that was read has at least one node
-        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
+        values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 
-    /// The value, with one exactly where every operation that is written has one: a recorded
-    /// scalar folds √x·√x to x otherwise.
+    /// Evaluates the formula such that a value is defined exactly where all operations as written
+    /// are: otherwise a recorded scalar folds √x·√x to x.
     pub fn evaluate_literally<T: Scalar>(
         &self,
         lookup: &mut dyn FnMut(Symbol) -> Value<T>,
     ) -> Value<T> {
         let mut values = evaluate::literal_values(&self.arena, lookup);
-        values.pop().unwrap_or_else(|| Value::Scalar(T::zero()))
+        values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 
-    /// The derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
+    /// Derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
     ///
     /// Taken factor by factor, so that roots, powers and exponentials of factors drop out. Zero if
     /// the formula is not a scalar.
@@ -172,8 +172,8 @@ impl Formula {
         logarithm::logarithmic_derivative(&self.arena, lookup)
     }
 
-    /// A where the whole formula is √A or the norm of a vector, x where it is |x|, and whether it is
-    /// the latter.
+    /// Returns A and `false` if the whole formula is √A or, as A = (v,v), the norm of a vector; x
+    /// and `true` if it is |x|.
     pub fn radicand(&self) -> Option<(Formula, bool)> {
         let (argument, is_modulus) = match self.root().operation {
             Operation::Function(arena::Function::Sqrt, a) => (a, false),
@@ -185,13 +185,13 @@ impl Formula {
         Some((Formula { text: self.text.clone(), arena }, is_modulus))
     }
 
-    /// Does the formula contain an `∫`?
+    /// Whether the formula contains an `∫`.
     pub fn has_antiderivative(&self) -> bool {
         let integral = |node: &Node| matches!(node.operation, Operation::Antiderivative(..));
         self.arena.nodes.iter().any(integral)
     }
 
-    /// Integrand and variable of every `∫`, evaluated, in the order the integrals are written.
+    /// Evaluates integrand and variable of every `∫`, in the order of the text.
     ///
     /// # Panics
     /// As [`evaluate`](Formula::evaluate).
@@ -207,11 +207,11 @@ impl Formula {
         self.arena.nodes.iter().filter_map(pair).collect()
     }
 
-    /// Checks that terms of sums, exponents and the like have fitting weights, and learns from
-    /// them the weights of symbols that were not set.
+    /// Checks that terms of sums, exponents and the like have fitting weights, and infers from them
+    /// the weights of symbols that were not set.
     ///
-    /// The weight of the formula itself is returned if it is known by then; `None` also for 0,
-    /// which fits any weight.
+    /// Returns the weight of the formula itself if it is known by then; `None` also for 0, which
+    /// fits any weight.
     pub fn check_weights(
         &self,
         weights: &mut WeightSystem,
@@ -225,7 +225,7 @@ impl Formula {
     }
 }
 
-/// Is this the name of a function, or of a form such as `sum`?
+/// Whether this is the name of a function, or of a form such as `sum`.
 pub(crate) fn is_function(name: &str) -> bool {
     functions::is_function(name) || binders::is_form(name)
 }

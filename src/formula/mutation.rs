@@ -1,9 +1,9 @@
-//! Perturbed formulas: each mutant is the text with one thing changed, read again.
+//! Perturbed formulas: each mutant is the text with one change, read again.
 //!
-//! Changed are coefficients (one more, the negative, a near miss by a relative 2⁻⁵⁰, a doubled term),
-//! signs, exponents, terms and factors (dropped), quotients (turned over), arguments (one for the
-//! other) and names (a tensor, a vector or a scalar for another). What cannot be read any more, is
-//! not of the same type, or says the same as the original is left out.
+//! Changes affect coefficients (one more, the negative, a near miss by a relative 2⁻⁵⁰, a doubled
+//! term), signs, exponents, terms and factors (dropped), quotients (inverted), arguments (swapped)
+//! and names (a tensor, a vector or a scalar for another). A mutant that cannot be read, has
+//! another type, or equals the original is left out.
 
 use super::Formula;
 use super::arena::{Extreme, Function, NodeId, Operation};
@@ -11,19 +11,19 @@ use super::kind::Type;
 use super::scope::Scope;
 use crate::number::rational::Rational;
 
-/// Mutants of one formula; beyond these every so many are taken.
+/// Limit on the mutants of one formula; of more, an evenly spaced selection is taken.
 const MOST: usize = 60;
-/// 1 + 2⁻⁵⁰
+/// The factor 1 + 2⁻⁵⁰.
 const NEAR_ONE: &str = "1125899906842625/1125899906842624";
-/// Replacements tried for each use of a name, by type.
+/// Number of replacements tried for each use of a name.
 const MOST_NAMES: usize = 3;
 
-/// A formula with one thing changed.
+/// A formula with one change.
 #[derive(Clone, Debug)]
 pub struct Mutant {
-    /// The changed formula.
+    /// Changed formula.
     pub formula: Formula,
-    /// What was changed, e.g. `2 → 3`.
+    /// Description of the change, e.g. `2 → 3`.
     pub change: String,
 }
 
@@ -60,7 +60,7 @@ impl Formula {
         self.text.get(self.arena.nodes[node].span.clone()).unwrap_or("")
     }
 
-    /// The text with the part of `node` replaced.
+    /// Replaces the part of `node` in the text.
     fn edit(&self, node: NodeId, by: &str, change: String) -> Edit {
         let span = &self.arena.nodes[node].span;
         let (before, after) = (self.text.get(..span.start), self.text.get(span.end..));
@@ -68,7 +68,7 @@ impl Formula {
         Edit { text, change }
     }
 
-    /// The text with the operator between two operands replaced.
+    /// Replaces the operator between two operands in the text.
     fn operator(&self, a: NodeId, b: NodeId, from: &[char], to: &str) -> Option<Edit> {
         let gap = self.arena.nodes[a].span.end..self.arena.nodes[b].span.start;
         let found = self.text.get(gap.clone())?.find(from)? + gap.start;
@@ -146,7 +146,7 @@ impl Formula {
         }
     }
 
-    /// A term doubled, a near miss of it, and each dropped.
+    /// Edits of a sum: a term doubled, a near miss of it, and each term dropped.
     fn terms(&self, node: NodeId, a: NodeId, b: NodeId, edits: &mut Vec<Edit>) {
         for term in [a, b] {
             let text = self.part(term);
@@ -158,20 +158,20 @@ impl Formula {
         edits.push(self.kept(node, b));
     }
 
-    /// The node replaced by one of its operands.
+    /// Replaces a node by one of its operands.
     fn kept(&self, node: NodeId, operand: NodeId) -> Edit {
         let (own, part) = (self.part(node), self.part(operand));
         self.edit(node, part, format!("{own} → {part}"))
     }
 }
 
-/// A changed text.
+/// Changed text.
 struct Edit {
     text: String,
     change: String,
 }
 
-/// Names of the same type, those that a reader would confuse first.
+/// Names of the same type, the most easily confused first.
 fn others(name: &str, kind: Type, scope: &dyn Scope) -> Vec<String> {
     let likely: &[&str] = match kind {
         Type::Matrix(..) => &["Ĩ", "J", "I", "B", "Γ"],

@@ -1,7 +1,7 @@
-//! Names: which texts are identifiers, and the one canonical spelling of each.
+//! Identifiers and their canonical spelling.
 //!
-//! `gamma3`, `γ₃` and `γ3` are one name, as are `omega'` and `ω′`. Everything that stores or
-//! compares names does so in the form [`canonical_name`] gives.
+//! `gamma3`, `γ₃` and `γ3` are one name, as are `omega'` and `ω′`. All code that stores or compares
+//! names uses the form returned by [`canonical_name`].
 
 /// Greek letters by their English names, and the two decorated letters of the papers.
 const SPELLED: [(&str, &str); 35] = [
@@ -42,7 +42,7 @@ const SPELLED: [(&str, &str); 35] = [
     ("Jscript", "𝒥"),
 ];
 
-/// Per combining mark, the letters it joins with and what they become.
+/// Combining marks, each with the letters it joins and the results.
 const COMPOSED: [(char, &str, &str); 11] = [
     ('\u{300}', "AEINOUWYaeinouwy", "ÀÈÌǸÒÙẀỲàèìǹòùẁỳ"),
     ('\u{301}', "ACEGIKLMNOPRSUWYZacegiklmnoprsuwyz", "ÁĆÉǴÍḰĹḾŃÓṔŔŚÚẂÝŹáćéǵíḱĺḿńóṕŕśúẃýź"),
@@ -109,10 +109,10 @@ const ALIKE: [(char, &str); 44] = [
     ('ψ', "ѱ"),
 ];
 
-/// The canonical form of one identifier, or `None` if the text is not one.
+/// Canonical form of an identifier; `None` if the text is not one.
 ///
-/// Spelled-out Greek becomes letters, look-alike letters, primes and subscript digits become one,
-/// a letter and its tilde become one character: `gamma3` → `γ3`, `mu_1` → `μ_1`, `Itilde` → `Ĩ`.
+/// Spelled-out Greek becomes letters; look-alike letters, primes and subscript digits become one; a
+/// letter and its tilde become one character: `gamma3` → `γ3`, `mu_1` → `μ_1`, `Itilde` → `Ĩ`.
 pub fn canonical_name(text: &str) -> Option<String> {
     if identifier_length(text) != text.len() || text.is_empty() {
         return None;
@@ -140,7 +140,7 @@ pub fn canonical_name(text: &str) -> Option<String> {
     }
 }
 
-/// The canonical names that occur in a text.
+/// Canonical names that occur in a text.
 pub(crate) fn names_in(text: &str) -> Vec<String> {
     let mut names = Vec::new();
     let mut rest = text;
@@ -152,7 +152,7 @@ pub(crate) fn names_in(text: &str) -> Vec<String> {
     names
 }
 
-/// The name with look-alike letters of other alphabets replaced: two names that look alike have one.
+/// Name with look-alike letters of other alphabets replaced, equal for names that look alike.
 pub(crate) fn skeleton(name: &str) -> String {
     let is_usual = |c: char| c.is_ascii() || ('α'..='ω').contains(&c);
     let plain = |c: char| match is_usual(c) {
@@ -166,7 +166,7 @@ fn alike(c: char) -> char {
     ALIKE.iter().find(|(_, all)| all.contains(c)).map_or(c, |(own, _)| *own)
 }
 
-/// How many bytes at the start of the text belong to one identifier; 0 if none starts here.
+/// Length in bytes of the identifier at the start of the text; 0 if none starts here.
 pub(super) fn identifier_length(text: &str) -> usize {
     let mut primed = false;
     let ends = |(at, c): &(usize, char)| {
@@ -186,7 +186,7 @@ pub(super) fn identifier_length(text: &str) -> usize {
 }
 
 fn is_letter(c: char) -> bool {
-    // the transpose sign is a letter to Unicode, but an operator to us; ∂ the other way round
+    // the transpose sign is a letter in Unicode, but an operator here; for ∂ it is the reverse
     (c.is_alphabetic() || c == '∂') && c != 'ᵀ'
 }
 

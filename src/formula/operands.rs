@@ -1,4 +1,4 @@
-//! What the grammar bottoms out in: numbers, names, calls, literals and indices.
+//! Primary operands of the grammar: numbers, names, calls, literals and indices.
 
 use super::arena::Operation;
 use super::error::{FormulaError, Span};
@@ -26,14 +26,14 @@ impl Parser<'_> {
         Ok(self.builder.operand(node, span))
     }
 
-    /// The number a superscript stands for.
+    /// Value of a superscript.
     pub(super) fn superscript(&self, span: &Span) -> Result<Rational, FormulaError> {
         superscript_number(self.text(span))
             .parse()
             .map_err(|error| FormulaError::new(span.clone(), format!("{error}")))
     }
 
-    /// A name of the scope, one of its components, the identity, or a call.
+    /// Reads a name of the scope, one of its components, the identity, or a call.
     pub(super) fn name(&mut self) -> Parsed {
         let span = self.advance();
         let name = self.text(&span);
@@ -74,7 +74,7 @@ impl Parser<'_> {
         })
     }
 
-    /// A name in an index, a bound or a size.
+    /// Reads a name in an index, a bound or a size.
     fn known_number(&mut self, name: &str, span: Span) -> Parsed {
         let known = |name: &str| Some((self.scope.lookup(name)?.0, self.scope.whole_number(name)?));
         let found = known(name).or_else(|| known(&canonical_name(name)?));
@@ -101,7 +101,7 @@ impl Parser<'_> {
         functions::call(&mut self.builder, name, &arguments, span)
     }
 
-    /// `[a,b,c]`, or `[[..],[..],[..]]` by rows.
+    /// Reads `[a,b,c]`, or `[[..],[..],[..]]` by rows.
     pub(super) fn literal(&mut self) -> Parsed {
         let (items, span) = self.list(Kind::CloseSquare)?;
         let is_row = |item: &Operand| {
@@ -119,7 +119,7 @@ impl Parser<'_> {
         self.builder.rows(&items, span)
     }
 
-    /// `[i]` or `[i,j]` behind an operand; the span covers the brackets.
+    /// Reads `[i]` or `[i,j]` behind an operand; the span covers the brackets.
     pub(super) fn indices(&mut self) -> Result<(Vec<(i64, Span)>, Span), FormulaError> {
         let open = self.advance();
         let mut indices = Vec::new();

@@ -10,7 +10,7 @@ use super::lexer::{Kind, Token, tokens};
 use super::scope::Scope;
 use super::typing::{Builder, Infix, Operand};
 
-/// How deep brackets, prefixes and exponents may nest.
+/// Limit on the nesting of brackets, prefixes and exponents.
 const MAX_DEPTH: usize = 200;
 
 /// Binding strengths of the infix operators.
@@ -18,24 +18,24 @@ pub(super) const SUM: u8 = 1;
 const VECTOR_PRODUCT: u8 = 2;
 const PRODUCT: u8 = 3;
 
-/// The state of reading one formula.
+/// State of reading one formula.
 pub(super) struct Parser<'t> {
     pub(super) builder: Builder<'t>,
     pub(super) scope: &'t dyn Scope,
     tokens: Vec<Token>,
     pub(super) position: usize,
     depth: usize,
-    /// The innermost open bracket or bar.
+    /// Innermost open bracket or bar.
     innermost: Option<Span>,
-    /// Is it a bar, so that the next bar closes it?
+    /// Whether it is a bar, so that the next bar closes it.
     inside_bars: bool,
-    /// The indices of the forms around this place, with their values.
+    /// Indices of the enclosing forms, with their values.
     pub(super) bindings: Vec<(String, i64)>,
-    /// How often an index of such a form was read.
+    /// Number of times an index of such a form was read.
     pub(super) indices_read: usize,
-    /// Are names read as the whole numbers they stand for, as in indices?
+    /// Whether names are read as the whole numbers they stand for, as in indices.
     pub(super) whole_numbers: bool,
-    /// Tokens read while indexed forms are written out.
+    /// Number of tokens read while indexed forms are written out.
     pub(super) written_out: usize,
 }
 
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Arena, FormulaError
     }
 }
 
-/// Reads a text that is a whole number, in names whose values are known.
+/// Reads a whole number, in names whose values are known.
 pub(super) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, FormulaError> {
     let mut parser = Parser::new(text, scope)?;
     let (number, _) = parser.whole("this")?;
@@ -97,12 +97,12 @@ impl<'t> Parser<'t> {
         self.token().kind
     }
 
-    /// The kind of the token at a place.
+    /// Kind of the token at a position.
     pub(super) fn kind(&self, place: usize) -> Option<Kind> {
         self.tokens.get(place).map(|token| token.kind)
     }
 
-    /// The kind of the token so many behind this one.
+    /// Kind of the token `offset` places after the current one.
     pub(super) fn kind_at(&self, offset: usize) -> Option<Kind> {
         self.kind(self.position + offset)
     }
@@ -113,7 +113,7 @@ impl<'t> Parser<'t> {
         span
     }
 
-    /// Reads one level further in, opened at `span`.
+    /// Reads one level of nesting, opened at `span`.
     fn nested(&mut self, span: &Span, read: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == MAX_DEPTH {
             let error = FormulaError::new(span.clone(), "this is nested too deeply");
@@ -134,7 +134,7 @@ impl<'t> Parser<'t> {
         result
     }
 
-    /// Operands joined by operators that bind at least as tightly as `loosest`.
+    /// Reads operands joined by operators that bind at least as tightly as `loosest`.
     pub(super) fn expression(&mut self, loosest: u8) -> Parsed {
         let mut left = self.prefix()?;
         while let Some((infix, level)) = infix(self.peek()).filter(|(_, level)| *level >= loosest) {
@@ -149,7 +149,7 @@ impl<'t> Parser<'t> {
         Ok(left)
     }
 
-    /// `−a`, `√a`, `a^b`.
+    /// Reads `−a`, `√a`, `a^b`.
     fn prefix(&mut self) -> Parsed {
         let kind = self.peek();
         if !matches!(kind, Kind::Minus | Kind::Root) {
@@ -172,7 +172,7 @@ impl<'t> Parser<'t> {
         let caret = self.advance();
         let (start, indices) = (self.position, self.indices_read);
         let mut exponent = self.nested(&caret, Self::prefix)?;
-        // a power of a scalar keeps the names in it, unless an index stands beside them
+        // a power of a scalar keeps the names in it, unless it contains an index
         let is_numbered = base.value_type != Type::Scalar || self.indices_read > indices;
         if self.builder.arena.constant(exponent.node).is_none()
             && is_numbered
@@ -183,7 +183,7 @@ impl<'t> Parser<'t> {
         self.builder.power(&base, &exponent)
     }
 
-    /// An exponent that is a whole number by the names in it.
+    /// Reads an exponent again as a whole number, by the values of the names in it.
     fn whole_again(&mut self, start: usize, read: &Operand) -> Option<Operand> {
         if read.value_type != Type::Scalar || self.whole_numbers {
             return None;
@@ -203,7 +203,7 @@ impl<'t> Parser<'t> {
         number
     }
 
-    /// A primary with its superscripts, transposes and indices.
+    /// Reads a primary with its superscripts, transposes and indices.
     fn postfix(&mut self) -> Parsed {
         let mut operand = self.primary()?;
         loop {
@@ -239,12 +239,12 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// `(a)` or `(a,b)`.
+    /// Reads `(a)` or `(a,b)`.
     fn group(&mut self) -> Parsed {
         let (items, span) = self.list(Kind::Close)?;
         match items.as_slice() {
             [inner] => {
-                // the brackets belong to the text of what they hold
+                // the brackets belong to the text of their contents
                 self.builder.arena.nodes[inner.node].span = span.clone();
                 Ok(Operand { span, ..inner.clone() })
             }
@@ -256,7 +256,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// `|a|`.
+    /// Reads `|a|`.
     fn bars(&mut self) -> Parsed {
         let open = self.advance();
         let inner = self.enclosed(&open, true)?;
@@ -267,7 +267,7 @@ impl<'t> Parser<'t> {
         self.builder.modulus(&inner, span)
     }
 
-    /// Expressions between brackets, parted by commas; the span covers the brackets.
+    /// Reads expressions between brackets, separated by commas; the span covers the brackets.
     pub(super) fn list(&mut self, close: Kind) -> Result<(Vec<Operand>, Span), FormulaError> {
         let open = self.advance();
         if self.peek() == close {
@@ -287,7 +287,7 @@ impl<'t> Parser<'t> {
         Ok((items, span))
     }
 
-    /// Does the next token begin an operand, where an operator should stand?
+    /// Whether the next token begins an operand where an operator should stand.
     fn starts_operand(&self) -> bool {
         match self.peek() {
             Kind::Name => !self.is_modulo(),
@@ -297,12 +297,12 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The innermost open bracket, to point at where something else should have closed it.
+    /// Innermost open bracket, the place of an error where another token should have closed it.
     pub(super) fn innermost(&self) -> Option<Span> {
         self.innermost.clone()
     }
 
-    /// Reads what follows as an operand, for the sake of a message.
+    /// Reads the next operand for use in a message.
     pub(super) fn attempt(&mut self) -> Parsed {
         self.nested(&self.token().span.clone(), Self::prefix)
     }

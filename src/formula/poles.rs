@@ -1,20 +1,20 @@
-//! Where a formula may have no value: what it divides by, and what it takes logarithms of.
+//! Poles of a formula: its denominators and the arguments of its logarithms.
 
 use super::arena::{Function, Operation};
 use super::{Formula, Symbol};
 
-/// A part of a formula that must not be zero.
+/// Part of a formula that must not be zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Denominator<'f> {
-    /// As it is written.
+    /// Text as written.
     pub text: &'f str,
-    /// What it depends on.
+    /// Symbols that it depends on.
     pub symbols: Vec<Symbol>,
 }
 
 impl Formula {
-    /// The parts that are divided by, inverted, taken to a power that may be negative, or to the
-    /// logarithm.
+    /// Parts of the formula that are divided by, inverted, raised to a power that may be negative,
+    /// or taken the logarithm of.
     pub fn denominators(&self) -> Vec<Denominator<'_>> {
         let nodes = &self.arena.nodes;
         let below = nodes.iter().filter_map(|node| match &node.operation {

@@ -1,4 +1,4 @@
-//! Powers: which exponents go with scalars, vectors and matrices.
+//! Powers: exponents admitted for scalars, vectors and matrices.
 
 use super::arena::{Constant, Function, MAX_CONSTANT_BITS, NodeId, Operation};
 use super::error::{FormulaError, Span};
@@ -10,7 +10,7 @@ use crate::number::rational::Rational;
 const MAX_MATRIX_POWER: i64 = 100;
 
 impl Builder<'_> {
-    /// `base^exponent`.
+    /// Builds `base^exponent`.
     pub fn power(&mut self, base: &Operand, exponent: &Operand) -> Built {
         let span = base.span.start..exponent.span.end;
         if exponent.value_type != Type::Scalar {
@@ -30,7 +30,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `base^value` for a number written at `exponent`.
+    /// Builds `base^value` for a number written at `exponent`.
     pub fn constant_power(
         &mut self,
         base: &Operand,
@@ -74,7 +74,7 @@ impl Builder<'_> {
         self.arena.nodes[base.node].operation == Operation::Constant(Constant::Euler)
     }
 
-    /// e^x is exp(x), whatever x is.
+    /// Builds e^x as exp(x), for any x.
     fn exponential(&mut self, exponent: NodeId, span: Span) -> Operand {
         self.push(Operation::Function(Function::Exp, exponent), Type::Scalar, span)
     }
@@ -86,7 +86,7 @@ impl Builder<'_> {
         }
         let fold = |n: &[&Rational]| {
             let exponent = i32::try_from(value.to_integer()?).ok()?;
-            // the size is known before the power is taken
+            // the size is checked before the power is taken
             let bits = n[0].bits().checked_mul(u64::from(exponent.unsigned_abs()))?;
             (bits <= MAX_CONSTANT_BITS).then(|| n[0].powi(exponent)).flatten()
         };

@@ -1,29 +1,29 @@
-//! What names mean: the surroundings of a formula, and how a written name is looked up in them.
+//! Meaning of names: the scope of a formula, and the lookup of written names in it.
 
 use super::arena::Constant;
 use super::kind::Type;
 use super::names::canonical_name;
 
-/// A handle for what a name stands for; only the scope that gave it knows what it is.
+/// Handle for the meaning of a name; only the scope that issued it knows the meaning.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol(pub u32);
 
-/// What names mean at the place where a formula stands.
+/// Meanings of names at the place of a formula.
 pub trait Scope {
-    /// The meaning of a name, given as written or in canonical form.
+    /// Meaning of a name, given as written or in canonical form.
     fn lookup(&self, name: &str) -> Option<(Symbol, Type)>;
 
-    /// Every known name, for suggestions.
+    /// All known names, for suggestions.
     fn names(&self) -> Vec<String>;
 
-    /// The whole number that a name stands for, if it is known when formulas are read: only such
-    /// names stand in indices and in the bounds of sums.
+    /// Whole number that a name stands for, if it is known when formulas are read: only such names
+    /// may stand in indices and in the bounds of sums.
     fn whole_number(&self, _name: &str) -> Option<i64> {
         None
     }
 }
 
-/// What a written name turns out to be.
+/// Meaning of a written name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// A name of the scope.
@@ -36,11 +36,11 @@ pub(super) enum Meaning {
     Identity,
     /// π or e.
     Constant(Constant),
-    /// A component that does not exist, of the named vector or matrix.
+    /// Component that does not exist, of the named vector or matrix.
     OutOfRange(String, Type),
 }
 
-/// Looks a written name up: as it stands, in canonical form, then as a component by its digits.
+/// Looks up a written name: as it stands, in canonical form, then as a component by its digits.
 pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<Meaning> {
     let whole = |name: &str| scope.lookup(name);
     if let Some((symbol, ty)) = whole(written) {

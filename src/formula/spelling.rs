@@ -1,9 +1,9 @@
-//! Guesses at what a misspelled name was meant to be.
+//! Corrections of misspelled names.
 
-/// Names longer than this are not guessed at; the cost grows with the square of the length.
+/// Length of a name above which no correction is sought; the cost grows with its square.
 const LONGEST: usize = 40;
 
-/// The known name nearest to `name` by edit distance; `None` when nothing is near.
+/// Known name nearest to `name` by edit distance; `None` when nothing is near.
 ///
 /// Near means one edit for up to five letters, two beyond, and for a single letter only the
 /// other case, since any two letters are one edit apart.
@@ -35,13 +35,13 @@ pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&
         .map(|(_, known)| known)
 }
 
-/// The fewest known pieces the name is made of (`mR` → `m`, `R`), if it is made of two or more.
+/// Splits a name into the fewest known pieces (`mR` → `m`, `R`), if there are two or more.
 pub(super) fn split(name: &str, known: impl Fn(&str) -> bool) -> Option<Vec<&str>> {
     let cuts: Vec<usize> = name.char_indices().map(|(at, _)| at).chain([name.len()]).collect();
     if cuts.len() > LONGEST {
         return None;
     }
-    // best[j]: how many pieces make up the text before cut j, and where the last one starts
+    // best[j]: number of pieces of the text before cut j, and the start of the last one
     let mut best: Vec<Option<(usize, usize)>> = vec![Some((0, 0))];
     for j in 1..cuts.len() {
         let options = (0..j).filter_map(|i| {
@@ -61,7 +61,7 @@ pub(super) fn split(name: &str, known: impl Fn(&str) -> bool) -> Option<Vec<&str
     (pieces.len() > 1).then_some(pieces)
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn one text into another.
+/// Edit distance of two texts: insertions, deletions, replacements and swaps of neighbours.
 fn edit_distance(a: &[char], b: &[char]) -> usize {
     let mut before: Vec<usize> = Vec::new();
     let mut above: Vec<usize> = (0..=b.len()).collect();

@@ -1,8 +1,8 @@
-//! Vectors and matrices of any size over any [`Scalar`], beside the algebra of ℝ³.
+//! Vectors and matrices of any size over any [`Scalar`], in addition to the algebra of ℝ³.
 //!
-//! Nothing is divided by what may vanish: a recorded scalar knows no pivots. Determinants of up to
-//! [`MOST_BY_MINORS`] rows are expanded by minors, larger ones come from the characteristic
-//! polynomial, whose coefficients are divided by whole numbers alone (Faddeev, LeVerrier):
+//! No division by a value that may vanish: a recorded scalar has no pivots. Determinants of up to
+//! [`MOST_BY_MINORS`] rows are expanded by minors; larger ones come from the characteristic
+//! polynomial, whose coefficients are divided only by whole numbers (Faddeev, LeVerrier):
 //!
 //! ```text
 //! M₁ = E,  M_k = A M_(k-1) + c_(k-1) E,  c_k = -tr(A M_k)/k:  det A = (-1)ⁿ cₙ,  adj A = (-1)ⁿ⁻¹ Mₙ
@@ -12,21 +12,21 @@ use super::value::Table;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-/// Rows of a determinant that is expanded by minors.
+/// Limit on the rows of a determinant that is expanded by minors.
 const MOST_BY_MINORS: usize = 6;
 
-/// Σ a_i b_i
+/// Dot product Σ a_i b_i.
 pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     let products = a.iter().zip(b).map(|(a, b)| *a * *b);
     products.reduce(|sum, product| sum + product).unwrap_or_else(T::zero)
 }
 
-/// `A v`
+/// Product `A v`.
 pub(super) fn apply<T: Scalar>(a: &Table<T>, v: &[T]) -> Vec<T> {
     a.entries().chunks(a.columns()).map(|row| dot(row, v)).collect()
 }
 
-/// `A B`
+/// Product `A B`.
 pub(super) fn compose<T: Scalar>(a: &Table<T>, b: &Table<T>) -> Table<T> {
     Table::from_fn((a.rows(), b.columns()), |i, j| {
         let products = (0..a.columns()).map(|k| a[(i, k)] * b[(k, j)]);
@@ -34,42 +34,42 @@ pub(super) fn compose<T: Scalar>(a: &Table<T>, b: &Table<T>) -> Table<T> {
     })
 }
 
-/// `Aᵀ`
+/// Transpose `Aᵀ`.
 pub(super) fn transpose<T: Scalar>(a: &Table<T>) -> Table<T> {
     Table::from_fn((a.columns(), a.rows()), |i, j| a[(j, i)])
 }
 
-/// `a ⊗ b`
+/// Outer product `a ⊗ b`.
 pub(super) fn outer<T: Scalar>(a: &[T], b: &[T]) -> Table<T> {
     Table::from_fn((a.len(), b.len()), |i, j| a[i] * b[j])
 }
 
-/// The identity matrix of `n` rows.
+/// Identity matrix of `n` rows.
 pub(super) fn identity<T: Scalar>(n: usize) -> Table<T> {
     Table::from_fn((n, n), |i, j| if i == j { T::one() } else { T::zero() })
 }
 
-/// The matrix with `v` on its diagonal.
+/// Diagonal matrix with the diagonal `v`.
 pub(super) fn diagonal<T: Scalar>(v: &[T]) -> Table<T> {
     Table::from_fn((v.len(), v.len()), |i, j| if i == j { v[i] } else { T::zero() })
 }
 
-/// The sum of the diagonal.
+/// Trace.
 pub(super) fn trace<T: Scalar>(a: &Table<T>) -> T {
     let diagonal = (0..a.rows()).map(|i| a[(i, i)]);
     diagonal.reduce(|sum, entry| sum + entry).unwrap_or_else(T::zero)
 }
 
-/// `A^n` for `n ≥ 1`, by repeated squaring.
+/// Power `A^n` for `n ≥ 1`, by repeated squaring.
 pub(super) fn power<T: Scalar>(a: &Table<T>, n: u32) -> Table<T> {
-    // from the bit below the leading one down, so that no identity is multiplied in
+    // from the bit below the leading one down, so that there is no product with the identity
     (0..n.ilog2()).rev().fold(a.clone(), |result, bit| {
         let square = compose(&result, &result);
         if n >> bit & 1 == 1 { compose(&square, a) } else { square }
     })
 }
 
-/// The determinant of a square matrix.
+/// Determinant of a square matrix.
 pub(super) fn determinant<T: Scalar>(a: &Table<T>) -> T {
     let n = a.rows();
     if n > MOST_BY_MINORS {
@@ -79,7 +79,7 @@ pub(super) fn determinant<T: Scalar>(a: &Table<T>) -> T {
     minor(a, &all, &all)
 }
 
-/// The adjugate of a square matrix: `adj(A) A = det(A) E`.
+/// Adjugate of a square matrix, with `adj(A) A = det(A) E`.
 pub(super) fn adjugate<T: Scalar>(a: &Table<T>) -> Table<T> {
     let n = a.rows();
     if n > MOST_BY_MINORS {
@@ -92,19 +92,19 @@ pub(super) fn adjugate<T: Scalar>(a: &Table<T>) -> Table<T> {
     })
 }
 
-/// `A⁻¹`, as adjugate over determinant.
+/// Inverse `A⁻¹`, as adjugate over determinant.
 pub(super) fn inverse<T: Scalar>(a: &Table<T>) -> Table<T> {
     let (cofactors, determinant) = (adjugate(a), determinant(a));
     Table::from_fn((a.rows(), a.rows()), |i, j| cofactors[(i, j)] / determinant)
 }
 
-/// `A⁻¹ b`, by Cramer's rule.
+/// Solution `A⁻¹ b` of a linear system, by Cramer's rule.
 pub(super) fn solve<T: Scalar>(a: &Table<T>, b: &[T]) -> Vec<T> {
     let determinant = determinant(a);
     apply(&adjugate(a), b).into_iter().map(|numerator| numerator / determinant).collect()
 }
 
-/// The determinant of some rows and as many columns, built up row by row from those of fewer.
+/// Minor of some rows and equally many columns, built up row by row from smaller ones.
 fn minor<T: Scalar>(a: &Table<T>, rows: &[usize], columns: &[usize]) -> T {
     // minors[set]: the determinant of the first rows with this set of columns
     let mut minors = vec![T::one(); 1 << columns.len()];
@@ -120,7 +120,7 @@ fn minor<T: Scalar>(a: &Table<T>, rows: &[usize], columns: &[usize]) -> T {
     minors[minors.len() - 1]
 }
 
-/// The determinant and the adjugate.
+/// Determinant and adjugate, by the characteristic polynomial.
 fn by_characteristic_polynomial<T: Scalar>(a: &Table<T>) -> (T, Table<T>) {
     let n = a.rows();
     let mut cofactors = identity(n);

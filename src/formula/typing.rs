@@ -1,4 +1,4 @@
-//! Operators meet their operands: which types go together, and what to write when they do not.
+//! Types of operators and operands: admitted combinations, and errors for the others.
 
 use super::arena::{Arena, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
@@ -6,7 +6,7 @@ use super::kind::{MAX_COMPONENTS, Type};
 use super::scope::Symbol;
 use crate::number::rational::Rational;
 
-/// A piece of the formula that has been read: its node, its type and its text.
+/// A parsed piece of the formula: its node, its type and its text.
 #[derive(Clone, Debug)]
 pub(super) struct Operand {
     pub node: NodeId,
@@ -14,7 +14,7 @@ pub(super) struct Operand {
     pub span: Span,
 }
 
-/// An operator between two operands.
+/// Operator between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Infix {
     Add,
@@ -25,17 +25,17 @@ pub(super) enum Infix {
     Divide,
 }
 
-/// Builds typed nodes; holds the text for messages.
+/// Builder of typed nodes; holds the text for messages.
 pub(super) struct Builder<'t> {
     pub arena: Arena,
     pub text: &'t str,
 }
 
-/// A piece that has been built, or why it cannot be.
+/// A piece that has been built, or the error.
 pub(super) type Built = Result<Operand, FormulaError>;
 
 impl Builder<'_> {
-    /// The operand standing for a node, with the text it covers.
+    /// Operand for a node, with the text it covers.
     pub fn operand(&self, node: NodeId, span: Span) -> Operand {
         Operand { node, value_type: self.arena.nodes[node].value_type, span }
     }
@@ -52,7 +52,7 @@ impl Builder<'_> {
         Operand { node, value_type, span }
     }
 
-    /// Appends an operation whose value may be too large.
+    /// Appends an operation, or returns an error if its value is too large.
     pub fn push_sized(&mut self, operation: Operation, value_type: Type, span: Span) -> Built {
         let allowed = |n: usize| n <= MAX_COMPONENTS;
         let fits = match value_type {
@@ -67,7 +67,7 @@ impl Builder<'_> {
         Err(FormulaError::new(span, message).with_help(help))
     }
 
-    /// Appends a scalar operation, or the number it gives if it acts on numbers.
+    /// Appends a scalar operation, or its value if the operands are numbers.
     pub fn push_folded(
         &mut self,
         operation: Operation,
@@ -79,18 +79,18 @@ impl Builder<'_> {
         self.operand(node, span)
     }
 
-    /// The text of a piece, for help.
+    /// Text of a piece, for help.
     pub fn written(&self, operand: &Operand) -> String {
         excerpt(&self.text[operand.span.clone()])
     }
 
-    /// Is this a sum of no terms, which any type may be added to?
+    /// Whether this is an empty sum, which can be added to any type.
     pub fn is_empty_sum(&self, operand: &Operand) -> bool {
         operand.value_type == Type::Scalar
             && self.arena.nodes[operand.node].operation == Operation::Zero
     }
 
-    /// Gives sums of no terms among some values the type of the others.
+    /// Gives empty sums among some values the type of the others.
     pub fn fill_empty(&mut self, values: &mut [Operand]) {
         let mut kinds = values.iter().map(|value| value.value_type);
         let Some(kind) = kinds.find(|kind| *kind != Type::Scalar) else { return };
@@ -101,7 +101,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `a operator b`.
+    /// Builds `a operator b`.
     pub fn infix(&mut self, infix: Infix, a: &Operand, b: &Operand) -> Built {
         let span = a.span.start..b.span.end;
         match infix {
@@ -211,7 +211,7 @@ impl Builder<'_> {
         Ok(self.push_folded(operation, &[a.node, b.node], span, fold))
     }
 
-    /// `a × b` or `a ⊗ b`.
+    /// Builds `a × b` or `a ⊗ b`.
     pub fn vector_product(&mut self, infix: Infix, a: &Operand, b: &Operand, span: Span) -> Built {
         let types = (a.value_type, b.value_type);
         if let (Type::Vector(m), Type::Vector(n)) = types {

@@ -6,7 +6,7 @@ use super::kind::Type;
 use super::typing::{Builder, Built, Operand};
 
 impl Builder<'_> {
-    /// `(a,b)`.
+    /// Builds `(a,b)`.
     pub fn dot(&mut self, a: &Operand, b: &Operand, span: Span) -> Built {
         for factor in [a, b] {
             if !matches!(factor.value_type, Type::Vector(_)) {
@@ -26,7 +26,7 @@ impl Builder<'_> {
         Ok(self.push(Operation::Dot(a.node, b.node), Type::Scalar, span))
     }
 
-    /// `-a`.
+    /// Builds `-a`.
     pub fn negate(&mut self, a: &Operand, span: Span) -> Operand {
         let operation = Operation::Negate(a.node);
         let node = if a.value_type == Type::Scalar {
@@ -37,7 +37,7 @@ impl Builder<'_> {
         self.operand(node, span)
     }
 
-    /// `√a`.
+    /// Builds `√a`.
     pub fn root(&mut self, a: &Operand, span: Span) -> Built {
         if a.value_type == Type::Scalar {
             return Ok(self.push(Operation::Function(Function::Sqrt, a.node), Type::Scalar, span));
@@ -46,7 +46,7 @@ impl Builder<'_> {
         Err(FormulaError::new(a.span.clone(), message))
     }
 
-    /// `|a|`.
+    /// Builds `|a|`.
     pub fn modulus(&mut self, a: &Operand, span: Span) -> Built {
         Ok(match a.value_type {
             Type::Scalar => {
@@ -64,7 +64,7 @@ impl Builder<'_> {
         })
     }
 
-    /// `aᵀ`.
+    /// Builds `aᵀ`.
     pub fn transpose(&mut self, a: &Operand, span: Span) -> Built {
         if let Type::Matrix(rows, columns) = a.value_type {
             let kind = Type::Matrix(columns, rows);
@@ -78,7 +78,7 @@ impl Builder<'_> {
         })
     }
 
-    /// `a[i]` or `a[i,j]`, counted from 1.
+    /// Builds `a[i]` or `a[i,j]`, counted from 1.
     pub fn index(&mut self, a: &Operand, indices: &[(i64, Span)], brackets: Span) -> Built {
         let span = a.span.start..brackets.end;
         let within = |(index, place): &(i64, Span), count: usize, what: &str| {
@@ -114,7 +114,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `[a,b,…]`: the vector of some scalars.
+    /// Builds the vector `[a,b,…]` of some scalars.
     pub fn vector(&mut self, parts: &[Operand], span: Span) -> Built {
         if let Some(wrong) = parts.iter().find(|part| part.value_type != Type::Scalar) {
             let message = format!("a component is a scalar, this is a {}", wrong.value_type);
@@ -125,7 +125,7 @@ impl Builder<'_> {
         self.push_sized(Operation::Vector(nodes), Type::Vector(parts.len()), span)
     }
 
-    /// The matrix with some vectors as rows.
+    /// Builds the matrix with these vectors as rows.
     pub fn rows(&mut self, rows: &[Operand], span: Span) -> Built {
         let first = rows.first().map_or(Type::Scalar, |row| row.value_type);
         if let Some(wrong) = rows.iter().find(|row| !matches!(row.value_type, Type::Vector(_))) {

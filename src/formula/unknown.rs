@@ -1,4 +1,4 @@
-//! Names that nobody knows: what may be meant.
+//! Unknown names and suggestions for them.
 
 use super::error::{FormulaError, Span, excerpt};
 use super::lexer::Kind;
@@ -8,10 +8,10 @@ use super::scope::resolve;
 use super::spelling::{nearest, split};
 use super::{binders, functions};
 
-/// How many names a message lists.
+/// Limit on the names listed in a message.
 const MOST_LISTED: usize = 24;
 
-/// Functions of other languages, and what is written here.
+/// Functions of other languages, and their notation here.
 const ELSEWHERE: [(&[&str], &str); 21] = [
     (&["sec"], "write `1/cos(x)`"),
     (&["csc", "cosec"], "write `1/sin(x)`"),
@@ -41,7 +41,7 @@ const ELSEWHERE: [(&[&str], &str); 21] = [
 ];
 
 impl Parser<'_> {
-    /// A name nobody knows.
+    /// The error for an unknown name.
     pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
         let called = self.peek() == Kind::Open;
         let kind = if called { "function" } else { "name" };
@@ -53,7 +53,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What may be meant by an unknown name.
+    /// Suggestion for an unknown name.
     fn meant(&self, name: &str, span: &Span, called: bool) -> Option<String> {
         let known = |piece: &str| resolve(piece, self.scope).is_some();
         if called && let Some((_, help)) = ELSEWHERE.iter().find(|(all, _)| all.contains(&name)) {
@@ -96,7 +96,7 @@ impl Parser<'_> {
     }
 }
 
-/// The names that are known, in one sentence.
+/// Known names, in one sentence.
 fn listed(names: Vec<String>) -> Option<String> {
     let count = names.len();
     let shown: Vec<String> = names.into_iter().take(MOST_LISTED).collect();

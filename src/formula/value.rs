@@ -1,4 +1,4 @@
-//! What a formula evaluates to: a scalar, a vector or a matrix.
+//! Values of formulas: scalars, vectors and matrices.
 
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
@@ -6,7 +6,7 @@ use super::kind::Type;
 
 /// A scalar, vector or matrix over the numbers `T`.
 ///
-/// Vectors of three components and matrices of three rows and columns are always those of ℝ³.
+/// Vectors of three components and 3×3 matrices always use the variants for ℝ³.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value<T> {
     /// A number.
@@ -21,7 +21,7 @@ pub enum Value<T> {
     Table(Table<T>),
 }
 
-/// The entries of a matrix of any size, row by row.
+/// Entries of a matrix of any size, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table<T> {
     rows: usize,
@@ -30,7 +30,7 @@ pub struct Table<T> {
 }
 
 impl<T> Table<T> {
-    /// A matrix of so many rows and columns, entry by entry.
+    /// Builds a matrix of the given size entry by entry.
     pub(super) fn from_fn(
         (rows, columns): (usize, usize),
         mut entry: impl FnMut(usize, usize) -> T,
@@ -40,17 +40,17 @@ impl<T> Table<T> {
         Self { rows, columns, entries }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// How many columns there are.
+    /// Number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// The entries, row by row.
+    /// Entries, row by row.
     pub fn entries(&self) -> &[T] {
         &self.entries
     }
@@ -59,14 +59,14 @@ impl<T> Table<T> {
 impl<T> std::ops::Index<(usize, usize)> for Table<T> {
     type Output = T;
 
-    /// The entry in a row and a column, both counted from 0.
+    /// Entry in a row and a column, both counted from 0.
     fn index(&self, (row, column): (usize, usize)) -> &T {
         &self.entries[row * self.columns + column]
     }
 }
 
 impl<T> Value<T> {
-    /// Which kind of value this is.
+    /// Type of the value.
     pub fn value_type(&self) -> Type {
         match self {
             Value::Scalar(_) => Type::Scalar,
@@ -79,22 +79,22 @@ impl<T> Value<T> {
 }
 
 impl<T: Copy> Value<T> {
-    /// The number, if this is a scalar.
+    /// Number, if this is a scalar.
     pub fn scalar(&self) -> Option<T> {
         if let Value::Scalar(value) = self { Some(*value) } else { None }
     }
 
-    /// The vector, if this is one of ℝ³.
+    /// Vector, if this is one of ℝ³.
     pub fn vector(&self) -> Option<Vector3<T>> {
         if let Value::Vector(value) = self { Some(*value) } else { None }
     }
 
-    /// The matrix, if this is one of ℝ³.
+    /// Matrix, if this is one of ℝ³.
     pub fn matrix(&self) -> Option<Matrix3<T>> {
         if let Value::Matrix(value) = self { Some(*value) } else { None }
     }
 
-    /// The value with `f` applied to every component, in the order of [`components`].
+    /// Applies `f` to every component, in the order of [`components`].
     ///
     /// [`components`]: Value::components
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Value<U> {
@@ -110,7 +110,7 @@ impl<T: Copy> Value<T> {
         }
     }
 
-    /// The components: 1 for a scalar, one a place of a vector, a matrix in row-major order.
+    /// Components: one for a scalar, those of a vector in order, those of a matrix row by row.
     pub fn components(&self) -> Vec<T> {
         match self {
             Value::Scalar(value) => vec![*value],
@@ -121,10 +121,10 @@ impl<T: Copy> Value<T> {
         }
     }
 
-    /// The value with the given components, the inverse of [`components`](Value::components).
+    /// Builds a value from its components, the inverse of [`components`](Value::components).
     ///
     /// # Panics
-    /// If there are fewer components than [`Type::size`] asks for.
+    /// If there are fewer components than [`Type::size`].
     pub fn from_components(ty: Type, components: &[T]) -> Value<T> {
         let at = |i: usize| components[i];
         match ty {

@@ -1,11 +1,11 @@
-//! Weights of symbols in one base dimension, and what equations between them imply.
+//! Weights of symbols in one base dimension, and the equations between them.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::scope::Symbol;
 use crate::number::rational::Rational;
 
-/// The power of the base dimension with which a quantity scales: -1 for a frequency in time.
+/// Power of the base dimension with which a quantity scales: -1 for a frequency in time.
 pub type Weight = Rational;
 
 /// A weight that may depend on weights not yet known: `constant + Σ factor · unknown`.
@@ -25,7 +25,7 @@ impl Form {
         Self::constant(Rational::from(0))
     }
 
-    /// `self + factor · other`.
+    /// Returns `self + factor · other`.
     pub fn plus(mut self, other: &Form, factor: &Rational) -> Self {
         self.constant = &self.constant + &(&other.constant * factor);
         for (unknown, its) in &other.factors {
@@ -40,20 +40,20 @@ impl Form {
         self
     }
 
-    /// `factor · self`.
+    /// Returns `factor · self`.
     pub fn times(&self, factor: &Rational) -> Self {
         Self::zero().plus(self, factor)
     }
 
-    /// The weight, if no unknown is left in it.
+    /// Weight, if no unknown is left in it.
     pub fn known(&self) -> Option<&Weight> {
         self.factors.is_empty().then_some(&self.constant)
     }
 }
 
-/// The weights of all symbols of a case in one base dimension, known or being inferred.
+/// Weights of all symbols of a case in one base dimension, known or being inferred.
 ///
-/// Every formula that is checked adds its equations, so what one formula says of a symbol holds
+/// Every formula that is checked adds its equations, so that weights inferred from one formula hold
 /// in the next.
 #[derive(Clone, Debug)]
 pub struct WeightSystem {
@@ -75,14 +75,14 @@ impl WeightSystem {
         }
     }
 
-    /// Declares a weight. To be done before formulas are checked: a weight already inferred stays.
+    /// Declares a weight. Must precede the check of formulas: a weight already inferred stays.
     pub fn set(&mut self, symbol: Symbol, weight: Rational) {
         let symbol = self.symbol(symbol);
         // a contradiction leaves the system as it was
         let _ = self.equate(&symbol, &Form::constant(weight));
     }
 
-    /// The weight of a symbol, if it is declared or implied by the formulas checked so far.
+    /// Weight of a symbol, if it is declared or implied by the formulas checked so far.
     pub fn get(&self, symbol: Symbol) -> Option<Weight> {
         let unknown = *self.symbols.get(&symbol)?;
         self.reduced(Form { factors: [(unknown, Rational::from(1))].into(), ..Form::zero() })
@@ -90,12 +90,12 @@ impl WeightSystem {
             .cloned()
     }
 
-    /// The name of the base dimension.
+    /// Name of the base dimension.
     pub fn dimension(&self) -> &str {
         &self.dimension
     }
 
-    /// The weight of a symbol, unknown or not.
+    /// Weight of a symbol, known or not.
     pub(super) fn symbol(&mut self, symbol: Symbol) -> Form {
         let next = &mut self.unknowns;
         let unknown = *self.symbols.entry(symbol).or_insert_with(|| {
@@ -105,13 +105,13 @@ impl WeightSystem {
         self.reduced(variable(unknown))
     }
 
-    /// A weight about which nothing is known.
+    /// A new unknown weight.
     pub(super) fn fresh(&mut self) -> Form {
         self.unknowns += 1;
         variable(self.unknowns - 1)
     }
 
-    /// The same weight with everything known put in.
+    /// Substitutes everything known into a weight.
     pub(super) fn reduced(&self, mut form: Form) -> Form {
         let mut free = BTreeMap::new();
         // solutions contain smaller unknowns only, so the largest is never met again
@@ -126,7 +126,7 @@ impl WeightSystem {
         Form { constant: form.constant, factors: free }
     }
 
-    /// Adds the equation `left = right`; `Err` with their difference if it contradicts others.
+    /// Adds the equation `left = right`; `Err` with the difference if it contradicts others.
     pub(super) fn equate(&mut self, left: &Form, right: &Form) -> Result<(), Weight> {
         let minus = Rational::from(-1);
         let mut difference = self.reduced(left.clone().plus(right, &minus));

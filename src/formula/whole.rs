@@ -7,7 +7,7 @@ use super::parser::{Parser, SUM};
 use super::typing::Operand;
 
 impl Parser<'_> {
-    /// `i ≠ j`, `1 < i ≤ n`, between whole numbers.
+    /// Reads a condition between whole numbers: `i ≠ j`, `1 < i ≤ n`.
     pub(super) fn condition(&mut self) -> Result<bool, FormulaError> {
         let (mut left, start) = self.whole("a side of a condition")?;
         let mut holds = true;
@@ -31,7 +31,7 @@ impl Parser<'_> {
         Ok(holds)
     }
 
-    /// A whole number that the file fixes: an index, a bound or a size.
+    /// Reads a whole number that the file fixes: an index, a bound or a size.
     pub(super) fn whole(&mut self, what: &str) -> Result<(i64, Span), FormulaError> {
         let outer = std::mem::replace(&mut self.whole_numbers, true);
         let result = self.whole_inside(what);
@@ -55,7 +55,7 @@ impl Parser<'_> {
         Ok(((number - 1).rem_euclid(modulus) + 1, span.start..place.end))
     }
 
-    /// Does `mod` stand here, in an index?
+    /// Whether the next token is the `mod` of an index.
     pub(super) fn is_modulo(&self) -> bool {
         self.whole_numbers && self.peek() == Kind::Name && self.text(&self.token().span) == "mod"
     }
@@ -71,7 +71,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The value of an index of a form around this place.
+    /// Value of an index of an enclosing form.
     pub(super) fn bound(&mut self, name: &str) -> Option<i64> {
         if self.bindings.is_empty() {
             return None;

@@ -137,7 +137,7 @@ impl BallOnSurface {
                 Value::Scalar(self.value(at, &self.mass) * radius * radius)
             }
             (Quantity::Support, Surface::Support(shape)) => Value::Scalar(shape.support(at)),
-            _ => Value::Scalar(T::zero()),
+            _ => Value::Scalar(T::undefined()),
         }
     }
 

@@ -197,13 +197,13 @@ pub(super) fn axis<T: Scalar>(j: usize) -> Value<T> {
 }
 
 pub(super) fn scalar<T: Scalar>(value: Value<T>) -> T {
-    value.scalar().unwrap_or_else(T::zero)
+    value.scalar().unwrap_or_else(T::undefined)
 }
 
 pub(super) fn vector<T: Scalar>(value: Value<T>) -> Vector3<T> {
-    value.vector().unwrap_or_else(|| Vector3::repeat(T::zero()))
+    value.vector().unwrap_or_else(|| Vector3::repeat(T::undefined()))
 }
 
 pub(super) fn matrix<T: Scalar>(value: Value<T>) -> Matrix3<T> {
-    value.matrix().unwrap_or_else(|| Matrix3::repeat(T::zero()))
+    value.matrix().unwrap_or_else(|| Matrix3::repeat(T::undefined()))
 }

@@ -1,39 +1,16 @@
 //! Points of configuration space: the velocity-free part of a [`phase`](super::phase) point.
 
-use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use num_dual::Dual;
-use rustc_hash::FxHashMap;
 
+use super::body::scalar;
+use super::memo::Memo;
 use super::model::{Model, Origin};
 use super::rubber::normal;
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::scalar::Scalar;
-
-/// Depth of nested formulas beyond which the inner ones are evaluated first.
-pub(super) const DEEP: u32 = 64;
-
-/// Evaluates the formulas that the formula of `symbol` uses before it, so that long chains of
-/// formulas need no deep stack. `formula` returns the formula of a symbol that has no value yet.
-pub(super) fn settle<'f>(
-    symbol: Symbol,
-    formula: impl Fn(Symbol) -> Option<&'f Formula>,
-    evaluate: impl Fn(Symbol),
-) {
-    let mut stack = vec![symbol];
-    while let Some(top) = stack.last().copied() {
-        let inner = formula(top).and_then(|own| own.symbols().find(|s| formula(*s).is_some()));
-        match inner {
-            Some(inner) => stack.push(inner),
-            None => {
-                evaluate(top);
-                stack.pop();
-            }
-        }
-    }
-}
 
 /// A point of configuration space over the scalar T: parameters and γ.
 pub struct Configuration<'m, T> {
@@ -42,8 +19,7 @@ pub struct Configuration<'m, T> {
     pub(super) parameters: Rc<[Option<Value<T>>]>,
     state: Vec<Value<T>>,
     axis_cosine: Option<T>,
-    known: RefCell<FxHashMap<Symbol, Value<T>>>,
-    depth: Cell<u32>,
+    known: Memo<T>,
 }
 
 impl<'m, T: Scalar> Configuration<'m, T> {
@@ -52,8 +28,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         parameters: Rc<[Option<Value<T>>]>,
         state: Vec<Value<T>>,
     ) -> Self {
-        let (known, depth) = (RefCell::default(), Cell::new(0));
-        Self { model, parameters, state, axis_cosine: None, known, depth }
+        Self { model, parameters, state, axis_cosine: None, known: Memo::default() }
     }
 
     /// Returns the same point with another value of state variable `index`.
@@ -105,40 +80,24 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         }
     }
 
+    /// The value of a scalar formula that reaches no further than the configuration.
+    pub fn scalar(&self, formula: &Formula) -> T {
+        scalar(self.evaluate(formula))
+    }
+
     pub(super) fn value(&self, symbol: Symbol) -> Value<T> {
-        if let Some(value) = self.known.borrow().get(&symbol) {
-            return value.clone();
-        }
-        if self.depth.get() == DEEP {
-            settle(
-                symbol,
-                |symbol| self.formula(symbol),
-                |symbol| {
-                    self.depth.set(0);
-                    self.value(symbol);
-                    self.depth.set(DEEP);
-                },
-            );
-            return self.value(symbol);
-        }
-        self.depth.set(self.depth.get() + 1);
-        let value = match self.model.vocabulary.entry(symbol).meaning {
+        let formula = |symbol| formula_of(self.model, symbol);
+        self.known.value(symbol, &formula, &|symbol| match self
+            .model
+            .vocabulary
+            .entry(symbol)
+            .meaning
+        {
             Meaning::Parameter(index) => self.parameter(index),
             Meaning::State(index) => self.variable(index),
             Meaning::Abbreviation(index) => self.evaluate(&self.model.abbreviations[index]),
             Meaning::Quantity(quantity) => self.model.system.configuration_quantity(quantity, self),
-        };
-        self.depth.set(self.depth.get() - 1);
-        self.known.borrow_mut().insert(symbol, value.clone());
-        value
-    }
-
-    /// Returns the formula of a symbol that has no value yet.
-    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
-        if self.known.borrow().contains_key(&symbol) {
-            return None;
-        }
-        formula_of(self.model, symbol)
+        })
     }
 
     /// Lifts the point with derivative parts `direction` for state variable `index`, 0 elsewhere.

@@ -41,7 +41,7 @@ impl Hamiltonian {
 
     /// Evaluates H.
     pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        at.evaluate(&self.function).scalar().unwrap_or_else(T::zero)
+        at.scalar(&self.function)
     }
 
     /// Computes P + Pᵀ, which vanishes where P is a bracket.

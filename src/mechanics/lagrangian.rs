@@ -93,7 +93,7 @@ impl Lagrangian {
 
     /// Returns the reaction μ_k of a constraint.
     pub fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
-        self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::zero)
+        self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::undefined)
     }
 
     /// Energy (w, ∂𝓛/∂w) - 𝓛, which is L₂ - L₀ + Σ λ_k b_k in a vakonomic system.
@@ -132,15 +132,14 @@ impl Lagrangian {
 
     /// Evaluates L, or L - Σ λ_k f_k.
     pub fn lagrangian<T: Scalar>(&self, at: &Configuration<'_, T>, with_multipliers: bool) -> T {
-        let scalar = |formula| at.evaluate(formula).scalar().unwrap_or_else(T::zero);
-        let mut value = scalar(&self.kinetic);
+        let mut value = at.scalar(&self.kinetic);
         if let Some(potential) = &self.potential {
-            value -= scalar(potential);
+            value -= at.scalar(potential);
         }
         if with_multipliers {
             let state = at.components();
             for (component, f) in self.multipliers(&at.model.state).zip(&self.constraints) {
-                value -= state[component] * scalar(f);
+                value -= state[component] * at.scalar(f);
             }
         }
         value
@@ -203,11 +202,11 @@ impl Lagrangian {
             .map(|i| units.iter().map(|unit| mixed(i, unit)).collect())
             .collect();
         let along = at.lift_state(&drift);
-        let slope = |at: &Configuration<'_, Dual<T>>, f| at.evaluate(f).scalar().map(|x| x.eps);
+        let slope = |at: &Configuration<'_, Dual<T>>, f| at.scalar(f).eps;
         let slopes: Vec<Vec<T>> = self
             .constraints
             .iter()
-            .map(|f| moved.iter().filter_map(|at| slope(at, f)).collect())
+            .map(|f| moved.iter().map(|at| slope(at, f)).collect())
             .collect();
         let free = solve_positive(mass.clone(), drive);
         let responses: Vec<Vec<T>> =
@@ -217,7 +216,7 @@ impl Lagrangian {
             .constraints
             .iter()
             .zip(&slopes)
-            .map(|(f, a)| -(slope(&along, f).unwrap_or_else(T::zero) + dot(a, &free)))
+            .map(|(f, a)| -(slope(&along, f) + dot(a, &free)))
             .collect();
         let reactions = solve_positive(gram, defects);
         let acceleration = free

@@ -11,6 +11,7 @@ mod flat_base;
 mod hamiltonian;
 mod lagrangian;
 mod linear;
+mod memo;
 mod model;
 mod phase;
 mod quantity;
@@ -316,7 +317,7 @@ impl System {
             System::Hamiltonian(hamiltonian) => {
                 Value::Scalar(hamiltonian.energy(&phase.configuration))
             }
-            System::Field(_) => Value::Scalar(T::zero()),
+            System::Field(_) => Value::Scalar(T::undefined()),
         }
     }
 
@@ -328,7 +329,7 @@ impl System {
         match self {
             System::Rubber(body) => body.configuration_quantity(quantity, at),
             System::Ball(ball) => ball.configuration_quantity(quantity, at),
-            _ => Value::Scalar(T::zero()),
+            _ => Value::Scalar(T::undefined()),
         }
     }
 }

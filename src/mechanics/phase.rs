@@ -4,14 +4,15 @@
 //! functions and potentials depend. The two are separate because a `Phase<T>` differentiates the
 //! body, and so needs `Configuration<Dual<T>>`, but never the reverse.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use num_dual::Dual;
-use rustc_hash::FxHashMap;
 
 use super::ball::BallMotion;
-use super::configuration::{Configuration, DEEP, formula_of, lift_parameters, settle};
+use super::body::scalar;
+use super::configuration::{Configuration, formula_of, lift_parameters};
+use super::memo::Memo;
 use super::model::{LevelFunction, Model, Variable};
 use super::quantity::Quantity;
 use super::rolling::Motion;
@@ -24,10 +25,9 @@ use crate::scalar::Scalar;
 pub struct Phase<'m, T> {
     /// Velocity-free part.
     pub configuration: Configuration<'m, T>,
-    known: RefCell<FxHashMap<Symbol, Value<T>>>,
-    depth: Cell<u32>,
+    known: Memo<T>,
     /// Values that are defined exactly where the written formulas are.
-    literal: RefCell<FxHashMap<Symbol, Value<T>>>,
+    literal: Memo<T>,
     motion: OnceCell<Box<Motion<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// Rates of the system's variables, without those that a case adds.
@@ -54,9 +54,8 @@ impl<'m, T: Scalar> Phase<'m, T> {
             .collect();
         Self {
             configuration: Configuration::new(model, parameters, state),
-            known: RefCell::default(),
-            depth: Cell::new(0),
-            literal: RefCell::default(),
+            known: Memo::default(),
+            literal: Memo::default(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -86,35 +85,16 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     fn literal_value(&self, symbol: Symbol) -> Value<T> {
-        if let Some(value) = self.literal.borrow().get(&symbol) {
-            return value.clone();
-        }
-        if self.depth.get() == DEEP {
-            settle(
-                symbol,
-                |symbol| self.literal_formula(symbol),
-                |symbol| {
-                    self.depth.set(0);
-                    self.literal_value(symbol);
-                    self.depth.set(DEEP);
-                },
-            );
-            return self.literal_value(symbol);
-        }
-        self.depth.set(self.depth.get() + 1);
-        let value = match self.literal_formula(symbol) {
+        let formula = |symbol| self.literal_formula(symbol);
+        self.literal.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
             Some(formula) => self.evaluate_literally(formula),
             None => self.value(symbol),
-        };
-        self.depth.set(self.depth.get() - 1);
-        self.literal.borrow_mut().insert(symbol, value.clone());
-        value
+        })
     }
 
-    /// Returns the formula of a symbol that has no literal value yet.
+    /// Returns the formula that gives a symbol its literal value.
     fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
         match self.model().vocabulary.entry(symbol).meaning {
-            _ if self.literal.borrow().contains_key(&symbol) => None,
             // the value of a changed parameter differs from that of its formula
             Meaning::Parameter(index) if self.configuration.parameters[index].is_some() => None,
             _ => formula_of(self.model(), symbol),
@@ -123,45 +103,19 @@ impl<'m, T: Scalar> Phase<'m, T> {
 
     /// Evaluates a scalar formula.
     pub fn scalar(&self, formula: &Formula) -> T {
-        self.evaluate(formula).scalar().unwrap_or_else(T::zero)
+        scalar(self.evaluate(formula))
     }
 
     /// Returns the value of a symbol.
     pub fn value(&self, symbol: Symbol) -> Value<T> {
-        if let Some(value) = self.known.borrow().get(&symbol) {
-            return value.clone();
-        }
-        if self.depth.get() == DEEP {
-            settle(
-                symbol,
-                |symbol| self.formula(symbol),
-                |symbol| {
-                    self.depth.set(0);
-                    self.value(symbol);
-                    self.depth.set(DEEP);
-                },
-            );
-            return self.value(symbol);
-        }
-        self.depth.set(self.depth.get() + 1);
         let model = self.model();
-        let value = match model.vocabulary.entry(symbol).meaning {
+        let formula = |symbol| formula_of(model, symbol);
+        self.known.value(symbol, &formula, &|symbol| match model.vocabulary.entry(symbol).meaning {
             Meaning::Parameter(_) | Meaning::State(_) => self.configuration.value(symbol),
             Meaning::Abbreviation(index) => self.evaluate(&model.abbreviations[index]),
             Meaning::Quantity(Quantity::Rate(index)) => self.rate(index),
             Meaning::Quantity(quantity) => model.system.quantity(quantity, self),
-        };
-        self.depth.set(self.depth.get() - 1);
-        self.known.borrow_mut().insert(symbol, value.clone());
-        value
-    }
-
-    /// Returns the formula of a symbol that has no value yet.
-    fn formula(&self, symbol: Symbol) -> Option<&'m Formula> {
-        if self.known.borrow().contains_key(&symbol) {
-            return None;
-        }
-        formula_of(self.model(), symbol)
+        })
     }
 
     /// Returns the rate of state variable `index`.

@@ -79,7 +79,7 @@ impl Rubber {
                 Value::Scalar(self.potential.as_ref().map_or_else(T::zero, |u| u.value(at)))
             }
             Quantity::AxisCosine => Value::Scalar(at.axis_cosine()),
-            _ => Value::Scalar(T::zero()),
+            _ => Value::Scalar(T::undefined()),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::claim::motion::{Contacts, Touch};
 use crate::flow::{Contact, FlowError, Measured, Precision, orbit};
 use crate::number::pair::Pair;
 
-/// Looks at what happens at the constraint; grazing it is no event.
+/// Compares the events at the constraint with the claim; grazing does not count.
 pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let start = scene.start(&claim.beginning)?;
     let events = |precision| {

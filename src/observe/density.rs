@@ -4,18 +4,19 @@ use super::scene::Scene;
 use crate::case::{Case, Direction};
 use crate::flow::{Measured, Multipliers, SectionRequest, section, spread};
 
-/// Motions that are followed, and for how many crossings, to come near attracting points.
+/// Numbers of motions, and of crossings of each, that are followed to come near attracting points.
 const STARTS: usize = 16;
 const CROSSINGS: usize = 150;
 
-/// What a closed orbit says about densities: a density ρ that is smooth and positive there is the same
-/// after the period, so that the flow keeps volumes: λ₁ λ₂ = 1.
+/// Whether a closed orbit speaks against densities: a density ρ that is smooth and positive there
+/// is the same after the period, so that the flow keeps volumes: λ₁ λ₂ = 1.
 pub fn speaks_against(product: Measured) -> bool {
     (product.value - 1.0).abs() > product.error
 }
 
-/// A fixed point of the section map that speaks against every density that is smooth and positive on
-/// the level, in words; for a case with a section and without free parameters, where one is found.
+/// Finds a fixed point of the section map that speaks against every density that is smooth and
+/// positive on the level, and describes it. Only for a case with a section and without free
+/// parameters.
 pub fn evidence_against_density(case: &Case, seed: u64) -> Option<String> {
     if case.model.free_components() > 0 {
         return None;
@@ -37,7 +38,7 @@ pub fn evidence_against_density(case: &Case, seed: u64) -> Option<String> {
     let orbits = section(case, &request, 1, &|| ()).ok()?;
     let ends = orbits.iter().filter_map(|orbit| orbit.crossings.last());
     let points = ends.filter_map(|end| map.periodic(end.at, 1).ok());
-    // The plainest of them, to be looked at with twice the digits.
+    // The clearest of them is followed again with twice the digits.
     let off = |product: f64| (product - 1.0).abs();
     let plainest = points.max_by(|a, b| off(a.determinant).total_cmp(&off(b.determinant)))?;
     let orbit = map.closed(plainest.at, 1).ok()?;

@@ -1,7 +1,7 @@
 //! Lyapunov exponents and mean divergences of long runs.
 //!
-//! Ten blocks give the standard errors. A sign has to be that of the later five alone too: transients
-//! look like chaos that is gone later. A regular motion shows (ln t)/t in place of 0.
+//! Ten blocks give the standard errors. A sign must also be that of the later five alone:
+//! transients look like chaos that disappears later. A regular motion shows (ln t)/t in place of 0.
 
 use super::finding::{ERRORS, Finding};
 use super::scene::Scene;
@@ -12,7 +12,7 @@ fn measured(estimate: Estimate) -> Measured {
     Measured { value: estimate.mean, error: estimate.error }
 }
 
-/// The largest exponent.
+/// Compares the largest exponent with the claim.
 pub fn exponent(claim: &Exponent, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.largest;
     let mut finding = Finding::default();
@@ -24,7 +24,8 @@ pub fn exponent(claim: &Exponent, scene: &Scene<'_>) -> Result<Finding, FlowErro
     Ok(finding)
 }
 
-/// Zero: in the end not above what a regular motion shows; positive: above it and three errors.
+/// Growth of a motion. Zero: in the end not above that of a regular motion; positive: above it and
+/// three errors.
 fn growth(found: Estimate, time: f64) -> Option<Growth> {
     let regular = libm::log(time.max(std::f64::consts::E)) / time;
     if found.later <= regular {
@@ -34,7 +35,7 @@ fn growth(found: Estimate, time: f64) -> Option<Growth> {
     (found.mean.min(found.later) > least).then_some(Growth::Positive)
 }
 
-/// The mean divergence.
+/// Compares the mean divergence with the claim.
 pub fn mean_divergence(claim: &MeanDivergence, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.divergence;
     let mut finding = Finding::default();
@@ -46,7 +47,7 @@ pub fn mean_divergence(claim: &MeanDivergence, scene: &Scene<'_>) -> Result<Find
     Ok(finding)
 }
 
-/// A sign is what is beyond three errors, and the same in the later half.
+/// Sign of a mean divergence, if it is beyond three errors and the same in the later half.
 fn tendency(found: Estimate) -> Option<Tendency> {
     if found.mean.abs() <= ERRORS * found.error {
         return Some(Tendency::Zero);

@@ -1,21 +1,21 @@
-//! What is seen of a claim about motion: numbers, each compared with what is stated.
+//! Findings on claims about motion: numbers, each compared with the one stated.
 
 use crate::claim::motion::Stated;
 use crate::flow::Measured;
 use crate::verdict::{Evidence, Measurement, Verdict};
 
-/// Standard errors within which means agree.
+/// Number of standard errors within which means agree.
 pub const ERRORS: f64 = 3.0;
 
-/// What is seen of a claim.
+/// Finding on a claim about motion.
 #[derive(Default)]
 pub struct Finding {
     measured: Vec<Measurement>,
-    /// What speaks against the claim.
+    /// Reasons against the claim.
     against: Vec<String>,
-    /// What leaves it open.
+    /// Reasons to leave the claim open.
     open: Vec<String>,
-    /// What else follows.
+    /// Further consequence.
     pub remark: Option<String>,
 }
 
@@ -34,8 +34,8 @@ impl Finding {
         });
     }
 
-    /// Compares a number with what is stated: they agree within one unit of the last digit that is
-    /// typed and the number's error. An error beyond that unit leaves the claim open.
+    /// Compares a number with the one stated: they agree within one unit of the last stated digit
+    /// and the number's error. An error beyond that unit leaves the claim open.
     pub fn compare(&mut self, quantity: &str, found: Measured, stated: &Stated) {
         self.within(quantity, found, stated, stated.unit + found.error);
         if stated.unit > 0.0 && found.error > stated.unit {
@@ -43,7 +43,7 @@ impl Finding {
         }
     }
 
-    /// Compares a mean with what is stated: they agree within three standard errors of both.
+    /// Compares a mean with the one stated: they agree within three standard errors of both.
     pub fn compare_mean(&mut self, quantity: &str, found: Measured, stated: &Stated) {
         let errors = libm::hypot(found.error, stated.error);
         self.within(quantity, found, stated, stated.unit + ERRORS * errors);
@@ -59,17 +59,17 @@ impl Finding {
         }
     }
 
-    /// Notes what speaks against the claim.
+    /// Notes a reason against the claim.
     pub fn refute(&mut self, reason: String) {
         self.against.push(reason);
     }
 
-    /// Notes what leaves the claim open.
+    /// Notes a reason to leave the claim open.
     pub fn leave_open(&mut self, reason: String) {
         self.open.push(reason);
     }
 
-    /// Takes what is seen of one of several possibilities; `None` where that is not decided.
+    /// Compares one of several possibilities with the one claimed; `None` where it is not decided.
     pub fn expect<T: PartialEq>(&mut self, seen: Option<T>, claimed: T, what: &str) {
         match seen {
             Some(seen) if seen == claimed => {}
@@ -78,7 +78,7 @@ impl Finding {
         }
     }
 
-    /// The verdict and its grounds.
+    /// Returns the verdict and its grounds.
     pub fn conclude(self) -> (Verdict, Evidence) {
         let verdict = match (self.against.is_empty(), self.open.is_empty()) {
             (false, _) => Verdict::Refuted,

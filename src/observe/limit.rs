@@ -1,4 +1,4 @@
-//! Motions for smaller and smaller values of a parameter, against the motion at 0.
+//! Limits of motions for a vanishing parameter, compared with the motion at 0.
 
 use super::finding::Finding;
 use super::scene::Scene;
@@ -7,13 +7,13 @@ use crate::flow::{FlowError, Measured, Precision, orbit, value_at};
 use crate::number::pair::Pair;
 use crate::number::rational::Rational;
 
-/// How many values of the parameter, each a tenth of the one before.
+/// Number of values of the parameter, each a tenth of the previous one.
 const VALUES: i64 = 5;
 
-/// Looks whether |F(ε) - F(0)|/ε^order tends to a constant.
+/// Tests whether |F(ε) - F(0)|/ε^order tends to a constant.
 ///
-/// With an error C ε^order (1 + O(ε)) the quotients differ less and less; their last difference is the
-/// error of C. If they grow, the order is lower than claimed; if C is not above its error, higher.
+/// With an error C ε^order (1 + O(ε)) the quotients converge; their last difference is the error of
+/// C. If they grow, the order is lower than claimed; if C is not above its error, higher.
 pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
     let mut finding = Finding::default();

@@ -1,12 +1,12 @@
-//! Claims about motion: looked at by computing motions, and confirmed or refuted by numbers.
+//! Claims about motion: tested by computing motions, and confirmed or refuted by numbers.
 //!
 //! ```text
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Nothing here is a proof. A number that is stated agrees with one that is found if they differ by
-//! no more than the last digit that is typed and the error that the computation itself shows: the
-//! spread of blocks, or what double-double changes in f64.
+//! Nothing here is a proof. A stated number agrees with a computed one if they differ by no more
+//! than the last stated digit and the error that the computation itself shows: the spread of
+//! blocks, or the difference between f64 and double-double.
 
 mod contacts;
 mod density;
@@ -37,7 +37,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     Ok(report)
 }
 
-/// Looks at all claims about motion of a case.
+/// Tests all claims about motion of a case.
 pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
     let scene = Scene::new(case, options.seed);
     case.motions.iter().map(|claim| report(claim, look(claim, &scene), options)).collect()

@@ -1,4 +1,4 @@
-//! Fixed and periodic points: found in f64 and in double-double, whose difference is the error.
+//! Fixed and periodic points, computed in f64 and in double-double; the difference is the error.
 
 use std::f64::consts::PI;
 
@@ -8,12 +8,12 @@ use super::scene::{Scene, coordinates};
 use crate::claim::motion::{PeriodicPoint, Stability};
 use crate::flow::{ClosedOrbit, FlowError, Measured, Multipliers, SectionMap};
 
-/// Looks for the point that is claimed.
+/// Compares the periodic point found with the claim.
 pub fn look(claim: &PeriodicPoint, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let map = scene.map()?;
     let orbit = map.closed(coordinates(&claim.at), claim.period)?;
     let mut finding = Finding::default();
-    // The angle, by the turn on which it is stated.
+    // The angle, on the turn for which it is stated.
     let turns = ((orbit.point().at[0] - claim.at[0].value) / (2.0 * PI)).round();
     let l = orbit.measure(|point| point.at[0] - 2.0 * PI * turns);
     finding.compare("l", l, &claim.at[0]);
@@ -68,7 +68,7 @@ fn compare_multipliers(claim: &PeriodicPoint, orbit: &ClosedOrbit, finding: &mut
     }
 }
 
-/// What the multipliers say, beyond their errors.
+/// Stability by the multipliers, beyond their errors.
 fn stability_of(orbit: &ClosedOrbit) -> Option<Stability> {
     let product = orbit.measure(|point| point.determinant);
     let off = product.value.abs() - 1.0;
@@ -96,7 +96,7 @@ fn stability_of(orbit: &ClosedOrbit) -> Option<Stability> {
     }
 }
 
-/// A proper divisor of the period after which the point is back already, up to its error.
+/// Proper divisor of the period after which the point already returns, up to its error.
 fn shorter_period(
     map: &SectionMap<'_>,
     orbit: &ClosedOrbit,

@@ -1,4 +1,4 @@
-//! A case whose motions are looked at, with what several of its claims need.
+//! A case whose motions are followed, with data shared by several claims.
 
 use std::cell::{OnceCell, RefCell};
 
@@ -11,16 +11,16 @@ use crate::flow::{
 };
 use crate::number::rational::Rational;
 
-/// A case with the motions that were followed.
+/// A case with the motions followed so far.
 pub struct Scene<'c> {
     pub case: &'c Case,
     pub seed: u64,
     map: OnceCell<SectionMap<'c>>,
-    /// The runs by start and length.
+    /// Exponents of runs, by start and length.
     exponents: RefCell<Vec<(String, f64, Exponents)>>,
 }
 
-/// The coordinates of a point.
+/// Coordinates of a stated point.
 pub fn coordinates(at: &[Stated; 2]) -> [f64; 2] {
     [at[0].value, at[1].value]
 }
@@ -30,12 +30,12 @@ impl<'c> Scene<'c> {
         Self { case, seed, map: OnceCell::new(), exponents: RefCell::default() }
     }
 
-    /// The section of the case.
+    /// Section of the case.
     fn plan(&self) -> Result<&'c SectionPlan, FlowError> {
         self.case.section.as_ref().ok_or(FlowError::NoSection)
     }
 
-    /// The section map of the case.
+    /// Section map of the case.
     pub fn map(&self) -> Result<&SectionMap<'c>, FlowError> {
         if let Some(map) = self.map.get() {
             return Ok(map);
@@ -45,17 +45,17 @@ impl<'c> Scene<'c> {
         Ok(self.map.get_or_init(|| map))
     }
 
-    /// The free parameters of the case, drawn once.
+    /// Free parameters of the case, drawn once.
     pub fn parameters(&self) -> Result<Vec<Rational>, FlowError> {
         fixed_parameters(self.case, self.seed, 0)
     }
 
-    /// A state that a claim names, with these free parameters.
+    /// State named by a claim, with these free parameters.
     pub fn state(&self, point: &Components, parameters: Vec<Rational>) -> Result<Start, FlowError> {
         Start::at(&self.case.model, parameters, point)
     }
 
-    /// Where a motion begins.
+    /// Start of a motion.
     pub fn start(&self, beginning: &Beginning) -> Result<Start, FlowError> {
         match beginning {
             Beginning::State(point) => self.state(point, self.parameters()?),
@@ -68,7 +68,7 @@ impl<'c> Scene<'c> {
         }
     }
 
-    /// The exponent and the mean divergence of a run.
+    /// Exponent and mean divergence of a run.
     pub fn exponents(&self, beginning: &Beginning, time: f64) -> Result<Exponents, FlowError> {
         let name = beginning.text();
         let is_same = |run: &&(String, f64, Exponents)| run.0 == name && run.1 == time;
@@ -81,7 +81,7 @@ impl<'c> Scene<'c> {
         Ok(found)
     }
 
-    /// The crossings of an orbit, some at the beginning left out.
+    /// Crossings of an orbit, without some at the beginning.
     pub fn crossings(
         &self,
         beginning: &Beginning,

@@ -1,4 +1,5 @@
-//! What the crossings of one orbit show: cycles that they tend to, parts in which they stay.
+//! Behaviour of the crossings of one orbit: convergence to a cycle, confinement to a part of the
+//! section.
 
 use std::f64::consts::PI;
 
@@ -12,10 +13,11 @@ fn distance(a: &Crossing, b: &Crossing) -> f64 {
     libm::hypot(2.0 * PI * (turn - turn.round()), a.at[1] - b.at[1])
 }
 
-/// Do the crossings tend to a cycle?
+/// Tests whether the crossings tend to a cycle.
 ///
-/// The displacement |x_(k+n) - x_k| has to fall to half in each quarter of the run, or to what f64 and
-/// double-double differ by after a turn. From its decline follows how far the cycle still is.
+/// The displacement |x_(k+n) - x_k| has to fall to half in each quarter of the run, or to the
+/// difference between f64 and double-double after a turn. Its decline gives the remaining distance
+/// to the cycle.
 pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let crossings = scene.crossings(&claim.beginning, 0, claim.crossings)?.crossings;
     let period = claim.period;
@@ -32,7 +34,7 @@ pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, Flo
     let shown = |value: f64| Measured { value, error: blur };
     finding.show("displacement halfway", shown(falls[0]));
     finding.show("displacement at the end", shown(falls[2]));
-    // What rounding adds up to moves a cycle that is about to vanish by its root.
+    // Accumulated rounding moves a cycle that is about to vanish by its square root.
     let floor = libm::sqrt(blur * (last / period) as f64);
     if falls[2] > blur && falls.windows(2).any(|pair| pair[1] > pair[0] / 2.0) {
         match falls[2] >= falls[0] && falls[2] > floor {
@@ -61,8 +63,8 @@ pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, Flo
     Ok(finding)
 }
 
-/// How far a geometric decline still goes: d r/(1 - r), where d is the last displacement, and r the
-/// factor from one turn to the next, over `turns` turns between those that are given.
+/// Remaining sum of a geometric decline: d r/(1 - r), where d is the last displacement, and r the
+/// factor from one turn to the next, over `turns` turns between the given displacements.
 fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
     let factor = libm::pow(last / before, 1.0 / turns as f64);
     match factor < 1.0 {
@@ -71,7 +73,7 @@ fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
     }
 }
 
-/// Do the crossings stay in a part of the section, or as many of them as are to?
+/// Tests whether the crossings stay in a part of the section, or the stated number of them does.
 pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
     let axis = match claim.axis {
@@ -104,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_geometric_decline_tells_what_is_left() {
-        // d = 2^-k: after the displacement 2^-20 as much again is left.
+        // d = 2^-k: after the displacement 2^-20 an equal distance remains.
         let falls = [10, 15, 20].map(|k| libm::pow(2.0, -f64::from(k)));
         let left = remaining(falls, 5, 1e-16);
         assert!((left / falls[2] - 1.0).abs() < 1e-12, "left: {left:e}");

@@ -1,4 +1,4 @@
-//! `bench`: times and errors, as JSON or as a table for each claim.
+//! Report of `bench`: times and errors, as JSON or as a table for each claim.
 
 use comfy_table::{Cell, CellAlignment, Color, Table, presets};
 use serde::Serialize;
@@ -9,19 +9,19 @@ use crate::bench::{Measured, Method, Options, Row};
 use crate::graph::vector_features;
 use crate::verdict::LANES;
 
-/// All items of a run.
+/// Results of a benchmark run.
 #[derive(Debug)]
 pub struct BenchRun {
-    /// How much was measured.
+    /// Options of the measurements.
     pub options: Options,
-    /// The claims, in the order of the items.
+    /// Claims measured, in the order of the items.
     pub measured: Vec<Measured>,
     /// Items that could not be measured.
     pub errors: Vec<(String, Failure)>,
 }
 
 impl BenchRun {
-    /// A run that has measured nothing yet.
+    /// A run without measurements.
     pub fn new(options: Options) -> Self {
         Self { options, measured: Vec::new(), errors: Vec::new() }
     }
@@ -40,7 +40,7 @@ struct Root<'a> {
     errors: Vec<ErrorEntry<'a>>,
 }
 
-/// What the times depend on.
+/// Machine properties on which the times depend.
 #[derive(Serialize)]
 struct Machine {
     architecture: &'static str,
@@ -56,12 +56,12 @@ struct ItemEntry<'a> {
     claim: &'a str,
     kind: &'a str,
     ns_per_state: Option<f64>,
-    /// By the quickest engine.
+    /// Time of the quickest engine.
     engine_ns_per_state: Option<f64>,
     floor_ns_per_state: Option<f64>,
-    /// By hand, where there is such code.
+    /// Time of num-dual by hand, where there is such code.
     num_dual_ns_per_state: Option<f64>,
-    /// The quickest engine over num-dual by hand.
+    /// Time of the quickest engine divided by that of num-dual by hand.
     ratio_to_num_dual: Option<f64>,
     operations: Option<usize>,
     merged_operations: Option<usize>,
@@ -91,7 +91,7 @@ struct ErrorEntry<'a> {
     failure: &'a Failure,
 }
 
-/// The run as pretty-printed JSON.
+/// Renders the run as pretty-printed JSON.
 pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
     let all = || run.measured.iter();
     let rows = all().flat_map(|measured| {
@@ -146,7 +146,7 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
     }
 }
 
-/// A table for each claim.
+/// Renders a table for each claim.
 pub fn text(run: &BenchRun, style: Style) -> String {
     let mut out = String::new();
     for measured in &run.measured {
@@ -222,7 +222,7 @@ fn table(measured: &Measured, style: Style) -> String {
     table.trim_fmt()
 }
 
-/// Three digits, without an exponent.
+/// Formats a number to three digits, without an exponent.
 fn digits(value: f64) -> String {
     match value {
         _ if value >= 100.0 => format!("{value:.0}"),

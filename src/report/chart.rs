@@ -1,25 +1,25 @@
-//! `chart`: how many motions of a plane are of which class, and the picture.
+//! Report of `chart`: counts of motions in each class over a plane, and the picture.
 
 use serde_json::{Value, json};
 
 use super::picture::{Map, Scale, Swatch};
 use crate::flow::{Axis, Character, Exponents, FlowError};
 
-/// A plane of motions with what it was asked for.
+/// A plane of motions with its request.
 pub struct ChartReport<'r> {
-    /// The title of the case.
+    /// Title of the case.
     pub title: &'r str,
-    /// The names of the axes.
+    /// Names of the axes.
     pub names: [&'r str; 2],
-    /// The axes.
+    /// Axes of the plane.
     pub axes: &'r [Axis; 2],
-    /// How long each motion was followed.
+    /// Time for which each motion was followed.
     pub time: f64,
-    /// The motions, row by row from below.
+    /// Motions, row by row from below.
     pub cells: &'r [Result<Exponents, FlowError>],
 }
 
-/// What a point of the plane is.
+/// Kind of a point of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cell {
     Motion(Character),
@@ -27,7 +27,7 @@ enum Cell {
     Broken,
 }
 
-/// All that a point can be, with colours apart from each other in light and dark, and in grey.
+/// All kinds of points, with colours that differ in light and dark, and in grey.
 const CELLS: [(Cell, [u8; 3]); 7] = [
     (Cell::Motion(Character::Regular), [0x9c, 0xc3, 0xe6]),
     (Cell::Motion(Character::ConservativeChaos), [0xc9, 0x3b, 0x4f]),
@@ -68,7 +68,7 @@ impl ChartReport<'_> {
         counts
     }
 
-    /// A few lines for people.
+    /// Renders a summary of a few lines.
     pub fn text(&self) -> String {
         let [across, up] = self.axes;
         let mut out = format!(
@@ -96,7 +96,7 @@ impl ChartReport<'_> {
         out
     }
 
-    /// All motions.
+    /// Renders all motions as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         let axis = |index: usize| {
             let axis: &Axis = &self.axes[index];
@@ -125,7 +125,7 @@ impl ChartReport<'_> {
         }))
     }
 
-    /// The picture; only what occurs is in its legend.
+    /// Draws the picture; its legend lists only the kinds that occur.
     pub fn map(&self, width: u32) -> Map {
         let counts = self.counts();
         let occurs: Vec<usize> = (0..CELLS.len()).filter(|place| counts[*place] > 0).collect();

@@ -1,4 +1,4 @@
-//! Problems shown at their place in the user's file, in the manner of rustc.
+//! Problems displayed at their place in the user's file, in the manner of rustc.
 
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ use super::Failure;
 use crate::case::{CaseError, Mistake};
 use crate::verdict::JudgeError;
 
-/// The mistakes of the file `path` with the text `source`.
+/// Failures for the mistakes in the file `path` with the text `source`.
 pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec<Failure> {
     let told = |mistake: &Mistake| of_mistake(path, source, mistake, colour);
     error.mistakes().iter().map(told).collect()
 }
 
-/// All of them, as they are shown on a terminal.
+/// Joins failures for display on a terminal.
 pub fn rendered(failures: &[Failure]) -> String {
     let texts: Vec<&str> = failures.iter().map(|failure| failure.rendered.as_str()).collect();
     texts.join("\n\n")
@@ -25,7 +25,7 @@ fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> Fail
     at(path, source, mistake.span.clone(), mistake.message(), mistake.help(), colour)
 }
 
-/// What stands against judging the case in the file `path` with the text `source`.
+/// Failure for an error that prevents judging the case in the file `path` with the text `source`.
 pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> Failure {
     let place = |text: &str| source.find(text).map(|start| start..start + text.len());
     let span = match error {
@@ -41,7 +41,7 @@ pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) ->
     at(path, source, span, error.to_string(), Some(error.help().to_string()), colour)
 }
 
-/// A problem at a place, or in the file as a whole.
+/// Failure at a place, or in the file as a whole.
 fn at(
     path: &str,
     source: &str,
@@ -65,7 +65,7 @@ fn at(
     Failure { message, help, line, column, rendered }
 }
 
-/// A problem that concerns a file, or a folder, as a whole.
+/// Failure that concerns a file, or a folder, as a whole.
 pub fn of_file(path: &str, message: &str, help: &str, colour: bool) -> Failure {
     let title = Level::ERROR.primary_title(message);
     let group = title.element(Level::NOTE.message(format!("in {path}")));

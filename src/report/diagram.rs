@@ -1,8 +1,8 @@
-//! The work-precision diagram as SVG: error to the right, time upwards, both logarithmic; a shape for
+//! Work–precision diagram as SVG: error to the right, time upwards, both logarithmic; a shape for
 //! each method, a colour for each domain.
 //!
-//! The layout is a function of the rows alone. Up to six claims have a panel each, with
-//! a label at every point that has room for one; more are drawn together.
+//! The layout depends on the rows alone. Up to six claims have a panel each, with a label at every
+//! point that has room for one; more are drawn together.
 
 mod axes;
 mod labels;
@@ -15,13 +15,13 @@ use self::axes::Axes;
 use self::labels::Labels;
 use crate::bench::{Measured, Method, Row};
 
-/// More claims than that share one panel.
+/// Number of claims above which all share one panel.
 const MOST_PANELS: usize = 6;
 const WIDTH: f64 = 860.0;
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 24.0;
 const PANEL: f64 = 330.0;
-/// The title above a panel, and its axis below.
+/// Heights of the title above a panel and of the axis below.
 const ABOVE: f64 = 34.0;
 const BELOW: f64 = 46.0;
 const LEGEND_LINE: f64 = 22.0;
@@ -38,7 +38,7 @@ const COLOURS: [(&str, &str); 8] = [
     ("#8c2f2f", "#f08a8a"),
 ];
 
-/// The diagram of some claims.
+/// Draws the diagram of some claims.
 pub fn svg(measured: &[Measured]) -> String {
     let domains = domains(measured);
     // A residual that is nowhere defined has no error, and no place in the diagram.
@@ -108,7 +108,7 @@ fn style(domains: usize) -> String {
     format!("{light}@media (prefers-color-scheme: dark) {{\n{dark}}}\n")
 }
 
-/// Shapes and colours with their names, in lines; returns the height they take.
+/// Draws shapes and colours with their names, in lines. Returns the height they take.
 fn legend_lines(out: &mut String, methods: &[Method], domains: &[&'static str]) -> f64 {
     let mut y = 22.0;
     let mut x = LEFT;
@@ -170,7 +170,7 @@ fn panel(
         out.push_str(&marker(row.method, &format!("d{class}"), *x, *y));
     }
     if labelled {
-        // From the right: what is there has the fewest places to choose from.
+        // From the right: points there have the fewest places for a label.
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by(|a, b| points[*b].0.total_cmp(&points[*a].0));
         let mut labels = Labels::new(axes.frame(top), &points);
@@ -191,7 +191,7 @@ fn panel(
     }
 }
 
-/// A marker of a method's shape, about 10 pixels wide.
+/// Draws a marker with the shape of a method, about 10 pixels wide.
 fn marker(method: Method, class: &str, x: f64, y: f64) -> String {
     let polygon = |corners: &[(f64, f64)]| {
         let corners: Vec<String> =

@@ -1,4 +1,4 @@
-//! `exponents`: what a motion looks like, with the numbers that say so.
+//! Report of `exponents`: the class of a motion, with the exponents behind it.
 
 use serde_json::{Value, json};
 
@@ -6,16 +6,16 @@ use crate::flow::{Alignment, Character, Estimate, Exponents, FlowError};
 
 /// A motion that was followed.
 pub struct Row {
-    /// Its start.
+    /// Name of its start.
     pub name: String,
-    /// In the direction that was asked for.
+    /// Exponents in the direction requested.
     pub forward: Result<Exponents, FlowError>,
-    /// In the other one, if it was followed that way too.
+    /// Exponents in the other direction, if the motion was followed that way too.
     pub backward: Option<Result<Exponents, FlowError>>,
 }
 
 impl Row {
-    /// The class, by both directions where both are known.
+    /// Class of the motion, by both directions where both are known.
     pub fn class(&self) -> Option<Character> {
         let forward = self.forward.as_ref().ok()?;
         Some(match &self.backward {
@@ -25,7 +25,7 @@ impl Row {
     }
 }
 
-/// Motions with their names; `backward` in the same order.
+/// Combines motions with their names; `backward` is in the same order.
 pub fn rows(
     names: Vec<String>,
     forward: Vec<Result<Exponents, FlowError>>,
@@ -36,7 +36,7 @@ pub fn rows(
     named.map(|(name, forward)| Row { name, forward, backward: backward.next() }).collect()
 }
 
-/// How many motions are of which class, and the class furthest from order among them.
+/// Counts of the motions in each class, and the class furthest from order among them.
 pub fn classes(rows: &[Row]) -> String {
     let Some(furthest) = rows.iter().filter_map(Row::class).max() else {
         return "no orbit has a class\n".to_string();
@@ -49,7 +49,7 @@ pub fn classes(rows: &[Row]) -> String {
     format!("class: {} ({})\n", furthest.name(), counts.join(", "))
 }
 
-/// A few lines a start.
+/// Renders a few lines for each start.
 pub fn text(title: &str, rows: &[Row]) -> String {
     let mut out = format!("{title}\n");
     for row in rows {
@@ -88,7 +88,7 @@ fn lines(found: &Exponents) -> String {
     out
 }
 
-/// The same as JSON.
+/// Renders the motions as JSON.
 pub fn json(title: &str, rows: &[Row]) -> Result<String, serde_json::Error> {
     let told = |found: &Result<Exponents, FlowError>| match found {
         Ok(found) => numbers(found),

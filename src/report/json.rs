@@ -1,4 +1,4 @@
-//! `check --json`: a stable schema for machines.
+//! Report of `check --json`: a stable schema for machines.
 
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ struct ErrorEntry<'a> {
     failure: &'a Failure,
 }
 
-/// The run as pretty-printed JSON.
+/// Renders the run as pretty-printed JSON.
 pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
     let mut root =
         Root { seed: run.seed, cases: Vec::new(), errors: Vec::new(), summary: run.summary() };

@@ -33,105 +33,105 @@ use serde::Serialize;
 
 use crate::verdict::{CaseReport, ClaimReport, MutationReport, Verdict};
 
-/// One file of a run.
+/// Outcome for one file of a run.
 #[derive(Debug)]
 pub struct Outcome {
-    /// The path as it was given or found.
+    /// Path as given or found.
     pub path: String,
-    /// The case's title, source, system and column; empty where it could not be read.
+    /// Title, source, system and column of the case; empty where it could not be read.
     pub heading: Heading,
-    /// The verdicts, or why there are none.
+    /// Verdicts, or the reasons why there are none.
     pub result: Result<CaseReport, Vec<Failure>>,
 }
 
-/// Why a file could not be judged.
+/// Reason why a file could not be judged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failure {
-    /// What is wrong.
+    /// Message that describes the error.
     pub message: String,
-    /// What would be right.
+    /// Suggested correction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
-    /// The line it concerns, from 1.
+    /// Line of the error, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
-    /// The column in characters, from 1.
+    /// Column of the error in characters, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<usize>,
-    /// The same with an excerpt of the file, for a terminal.
+    /// Message with an excerpt of the file, for a terminal.
     #[serde(skip)]
     pub rendered: String,
 }
 
-/// What a case says about itself.
+/// Description of a case by its author.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Heading {
-    /// What the case is about.
+    /// Title of the case.
     pub title: String,
-    /// Where it comes from.
+    /// Publication that the case is taken from.
     pub source: String,
-    /// The kind of system.
+    /// Kind of the system.
     pub system: String,
-    /// The table and column it belongs to.
+    /// Table and column that the case belongs to.
     pub column: Option<crate::case::Column>,
-    /// The author's notes.
+    /// Notes of the author.
     pub notes: Vec<String>,
 }
 
-/// All files of a run.
+/// Results for all files of a run.
 #[derive(Debug)]
 pub struct RunReport {
-    /// The seed of all states.
+    /// Seed of all states.
     pub seed: u64,
-    /// One outcome a file, in the order of the paths.
+    /// Outcome of each file, in the order of the paths.
     pub outcomes: Vec<Outcome>,
-    /// How long it took.
+    /// Duration of the run.
     pub elapsed: Duration,
 }
 
 /// Counts over a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
-    /// Cases that were judged.
+    /// Number of cases judged.
     pub cases: usize,
-    /// Their claims.
+    /// Number of claims in them.
     pub claims: usize,
-    /// Claims proved.
+    /// Number of claims proved.
     pub proved: usize,
-    /// Claims confirmed.
+    /// Number of claims confirmed.
     pub confirmed: usize,
-    /// Claims refuted.
+    /// Number of claims refuted.
     pub refuted: usize,
-    /// Claims undecided.
+    /// Number of claims undecided.
     pub undecided: usize,
-    /// Verdicts that contradict what the file expects.
+    /// Number of verdicts that contradict the expectation in the file.
     pub disagreements: usize,
-    /// Files that could not be judged.
+    /// Number of files that could not be judged.
     pub errors: usize,
-    /// Claims about motion that were left alone.
+    /// Number of claims about motion that were skipped.
     #[serde(skip_serializing_if = "is_zero")]
     pub motions_left: usize,
-    /// What became of mutants, if they were asked for.
+    /// Counts of mutants, if they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mutants: Option<MutantCounts>,
-    /// How long the run took.
+    /// Duration of the run in seconds.
     pub seconds: f64,
 }
 
-/// Counts of mutants.
+/// Counts of mutants by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct MutantCounts {
-    /// Refuted.
+    /// Number of mutants refuted.
     pub killed: usize,
-    /// Neither refuted nor proved.
+    /// Number of mutants neither refuted nor proved.
     pub survived: usize,
-    /// Proved, and nothing new.
+    /// Number of mutants proved that are nothing new.
     pub equivalent: usize,
-    /// Proved, and independent of what is known.
+    /// Number of mutants proved that are independent of what is known.
     pub discovered: usize,
 }
 
-/// Is a count not worth telling?
+/// Whether a count is zero, and left out of the report.
 fn is_zero(count: &usize) -> bool {
     *count == 0
 }
@@ -145,7 +145,7 @@ impl RunReport {
         })
     }
 
-    /// The mutants of all cases, where they were asked for.
+    /// Mutants of all cases, where they were requested.
     pub fn mutants(&self) -> impl Iterator<Item = (&Outcome, &MutationReport)> {
         self.outcomes.iter().filter_map(|outcome| {
             let report = outcome.result.as_ref().ok()?;
@@ -153,7 +153,7 @@ impl RunReport {
         })
     }
 
-    /// The counts.
+    /// Counts over the run.
     pub fn summary(&self) -> Summary {
         let mut summary = Summary { seconds: self.elapsed.as_secs_f64(), ..Summary::default() };
         for outcome in &self.outcomes {
@@ -185,8 +185,8 @@ impl RunReport {
         summary
     }
 
-    /// 0: all as expected; 1: a verdict contradicts its expectation, or a mutant survived; 2: a file
-    /// could not be judged.
+    /// Exit code. 0: all as expected; 1: a verdict contradicts its expectation, or a mutant
+    /// survived; 2: a file could not be judged.
     pub fn exit_code(&self) -> u8 {
         let summary = self.summary();
         let survived = summary.mutants.map_or(0, |mutants| mutants.survived);

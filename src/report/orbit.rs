@@ -1,4 +1,4 @@
-//! `orbit`: one motion, as text or JSON.
+//! Report of `orbit`: a single motion, as text or JSON.
 
 use serde_json::{Map, Value, json};
 
@@ -8,10 +8,10 @@ use crate::mechanics::Variable;
 use crate::number::pair::Pair;
 use crate::number::precise::Approximation;
 
-/// Digits that a double-double is printed with.
+/// Number of digits printed of a double-double.
 const PAIR_DIGITS: usize = 31;
 
-/// How a number is written: all digits of its precision.
+/// Formats a number with all digits of its precision.
 pub(super) fn written(value: Pair, precision: Precision) -> String {
     let long = || Approximation::from_twofold(value.hi, value.lo, 0.0)?.decimal(PAIR_DIGITS);
     match precision {
@@ -44,7 +44,7 @@ fn precision_name(precision: Precision) -> &'static str {
     }
 }
 
-/// The components of a state by the names of its variables.
+/// Components of a state with the names of its variables.
 fn named<'s>(
     variables: &'s [Variable],
     state: &'s [Pair],
@@ -58,7 +58,7 @@ fn named<'s>(
     })
 }
 
-/// The motion for people.
+/// Renders the motion as text.
 pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
     let mut out = String::new();
     let mut line = |text: String| {
@@ -102,7 +102,7 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
     out
 }
 
-/// The motion as JSON; states are decimal strings.
+/// Renders the motion as JSON; states are decimal strings.
 pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, serde_json::Error> {
     let state = |state: &[Pair]| {
         let entries = named(&case.model.state, state, precision);

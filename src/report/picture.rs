@@ -1,6 +1,6 @@
 //! Pictures of Poincaré sections: points in the rectangle of l and L/G, as SVG or PNG.
 //!
-//! The rectangle is the sphere in Lambert's cylindrical projection: equal areas are equal.
+//! The rectangle is the sphere in Lambert's cylindrical projection, which preserves areas.
 
 mod glyphs;
 mod map;
@@ -18,46 +18,46 @@ pub use svg::{inline_svg, svg};
 /// A point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
-    /// l in [0, 2π).
+    /// Coordinate l in [0, 2π).
     pub l: f64,
-    /// L/G in [-1, 1].
+    /// Coordinate L/G in [-1, 1].
     pub z: f64,
 }
 
-/// The colour of a layer.
+/// Colour of a layer.
 #[derive(Clone, Copy, Debug)]
 pub enum Tint {
-    /// A place on the scale of colours, from 0 to 1.
+    /// Position on the colour scale, from 0 to 1.
     Shade(f64),
-    /// Grey, behind others.
+    /// Grey, behind other layers.
     Faint,
 }
 
 /// Dots of one colour.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    /// The colour.
+    /// Colour of the dots.
     pub tint: Tint,
-    /// The dots.
+    /// Dots of the layer.
     pub dots: Vec<Dot>,
 }
 
 /// A picture of a section.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// What it shows.
+    /// Title of the picture.
     pub title: String,
-    /// The dots, later layers over earlier ones.
+    /// Layers of dots, later ones over earlier ones.
     pub layers: Vec<Layer>,
-    /// Further dots over all of them, such as images of fixed lines of a reversor.
+    /// Further dots over all layers, such as images of fixed lines of a reversor.
     pub overlay: Vec<Dot>,
     /// Points to be marked, such as fixed points.
     pub marks: Vec<Dot>,
-    /// The width in pixels.
+    /// Width in pixels.
     pub width: u32,
 }
 
-/// The frame around what is drawn, in pixels, and its axes.
+/// Frame of the plot, in pixels, with its axes.
 struct Frame {
     left: f64,
     top: f64,
@@ -73,11 +73,11 @@ const LEFT: f64 = 40.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 12.0;
 const BELOW: f64 = 30.0;
-/// Height over width: the area of a sphere is 2π by 2, drawn somewhat higher to be read.
+/// Ratio of height to width: somewhat above that of a sphere, 2π by 2, for legibility.
 const ASPECT: f64 = 0.62;
 
 impl Frame {
-    /// A frame in a picture of this width, with room for more below it.
+    /// A frame in a picture of this width, with additional room below it.
     fn new(width: u32, across: Scale, up: Scale, below: f64) -> Self {
         let left = LEFT.max(8.0 + 7.0 * up.widest() as f64);
         let inner = f64::from(width) - left - RIGHT;

@@ -1,15 +1,15 @@
-//! `eval`: everything at one state, as JSON with decimal strings or as text.
+//! Report of `eval`: everything at one state, as JSON with decimal strings or as text.
 
 use serde_json::{Map, Value, json};
 
 use crate::verdict::{Digits, Enclosed, PointReport};
 
-/// How a number of a report is written.
+/// A number of a report in decimal notation.
 pub trait Written {
-    /// The number itself, if it is defined.
+    /// Decimal form of the number, if it is defined.
     fn number(&self) -> Option<String>;
 
-    /// A bound on its error, if there is more to say than that all digits are right.
+    /// Bound on its error; `None` where all digits printed are right.
     fn error(&self) -> Option<f64>;
 }
 
@@ -33,7 +33,7 @@ impl Written for Digits {
     }
 }
 
-/// The report as JSON; numbers are decimal strings, null where undefined.
+/// Renders the report as JSON; numbers are decimal strings, null where undefined.
 pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::Error> {
     let list = |values: &[N]| Value::from(values.iter().map(number).collect::<Vec<_>>());
     let named = |entries: &[(String, Vec<String>)]| {
@@ -76,7 +76,7 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
     serde_json::to_string_pretty(&Value::Object(root))
 }
 
-/// The report for people: each number with the bound on its error.
+/// Renders the report as text: each number with the bound on its error.
 pub fn text<N: Written>(report: &PointReport<N>) -> String {
     let mut out = String::new();
     let mut line = |name: &str, value: String| out.push_str(&format!("{name:<18} {value}\n"));
@@ -119,7 +119,7 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
     out
 }
 
-/// A number, a list of components, or null.
+/// JSON of a number, a list of components, or null.
 fn numbers<N: Written>(values: &[N]) -> Value {
     match values {
         [] => Value::Null,
@@ -132,7 +132,7 @@ fn number(value: &impl Written) -> Value {
     value.number().map_or(Value::Null, Value::String)
 }
 
-/// The shortest decimal that reads back as the same f64.
+/// Shortest decimal that reads back as the same f64.
 fn decimal(value: f64) -> String {
     format!("{value:?}")
 }

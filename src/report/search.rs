@@ -1,10 +1,10 @@
-//! What a search counted, found and excluded, for people and as JSON.
+//! Report of `search`: what was counted, found and excluded, as text and as JSON.
 
 use serde_json::json;
 
 use crate::search::{MultiplierReport, Report};
 
-/// The report as JSON.
+/// Renders the report as JSON.
 pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(&json!({
         "title": title,
@@ -19,7 +19,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
     }))
 }
 
-/// The report as text.
+/// Renders the report as text.
 pub fn text(title: &str, report: &Report) -> String {
     let mut out = format!("{title}\n");
     if !report.counts.is_empty() {
@@ -91,7 +91,7 @@ pub fn text(title: &str, report: &Report) -> String {
     out.trim_end().to_string()
 }
 
-/// The counts of densities P^(1/α): those that leave one each, the others together.
+/// Lists the counts of densities P^(1/α): nonzero ones singly, the others together.
 fn multipliers(counts: &[MultiplierReport]) -> String {
     let mut out = String::new();
     if !counts.is_empty() {
@@ -102,7 +102,7 @@ fn multipliers(counts: &[MultiplierReport]) -> String {
     for free in [true, false] {
         let own = || counts.iter().filter(move |count| count.free == free);
         let motion = if free { "free motion, " } else { "" };
-        // The count ends with the degree at which there is one.
+        // The count ends with the first degree at which a density is not excluded.
         let excess = own().find(|count| count.dimension > 0).map(|count| count.degree);
         let last = own().map(|count| count.degree).max();
         let empty = match excess {

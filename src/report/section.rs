@@ -1,4 +1,4 @@
-//! `section`: the crossings as JSON, a summary as text, and the picture of both.
+//! Report of `section`: the crossings as JSON, a summary as text, and the picture of both.
 
 use serde_json::{Value, json};
 
@@ -8,17 +8,17 @@ use crate::flow::{AreaForm, Character, SectionOrbit, SectionRequest, Separatrice
 
 use super::exponents::{Row, classes};
 
-/// A section with what it was asked for.
+/// A section with its request.
 pub struct SectionReport<'r> {
-    /// The case.
+    /// Case of the section.
     pub case: &'r Case,
-    /// What was asked for.
+    /// Request of the section.
     pub request: &'r SectionRequest,
-    /// One entry a start.
+    /// Orbits, one for each start.
     pub orbits: &'r [SectionOrbit],
-    /// What was seen of the area forms of claimed densities.
+    /// Tests of the area forms of claimed densities.
     pub areas: &'r [AreaForm],
-    /// The orbits with their exponents, if they were asked for.
+    /// Orbits with their exponents, if these were requested.
     pub classes: Option<&'r [Row]>,
 }
 
@@ -27,7 +27,7 @@ impl SectionReport<'_> {
         self.orbits.iter().map(of).sum()
     }
 
-    /// A few lines for people.
+    /// Renders a summary of a few lines.
     pub fn text(&self) -> String {
         let request = self.request;
         let crossings = self.count(|orbit| orbit.crossings.len());
@@ -73,7 +73,7 @@ impl SectionReport<'_> {
         out
     }
 
-    /// All crossings.
+    /// Renders all crossings as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         let orbits: Vec<Value> = self
             .orbits
@@ -130,7 +130,8 @@ fn area_entry(area: &AreaForm) -> Value {
     })
 }
 
-/// The picture of a section; `values`, one an orbit, give the colours, or else the order of the orbits.
+/// Draws the picture of a section. Colours follow `values`, one for each orbit, or else the order
+/// of the orbits.
 pub fn picture(
     title: &str,
     orbits: &[SectionOrbit],
@@ -139,7 +140,7 @@ pub fn picture(
 ) -> Picture {
     let shades = match values {
         Some(values) => ranks(values),
-        // Neighbouring orbits in colours far apart.
+        // Neighbouring orbits get colours far apart.
         None => (0..orbits.len()).map(|k| (0.5 + k as f64 * 0.618_033_988_75).fract()).collect(),
     };
     let dots = |orbit: &SectionOrbit| {
@@ -157,7 +158,7 @@ pub fn picture(
     }
 }
 
-/// Adds the images of lines, a colour each, and makes room for them.
+/// Adds the images of lines to a picture, each in a different colour.
 pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
     for (index, orbits) in lines.iter().enumerate() {
         let start = |orbit: &SectionOrbit| Dot { l: orbit.start[0], z: orbit.start[1] };
@@ -169,12 +170,12 @@ pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
     }
 }
 
-/// Where red and blue are on the scale of colours.
+/// Positions of red and blue on the colour scale.
 const UNSTABLE: f64 = 0.0;
 const STABLE: f64 = 0.7;
 
-/// Draws separatrices over a section, whose own points become pale: what comes from the point red, what
-/// tends to it blue.
+/// Draws separatrices over a section, whose points become pale: unstable curves red, stable ones
+/// blue.
 pub fn draw_separatrices(picture: &mut Picture, all: &[Separatrices]) {
     if all.is_empty() {
         return;
@@ -190,7 +191,7 @@ pub fn draw_separatrices(picture: &mut Picture, all: &[Separatrices]) {
     }
 }
 
-/// The rank of each value, from 0 for the least to 1 for the largest.
+/// Rank of each value, from 0 for the least to 1 for the largest.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));

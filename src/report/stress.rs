@@ -1,4 +1,4 @@
-//! `stress`: digits lost and verdicts kept, as a table, JSON, and a heat map.
+//! Report of `stress`: digits lost and verdicts kept, as a table, JSON, and a heat map.
 
 use std::fmt::Write;
 
@@ -6,44 +6,44 @@ use serde::Serialize;
 
 use crate::stress::{Loss, Tally};
 
-/// A sweep with what was found at each power of ten.
+/// A sweep with its results at each power of ten.
 #[derive(Clone, Debug, Serialize)]
 pub struct SweepReport {
-    /// The scenario.
+    /// Name of the scenario.
     pub name: &'static str,
-    /// One entry for each exponent of x.
+    /// Results for each exponent of x.
     pub points: Vec<Point>,
-    /// All its verdicts together.
+    /// Tally of all its verdicts.
     pub verdicts: Tally,
-    /// What could not be judged, and why; each reason once.
+    /// Reasons why claims could not be judged, each once.
     pub problems: Vec<String>,
 }
 
-/// One power of ten.
+/// Results at one power of ten.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Point {
-    /// x = 10^exponent
+    /// Exponent of x = 10^exponent.
     pub exponent: i32,
     /// Digits lost in f64.
     #[serde(flatten)]
     pub loss: Option<Loss>,
 }
 
-/// All sweeps.
+/// Results of all sweeps.
 #[derive(Clone, Debug, Serialize)]
 pub struct StressReport {
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// The sweeps.
+    /// Sweeps of the run.
     pub scenarios: Vec<SweepReport>,
-    /// All verdicts together.
+    /// Tally of all verdicts.
     pub verdicts: Tally,
-    /// How long it took.
+    /// Duration in seconds.
     pub seconds: f64,
 }
 
 impl StressReport {
-    /// For people: a row a sweep, a digit for each power of ten.
+    /// Renders the sweeps as text: a row for each, a digit for each power of ten.
     pub fn text(&self) -> String {
         let width = self.scenarios.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
         let mut out = String::from(
@@ -87,13 +87,13 @@ impl StressReport {
         out
     }
 
-    /// For machines.
+    /// Renders the sweeps as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string_pretty(self)
     }
 
-    /// The heat map: sweeps down, powers of ten across, one half of a cell for the field and one for
-    /// the residuals.
+    /// Draws the heat map: sweeps down, powers of ten across, one half of a cell for the field and
+    /// one for the residuals.
     pub fn heat_map(&self) -> String {
         const CELL: f64 = 17.0;
         const LEFT: f64 = 270.0;
@@ -162,12 +162,12 @@ impl StressReport {
     }
 }
 
-/// 0 to 9, then letters.
+/// Formats a number of digits lost: 0 to 9, then letters.
 fn digit(lost: f64) -> char {
     char::from_digit((lost.round() as u32).min(16), 17).unwrap_or('?')
 }
 
-/// From green, nothing lost, over yellow to red, everything lost.
+/// Colour of a loss: from green, no digits, over yellow to red, all digits.
 fn colour(lost: f64) -> String {
     let share = (lost / 16.0).clamp(0.0, 1.0);
     let stops = [(44.0, 140.0, 96.0), (236.0, 200.0, 70.0), (190.0, 40.0, 40.0)];

@@ -1,4 +1,4 @@
-//! The paper's tables, filled from verdicts.
+//! Tables of the paper, filled from verdicts.
 
 mod markup;
 
@@ -11,7 +11,7 @@ use super::RunReport;
 use crate::case::TABLE_ROWS;
 use crate::verdict::Verdict;
 
-/// One of the paper's tables with a status in each cell.
+/// A table of the paper with a status in each cell.
 #[derive(Debug, Serialize)]
 pub struct Regenerated {
     table: u32,
@@ -25,7 +25,7 @@ struct Row {
     cells: Vec<Filled>,
 }
 
-/// A cell: the paper's words, and the claims that stand behind them.
+/// A cell: the paper's words, and the claims behind them.
 #[derive(Clone, Debug, Default, Serialize)]
 struct Filled {
     words: Vec<String>,
@@ -33,16 +33,16 @@ struct Filled {
     claims: Vec<CellClaim>,
 }
 
-/// What the verdicts say of a cell.
+/// Status of a cell, by its verdicts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Status {
-    /// Words only: nothing is claimed.
+    /// Words only, without claims.
     #[default]
     Text,
-    /// Every claim came out as the paper says.
+    /// All claims agree with the paper.
     Agrees,
-    /// Only claims whose answer nobody knows.
+    /// Only claims whose answer is open.
     Open,
     /// Some verdict contradicts the paper.
     Contradicts,
@@ -97,7 +97,7 @@ pub fn regenerate(run: &RunReport, number: u32) -> Regenerated {
             .map(|column| cells.get(&(row, *column)).cloned().unwrap_or_default())
             .collect(),
     };
-    // A row in which no column says anything belongs to another table.
+    // A row that is empty in all columns belongs to another table.
     let said = |row: &Row| row.cells.iter().any(|cell| !cell.is_empty());
     let rows = TABLE_ROWS.into_iter().map(row).filter(said).collect();
     Regenerated { table: number, rows, columns }
@@ -113,27 +113,27 @@ fn status(claims: &[CellClaim]) -> Status {
 }
 
 impl Regenerated {
-    /// Has the catalogue no case for this table?
+    /// Whether the catalogue has no case for this table.
     pub fn is_empty(&self) -> bool {
         self.columns.is_empty()
     }
 
-    /// As a Markdown table; each verdict is a link to the case that gave it.
+    /// Renders a Markdown table; each verdict is a link to its case.
     pub fn markdown(&self) -> String {
         markup::markdown(self)
     }
 
-    /// As a LaTeX table for XeLaTeX or LuaLaTeX with hyperref.
+    /// Renders a LaTeX table for XeLaTeX or LuaLaTeX with hyperref.
     pub fn latex(&self) -> String {
         markup::latex(self)
     }
 
-    /// As JSON.
+    /// Renders the table as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string_pretty(self)
     }
 
-    /// As text for a terminal of this width.
+    /// Renders the table as text for a terminal of this width.
     pub fn text(&self, width: u16) -> String {
         let mut table = Table::new();
         table.load_style(presets::UTF8_FULL).set_content_arrangement(ContentArrangement::Dynamic);
@@ -151,7 +151,7 @@ impl Regenerated {
 }
 
 impl CellClaim {
-    /// As expected, against it, or open.
+    /// Sign of the claim: as expected, against it, or open.
     fn mark(&self) -> &'static str {
         match (self.agrees, self.expect) {
             (false, _) => "✗",

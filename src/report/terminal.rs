@@ -1,4 +1,4 @@
-//! `check` for people: one line a claim, grouped by case, and a summary.
+//! Report of `check` on a terminal: one line for each claim, grouped by case, and a summary.
 
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
@@ -9,18 +9,18 @@ use crate::verdict::{CaseReport, ClaimReport, Independence, Measurement, Sign, V
 const SHOWN: f64 = 10.0;
 const ALL: f64 = 15.0;
 
-/// How much is shown, and whether in colour.
+/// Style of the output.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Show witnesses, notes and how each verdict came about.
+    /// Whether to show witnesses, notes and the climb to each verdict.
     pub verbose: bool,
-    /// Use colours.
+    /// Whether to use colours.
     pub colour: bool,
-    /// The width of the terminal.
+    /// Width of the terminal.
     pub width: u16,
 }
 
-/// All cases of a run.
+/// Renders all cases of a run.
 pub fn render(run: &RunReport, style: Style) -> String {
     let mut out = String::new();
     for outcome in &run.outcomes {
@@ -96,7 +96,7 @@ fn claims(report: &CaseReport, style: Style) -> String {
     table.trim_fmt()
 }
 
-/// What there is to say in a few words.
+/// Remark on a verdict, in a few words.
 fn remark(claim: &ClaimReport) -> String {
     let evidence = &claim.evidence;
     let mut words = Vec::new();
@@ -159,12 +159,13 @@ fn remark(claim: &ClaimReport) -> String {
     words.join(", ")
 }
 
-/// A number with its error, to the digits that the error leaves, and what is stated about it.
+/// Formats a number with its error, to the digits that the error leaves, and the statement about
+/// it.
 fn measured(found: &Measurement, most: f64) -> String {
     let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
     let places = (1.0 - libm::floor(libm::log10(found.error))).clamp(0.0, most) as usize;
     let (quantity, error) = (&found.quantity, found.error);
-    // Without the sign of a rounded zero.
+    // without the sign of a rounded zero
     let value = if found.value.abs() < error { found.value.abs() } else { found.value };
     format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
 }
@@ -231,7 +232,7 @@ fn details(report: &CaseReport) -> String {
     out
 }
 
-/// Mutants that are to be looked at.
+/// Lists the mutants that deserve attention.
 fn mutants(run: &RunReport) -> String {
     let mut out = String::new();
     for (outcome, report) in run.mutants() {

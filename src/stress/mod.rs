@@ -1,9 +1,9 @@
-//! What makes the numbers hard: degenerate bodies, extreme ratios, states at the edge of charts,
-//! and claims that are wrong by almost nothing.
+//! Numerically hard cases: degenerate bodies, extreme ratios, states at the edge of charts, and
+//! claims that are wrong by almost nothing.
 //!
-//! Each [`Scenario`] sweeps one quantity x over powers of ten. At each x it is asked how many digits
-//! f64 loses against a reference of 256 bits at the same states, and whether the verdicts on all
-//! claims are still right: degenerate is not false, and nearly true is not true.
+//! Each [`Scenario`] sweeps one quantity x over powers of ten. At each x two things are measured:
+//! the digits that f64 loses against a reference of 256 bits at the same states, and whether the
+//! verdicts on all claims are still right. Degenerate is not false, and nearly true is not true.
 
 mod precision;
 mod scenarios;
@@ -14,19 +14,19 @@ pub use scenarios::{SCENARIOS, Scenario, Sweep};
 use crate::case::{Case, CaseError, Expect};
 use crate::verdict::{JudgeError, Options, Verdict, judge};
 
-/// Verdicts on the claims of stressed cases, against what is known of them.
+/// Counts of verdicts on stressed cases, against the known answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Tally {
-    /// Claims judged.
+    /// Number of claims judged.
     pub judged: usize,
-    /// Decided otherwise than is true: never, if the tool is right.
+    /// Number of wrong verdicts: always 0, if the tool is right.
     pub wrong: usize,
-    /// Proved, or refuted.
+    /// Number of claims proved or refuted.
     pub decided: usize,
 }
 
 impl Tally {
-    /// Both together.
+    /// Adds two tallies.
     pub fn and(self, other: Self) -> Self {
         Self {
             judged: self.judged + other.judged,
@@ -36,13 +36,13 @@ impl Tally {
     }
 }
 
-/// Why a stressed case could not be judged.
+/// Reason why a stressed case could not be judged.
 #[derive(Debug, thiserror::Error)]
 pub enum StressError {
-    /// Its parameters are refused.
+    /// The parameters are refused.
     #[error("{0}")]
     Case(Box<CaseError>),
-    /// Its states cannot be made.
+    /// The states cannot be made.
     #[error(transparent)]
     Judge(#[from] JudgeError),
 }
@@ -71,7 +71,7 @@ pub fn verdicts(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Tally, 
     Ok(tally)
 }
 
-/// Reads a case with parameters put in.
+/// Reads a case with the given settings.
 fn read(text: &str, settings: &[crate::case::Setting]) -> Result<Case, StressError> {
     Case::parse(text, settings).map_err(|error| StressError::Case(Box::new(error)))
 }

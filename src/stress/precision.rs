@@ -1,4 +1,4 @@
-//! How many digits f64 loses.
+//! Loss of digits in f64.
 
 use super::{Scenario, StressError, Sweep};
 use crate::claim::Place;
@@ -13,19 +13,19 @@ use crate::verdict::{JudgeError, Sampler};
 
 /// Bits of the reference: 77 digits.
 const BITS: u32 = 256;
-/// States that are compared.
+/// Number of states compared.
 const STATES: u64 = 8;
 
-/// Decimal digits lost at the worst state, of the 16 that f64 has.
+/// Decimal digits lost at the worst state, of the 16 of f64.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Loss {
-    /// Of the field: |Δv|/|v|.
+    /// Loss of the field: |Δv|/|v|.
     pub field: f64,
-    /// Of the residuals of all claims: |ΔR| over the residual's scale.
+    /// Loss of the residuals of all claims: |ΔR| over the residual's scale.
     pub residual: f64,
 }
 
-/// The digits that f64 loses at x = 10^exponent.
+/// Measures the digits that f64 loses at x = 10^exponent.
 pub fn digits_lost(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Loss, StressError> {
     let case = scenario.case(exponent, seed)?;
     let model = &case.model;
@@ -53,7 +53,7 @@ pub fn digits_lost(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Loss
     let mut loss = Loss { field: 0.0, residual: 0.0 };
     for index in 0..STATES {
         let Some(point) = point(scenario, exponent, &sampler, model, index) else { continue };
-        // Antiderivatives are free: any number will do, the same for both.
+        // Antiderivatives are free: any number serves, the same for both.
         let extra = graph.inputs() - point.len();
         let exact: Vec<Rational> =
             point.into_iter().chain((0..extra).map(|_| Rational::new(1, 3))).collect();
@@ -77,7 +77,7 @@ pub fn digits_lost(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Loss
     Ok(loss)
 }
 
-/// log₁₀ of a relative error in units of rounding, at least 0 and at most all digits.
+/// Returns log₁₀ of a relative error in units of rounding, at least 0 and at most all digits.
 fn lost(error: f64, size: f64) -> f64 {
     if error == 0.0 {
         return 0.0;
@@ -85,7 +85,7 @@ fn lost(error: f64, size: f64) -> f64 {
     (error / size / (f64::EPSILON / 2.0)).log10().clamp(0.0, 16.0)
 }
 
-/// Parameters and state of state `index`; `None` where they are no f64.
+/// Parameters and state of state `index`; `None` where they are not representable.
 fn point(
     scenario: &Scenario,
     exponent: i32,

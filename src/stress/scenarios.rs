@@ -1,4 +1,4 @@
-//! The sweeps, each over a case of the catalogue.
+//! Scenarios, each over a case of the catalogue.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -9,30 +9,29 @@ use crate::case::{Case, Setting};
 /// Parameters with their values, from x and random numbers in 0..1.
 type Setter = fn(&str, &mut dyn FnMut() -> f64) -> Vec<(&'static str, String)>;
 
-/// What x does.
+/// Part of a case that x enters.
 #[derive(Clone, Copy)]
 pub enum Sweep {
-    /// It enters the parameters.
+    /// x enters the parameters.
     Parameters(Setter),
-    /// It enters a formula, at the mark `{x}` of the text.
+    /// x enters a formula, at the mark `{x}` of the text.
     Formula,
-    /// It enters the chart's draws of the state: (u, v) by the first three factors at x, ω by the
-    /// fourth.
+    /// x enters the chart's draws of the state, by factors of u, v and ω.
     State(fn(f64) -> [f64; 3]),
 }
 
-/// A family of cases with one quantity x = 10^exponent that goes to an extreme.
+/// A family of cases with one quantity x = 10^exponent that tends to an extreme.
 #[derive(Clone, Copy)]
 pub struct Scenario {
-    /// What goes where.
+    /// Name of the scenario.
     pub name: &'static str,
-    /// The text of the case.
+    /// Text of the case.
     pub text: &'static str,
-    /// The first exponent.
+    /// First exponent.
     pub from: i32,
-    /// The last one.
+    /// Last exponent.
     pub to: i32,
-    /// What x does.
+    /// Part of the case that x enters.
     pub sweep: Sweep,
 }
 
@@ -82,7 +81,7 @@ integral = \"(ω,Ĩ*ω) + {x}*ω1²\"
 expect   = \"fails\"
 ";
 
-/// All sweeps.
+/// All scenarios.
 pub const SCENARIOS: [Scenario; 19] = [
     Scenario {
         name: "mass, unbalanced ball",
@@ -247,7 +246,7 @@ pub const SCENARIOS: [Scenario; 19] = [
 ];
 
 impl Scenario {
-    /// The case at x = 10^exponent; the other numbers come from `seed`.
+    /// Builds the case at x = 10^exponent; the other numbers come from `seed`.
     pub fn case(&self, exponent: i32, seed: u64) -> Result<Case, StressError> {
         let x = format!("1e{exponent}");
         match self.sweep {
@@ -265,7 +264,7 @@ impl Scenario {
         }
     }
 
-    /// Does x change the case, rather than its states?
+    /// Whether x changes the case, rather than its states.
     pub fn changes_case(&self) -> bool {
         !matches!(self.sweep, Sweep::State(_))
     }

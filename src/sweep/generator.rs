@@ -6,8 +6,8 @@
 //! ```
 //!
 //! m is the finalizer of SplitMix64 (Steele, Lea, Flood 2014) with the multipliers of Stafford's
-//! variant 13. It is no cipher, as the generator of verdicts is, but made of what vectors can do: a
-//! pair of numbers costs two multiplications.
+//! variant 13. It is not a cipher, unlike the generator of verdicts, but consists of vector
+//! operations: a pair of numbers costs two multiplications.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
@@ -16,13 +16,13 @@ use crate::graph::{Work, with_widest_vectors};
 use crate::mechanics::Draw;
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-/// 2⁻³²
+/// The factor 2⁻³².
 const UNIT: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// Makes the draws of states.
+/// Generator of the draws of states.
 #[derive(Clone, Debug)]
 pub(super) struct Generator {
-    /// For each pair of draws.
+    /// Keys, one for each pair of draws.
     keys: Vec<u64>,
     sources: Vec<Source>,
 }
@@ -34,7 +34,7 @@ enum Source {
 }
 
 impl Generator {
-    /// One number a draw.
+    /// Builds a generator with one number for each draw.
     pub(super) fn new(draws: &[Draw], seed: u64) -> Self {
         let source = |draw: &Draw| match draw {
             Draw::OneOf(values) => Source::List(values.iter().map(|x| x.to_f64().0).collect()),
@@ -51,12 +51,12 @@ impl Generator {
         }
     }
 
-    /// How many draws a state takes.
+    /// Number of draws of a state.
     pub(super) fn draws(&self) -> usize {
         self.sources.len()
     }
 
-    /// Puts the draws of the states from `start` on into rows, one a draw.
+    /// Fills rows, one for each draw, with the draws of the states from `start` on.
     pub(super) fn fill(&self, start: u64, rows: &mut [Row]) {
         with_widest_vectors(Fill { generator: self, start, rows });
     }
@@ -100,7 +100,7 @@ impl Work for Fill<'_> {
     }
 }
 
-/// A bijection of 64 bits in which every bit depends on all.
+/// Bijection of 64 bits in which every bit depends on all.
 #[inline(always)]
 fn mixed(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

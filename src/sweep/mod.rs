@@ -1,14 +1,14 @@
-//! Sweeps: the residual of a claim in f64 at as many states as one likes.
+//! Sweeps: the residual of a claim in f64 at any number of states.
 //!
 //! ```text
 //! seed, i ─ generator ─▶ draws ─ chart ─▶ state ─ residual/scale ─▶ the largest, and where
 //!                        └───────────── one tape, by the engine ─┘
 //! ```
 //!
-//! Draws, chart and residual are one tape: no state is ever stored, and memory does not grow with
-//! their number. The result is the same for any number of threads. It is no verdict: a number in f64
-//! has no bound. [`judge`](crate::verdict::judge) proves and refutes; a sweep looks where a formula
-//! that has no proof is off most, or maps a quantity over ranges of parameters.
+//! Draws, chart and residual are one tape: states are not stored, and memory does not grow with
+//! their number. The result is the same for any number of threads. It is not a verdict, since a
+//! number in f64 has no error bound. [`judge`](crate::verdict::judge) proves and refutes; a sweep
+//! finds where a formula without a proof is off most, or maps a quantity over ranges of parameters.
 //!
 //! ```
 //! use liouville::case::Case;
@@ -60,27 +60,28 @@ use crate::scalar::Scalar;
 use crate::verdict::{Named, Sampler, antiderivative_value, named};
 use generator::Generator;
 
-/// States a thread takes at a time: so many that giving them out costs nothing.
+/// Number of states that a thread takes at a time, enough that their distribution costs nothing.
 const PORTION: u64 = 1 << 14;
-/// States after which it is asked whether enough was seen; the same for any number of threads.
+/// Number of states between two tests of the stopping condition, the same for any number of
+/// threads.
 const WAVE: u64 = 1 << 20;
 
-/// Why there is no sweep.
+/// Reason why there is no sweep.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum SweepError {
     /// A formula asked a recorded value for its magnitude.
     #[error(transparent)]
     Fault(#[from] Fault),
-    /// States that Newton's method finds, one by one.
+    /// States come one by one from Newton's method.
     #[error("the level set has no parametrisation to make states from")]
     NoChart,
-    /// A claim that no number decides.
+    /// The claim has no residual.
     #[error("a claim of this kind has no residual")]
     NoResidual,
 }
 
 impl SweepError {
-    /// What to do about it.
+    /// Advice on how to avoid the error.
     pub fn help(&self) -> &'static str {
         match self {
             SweepError::Fault(_) => "write the formula with operations that hold for every number",
@@ -90,41 +91,41 @@ impl SweepError {
     }
 }
 
-/// A claim made ready to be computed at many states.
+/// A claim prepared for evaluation at many states.
 #[derive(Debug)]
 pub struct Sweep<'c> {
     case: &'c Case,
     generator: Generator,
     engine: Engine,
-    /// How many numbers vanish where the claim holds.
+    /// Number of components that vanish where the claim holds.
     components: usize,
-    /// From draws to parameters and state.
+    /// Tape from draws to parameters and state.
     point: Tape,
 }
 
-/// What a sweep saw.
+/// Result of a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extremes {
-    /// States that were looked at.
+    /// Number of states evaluated.
     pub states: u64,
-    /// Those of them at which the residual has a value.
+    /// Number of states at which the residual has a value.
     pub defined: u64,
-    /// Where it is largest; the first of several.
+    /// State of the largest residual; the first of several.
     pub peak: Option<Peak>,
 }
 
 /// A state and its residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// The number of the state under the sweep's seed.
+    /// Number of the state under the sweep's seed.
     pub index: u64,
-    /// |residual|/scale, the largest of all components; the scale is what the residual is small
-    /// against ([`crate::claim::Context::scale`]), 1 for kinds of claims that have none.
+    /// Largest |residual|/scale of all components. The scale is a reference size of the
+    /// residual ([`crate::claim::Context::scale`]), or 1 for kinds of claims without one.
     pub ratio: f64,
 }
 
 impl Extremes {
-    /// What two sweeps saw together, `self` being of earlier states.
+    /// Combines the results of two sweeps, `self` being of earlier states.
     fn and(self, later: Self) -> Self {
         let peak = match (self.peak, later.peak) {
             (Some(a), Some(b)) => Some(if b.ratio > a.ratio { b } else { a }),
@@ -135,12 +136,12 @@ impl Extremes {
 }
 
 impl<'c> Sweep<'c> {
-    /// Records a claim from the draws of its states on.
+    /// Records a claim, from the draws of its states on.
     pub fn new(case: &'c Case, claim: &Claim, seed: u64) -> Result<Self, SweepError> {
         Self::by(case, claim, seed, Means::Quickest)
     }
 
-    /// The same with an engine of one's choice: no number changes with it.
+    /// Records a claim for an engine of one's choice, which does not affect the numbers.
     pub fn by(case: &'c Case, claim: &Claim, seed: u64, means: Means) -> Result<Self, SweepError> {
         let sampler = Sampler::new(case, &claim.place, seed)?;
         if sampler.is_numerical() {
@@ -172,8 +173,8 @@ impl<'c> Sweep<'c> {
         })
     }
 
-    /// Looks at states until the residual is `enough` times its scale at one of them, which is
-    /// asked for after every 2²⁰ of them.
+    /// Evaluates states until the residual is `enough` times its scale at one of them, which is
+    /// tested after every 2²⁰ states.
     pub fn run(&self, states: Range<u64>, enough: f64) -> Extremes {
         let mut found = Extremes::default();
         let mut wave = states.start..states.start;
@@ -193,7 +194,7 @@ impl<'c> Sweep<'c> {
         found
     }
 
-    /// Parameters and state of state `index`, by name, as `eval` takes them.
+    /// Parameters and state of state `index`, by name, in the notation of `eval`.
     pub fn state(&self, index: u64) -> (Vec<Named>, Vec<Named>) {
         let mut draws = vec![Row([0.0; LANES]); self.point.inputs()];
         self.fix_antiderivatives(&mut draws);
@@ -204,7 +205,7 @@ impl<'c> Sweep<'c> {
         named(&self.case.model, &values.collect::<Vec<String>>())
     }
 
-    /// The engine, and what it is made of.
+    /// Engine that runs the sweep.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
@@ -215,14 +216,14 @@ impl<'c> Sweep<'c> {
         runner
     }
 
-    /// Their rows follow those of the draws.
+    /// Sets the antiderivatives, whose rows follow those of the draws.
     fn fix_antiderivatives(&self, inputs: &mut [Row]) {
         for (number, row) in inputs.iter_mut().skip(self.generator.draws()).enumerate() {
             row.0 = [antiderivative_value(number).to_f64().0; LANES];
         }
     }
 
-    /// What a few states show, one after the other.
+    /// Evaluates a few states, one row after the other.
     fn look(&self, runner: &mut Runner, states: Range<u64>) -> Extremes {
         let mut found = Extremes::default();
         for start in states.clone().step_by(LANES) {
@@ -239,7 +240,7 @@ impl<'c> Sweep<'c> {
     }
 }
 
-/// The larger of two, undefined where one of them is.
+/// Takes the larger of two values, or an undefined one.
 fn worse(ratios: &mut Row, others: &Row) {
     for (ratio, other) in ratios.0.iter_mut().zip(&others.0) {
         if *other > *ratio || other.is_nan() {
@@ -248,7 +249,7 @@ fn worse(ratios: &mut Row, others: &Row) {
     }
 }
 
-/// The largest of some numbers, in two passes without a branch on any of them.
+/// Largest of some numbers, in two passes without a branch on any of them.
 fn peak(ratios: &[f64], start: u64) -> Extremes {
     let (mut defined, mut most) = (0, f64::NEG_INFINITY);
     for ratio in ratios {

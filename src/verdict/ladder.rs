@@ -90,6 +90,7 @@ impl Bench<'_> {
                 undecide(finding, reason.to_string());
             }
         }
+        self.second_opinion(sampler, open)?;
         Ok(())
     }
 

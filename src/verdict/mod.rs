@@ -26,6 +26,7 @@ mod point;
 mod recorded;
 mod run;
 mod sampler;
+mod second_opinion;
 mod signs;
 mod state;
 mod wider;

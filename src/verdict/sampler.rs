@@ -345,6 +345,21 @@ impl Sampler {
         self.solution.as_deref()
     }
 
+    /// Returns parameters and state, as values of [`Self::graph`].
+    pub fn made(&self) -> &[Expr] {
+        &self.made
+    }
+
+    /// Returns the draws of a state in f64, and whether each is exact.
+    pub fn nearest_draws(&self, index: u64) -> Vec<(f64, bool)> {
+        self.draws.nearest(self.seed, index, 0)
+    }
+
+    /// Returns the draws of a state near the ends of ranges, in f64.
+    pub fn nearest_edge(&self, index: u64) -> Vec<(f64, bool)> {
+        self.draws.edge(self.seed, index).iter().map(Rational::to_f64).collect()
+    }
+
     /// Number of draws for the parameters.
     pub fn parameter_draws(&self) -> usize {
         self.parameter_draws

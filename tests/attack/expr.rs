@@ -84,8 +84,15 @@ pub fn div(a: &Tree, b: &Tree) -> Tree {
     Rc::new(Expr::Div(a.clone(), b.clone()))
 }
 
+/// Makes a power with the exponent in lowest terms, so that 2/2 is 1.
 pub fn power(a: &Tree, top: i64, bottom: i64) -> Tree {
-    Rc::new(Expr::Power(a.clone(), top, bottom))
+    let common = divisor(top.abs(), bottom).max(1);
+    Rc::new(Expr::Power(a.clone(), top / common, bottom / common))
+}
+
+/// Computes the greatest common divisor.
+fn divisor(a: i64, b: i64) -> i64 {
+    if b == 0 { a } else { divisor(b, a % b) }
 }
 
 pub fn square(a: &Tree) -> Tree {

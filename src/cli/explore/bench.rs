@@ -1,4 +1,4 @@
-//! `liouville bench`
+//! The command `liouville bench`.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -26,10 +26,10 @@ pub struct Bench {
     /// Seed of the states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// At how many states errors are measured (rounded up to blocks of 64)
+    /// Number of states at which errors are measured (rounded up to blocks of 64)
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=65536))]
     pub states: u64,
-    /// Over how many interleaved rounds the median of the times is taken
+    /// Number of interleaved rounds, of which the median time is taken
     #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub rounds: u32,
 }
@@ -74,7 +74,7 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
 
 type Named = (String, Result<Item, Vec<Failure>>);
 
-/// The work items, or the cases under the paths.
+/// Collects the work items, or the cases under the paths.
 fn items(options: &Bench) -> Result<Vec<Named>, String> {
     if options.paths.is_empty() {
         let items = work_items().map_err(|error| format!("error: {error}"))?;

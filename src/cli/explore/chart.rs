@@ -1,4 +1,4 @@
-//! `liouville chart`
+//! The command `liouville chart`.
 
 use clap::Args;
 use liouville::case::Case;
@@ -17,25 +17,25 @@ use super::{Answer, write};
 pub struct Chart {
     #[command(flatten)]
     pub subject: Subject,
-    /// What varies to the right: NAME=a..b, where NAME is a parameter (a_g), a component of one
-    /// (c3, I12), or of the start on the section: l, L/G, energy
+    /// Horizontal axis NAME=a..b, where NAME is a parameter (a_g), a component of one (c3, I12), or
+    /// of the start on the section: l, L/G, energy
     #[arg(long, value_name = "NAME=A..B", allow_hyphen_values = true)]
     pub x: String,
-    /// What varies upwards
+    /// Vertical axis, in the same form
     #[arg(long, value_name = "NAME=A..B", allow_hyphen_values = true)]
     pub y: String,
-    /// How many motions across and upwards
+    /// Number of motions across and upwards
     #[arg(long, value_name = "NXxNY", default_value = "64x40", value_parser = parse_size)]
     pub size: [usize; 2],
-    /// How long to follow each motion; negative: backwards. An exponent below (ln t)/t is not seen
+    /// Time to follow each motion; negative: backwards. An exponent below (ln t)/t is not detected
     #[arg(long, default_value = "200", allow_hyphen_values = true)]
     pub time: f64,
     #[command(flatten)]
     pub plane: Plane,
-    /// The start l,L/G on the section; by default the first one of the case
+    /// Start l,L/G on the section; by default the first one of the case
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
     pub start: Option<[f64; 2]>,
-    /// A start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
+    /// Start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
     pub state: Option<String>,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub struct Chart {
     pub threads: Threads,
 }
 
-/// The most motions along an axis.
+/// Limit on the motions along an axis.
 const MAX_SIZE: usize = 4000;
 
 fn parse_size(text: &str) -> Result<[usize; 2], String> {
@@ -95,7 +95,7 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
         true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
         false => report.text(),
     };
-    // Nothing at all to see is a failure; single motions may fail.
+    // A picture without any motion is a failure; single motions may fail.
     match cells.iter().find_map(|found| found.as_ref().err()) {
         Some(problem) if cells.iter().all(Result::is_err) => Err(subject.told(problem)),
         _ => Ok(Answer { text, code: 0 }),
@@ -133,7 +133,7 @@ fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, 
     Ok((name, Axis { coordinate, from, to, count }))
 }
 
-/// What a name means: a parameter, a component of one, or a coordinate of the start.
+/// Coordinate of a name: a parameter, a component of one, or a coordinate of the start.
 fn coordinate(case: &Case, name: &str) -> Option<Coordinate> {
     let find = |name: &str| case.model.parameters.iter().position(|known| known.name == name);
     if let Some(index) = find(name)
@@ -162,7 +162,7 @@ fn coordinate(case: &Case, name: &str) -> Option<Coordinate> {
     Some(Coordinate::Parameter { index, component })
 }
 
-/// What the axes of a case can be.
+/// Help that lists the possible axes of a case.
 fn known(case: &Case) -> String {
     let names = case.model.parameters.iter().map(|parameter| match parameter.kind {
         Type::Scalar => parameter.name.clone(),
@@ -172,7 +172,7 @@ fn known(case: &Case) -> String {
     format!("vary {}, or l, L/G, energy of the start on a section", names.join(", "))
 }
 
-/// Where the motions start: on the section, if the case or the command line says which.
+/// Launch of the motions: on the section, if the case or the command line defines one.
 fn launch(case: &Case, options: &Chart, axes: &[Axis; 2]) -> Result<Launch, String> {
     let is_start = |axis: &Axis| !matches!(axis.coordinate, Coordinate::Parameter { .. });
     let plan = case.section.as_ref();

@@ -1,4 +1,4 @@
-//! `liouville exponents`
+//! The command `liouville exponents`.
 
 use clap::Args;
 use liouville::case::Case;
@@ -16,17 +16,17 @@ pub struct Exponents {
     pub subject: Subject,
     #[command(flatten)]
     pub plane: Plane,
-    /// How long to follow each motion; negative: backwards. Transients last long: a short time
-    /// shows chaos where there is none
+    /// Time to follow each motion; negative: backwards. Transients last long: after a short time a
+    /// regular motion may look chaotic
     #[arg(long, default_value = "2000", allow_hyphen_values = true)]
     pub time: f64,
-    /// A start l,L/G on the section of the case; may be repeated. By default those of the case
+    /// Start l,L/G on the section of the case; may be repeated. By default those of the case
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
     pub start: Vec<[f64; 2]>,
-    /// A start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
+    /// Start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
     pub state: Option<String>,
-    /// Follow the motion in one direction of time alone: half the work, and a class that knows less
+    /// Follow the motion in one direction of time only: half the work, and a coarser class
     #[arg(long)]
     pub one_way: bool,
     #[command(flatten)]
@@ -52,7 +52,7 @@ pub fn run(options: &Exponents) -> Result<Answer, String> {
     let forward = follow(options.time);
     let backward = (!options.one_way).then(|| follow(-options.time));
     bar.finish_and_clear();
-    // One motion that fails is a failure; of several, the others are told.
+    // A single motion that fails is a failure; of several, the others are reported.
     if let [Err(problem)] = &forward[..] {
         return Err(subject.told(problem));
     }
@@ -66,7 +66,7 @@ pub fn run(options: &Exponents) -> Result<Answer, String> {
     Ok(Answer { text, code: 0 })
 }
 
-/// The motions that are asked for, and their names.
+/// Names and starts of the motions requested.
 type Starts = (Vec<String>, Vec<Result<Start, FlowError>>);
 
 fn starts(case: &Case, options: &Exponents) -> Result<Starts, String> {

@@ -1,4 +1,4 @@
-//! Commands beyond judging what is claimed: what else a body has, how it moves, and what that costs.
+//! Commands beyond the claims of a case: its further invariants, its motions, and benchmarks.
 
 mod bench;
 mod chart;
@@ -20,11 +20,11 @@ use super::{Answer, Sampling, colour, eval, files, width};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Tell which invariants a body has: everything known is tried, and what is found is proved
+    /// List a system's invariants, each with a proof
     Report(report::Report),
-    /// Look for integrals and densities that nobody typed: count them, find them, prove them
+    /// Search for integrals and densities, and prove the results
     Search(search::Search),
-    /// Follow one motion: the state at the end, and how far integrals drift
+    /// Follow a motion: its final state, and the drift of integrals
     Orbit(orbit::Orbit),
     /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
     Section(section::Section),
@@ -34,9 +34,9 @@ pub enum Command {
     Chart(chart::Chart),
     /// Find fixed and periodic points of a section, with their multipliers
     Periodic(periodic::Periodic),
-    /// Sweep what makes the numbers hard: digits lost, and verdicts that must stay right
+    /// Sweep numerically hard cases: digits lost, and verdicts that must stay right
     Stress(stress::Stress),
-    /// Measure the ways to form derivatives: run time against error
+    /// Compare methods of differentiation: run time against error
     Bench(bench::Bench),
 }
 
@@ -56,7 +56,7 @@ impl Command {
     }
 }
 
-/// Writes a file that the user asked for by an option.
+/// Writes a file requested by an option.
 fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
     std::fs::write(path, bytes).map_err(|error| {
         format!(

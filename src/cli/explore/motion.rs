@@ -1,4 +1,4 @@
-//! What the commands about motions share: the case, the section, threads, pictures, complaints.
+//! Options shared by the commands about motions: case, section, threads, pictures, errors.
 
 use std::path::{Path, PathBuf};
 
@@ -11,15 +11,15 @@ use liouville::report::picture::Paper;
 use super::eval::open;
 use super::files::plain;
 
-/// Whose motion, and how it is told.
+/// Case whose motion is followed, and format of the output.
 #[derive(Debug, Args)]
 pub struct Subject {
-    /// A case file
+    /// Case file
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
-    /// Seed of what is drawn
+    /// Seed of the random draws
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Print JSON
@@ -32,25 +32,25 @@ impl Subject {
         open(&self.case, &self.settings)
     }
 
-    /// A problem of a motion, with the file it belongs to.
+    /// Message about a failed motion, with its file.
     pub fn told(&self, error: &FlowError) -> String {
         plain(&self.case, &error.to_string(), error.help()).rendered
     }
 }
 
-/// Which section: the case's [section], unless something else is said.
+/// Poincaré section: that of the case, unless options override it.
 #[derive(Debug, Args)]
 pub struct Plane {
-    /// The energy; by default that of the case's [section]
+    /// Energy; by default that of the case's [section]
     #[arg(long)]
     pub energy: Option<Rational>,
-    /// The angle of the section: 0, pi/2, pi, 3pi/2, or radians; by default that of the case
+    /// Angle of the section: 0, pi/2, pi, 3pi/2, or radians; by default that of the case
     #[arg(long)]
     pub g0: Option<Angle>,
 }
 
 impl Plane {
-    /// The angle and the energy.
+    /// Angle and energy of the section.
     pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
         let plan = case.section.as_ref();
         let missing = |what: &str, key: &str| {
@@ -68,10 +68,10 @@ impl Plane {
     }
 }
 
-/// How many threads.
+/// Number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
-    /// How many threads to use; all cores by default. Results do not depend on it
+    /// Number of threads; all cores by default. Results do not depend on it
     #[arg(long)]
     pub threads: Option<usize>,
 }
@@ -83,14 +83,14 @@ impl Threads {
     }
 }
 
-/// A point of a section as it is typed.
+/// Reads a point of a section.
 pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
     pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
 }
 
-/// A number as it is typed, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
+/// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
 pub fn number_with_pi(text: &str) -> Option<Rational> {
     let plain: String = text.split_whitespace().collect();
     let plain = plain.replace("pi", "π").replace('*', "");
@@ -109,22 +109,22 @@ pub fn number_with_pi(text: &str) -> Option<Rational> {
     Some(&(&pi * &factor) * &divisor.recip()?)
 }
 
-/// Where a picture goes, and how it looks.
+/// File and style of a picture.
 #[derive(Debug, Args)]
 pub struct Ink {
     /// Draw to this file, .svg or .png
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// The width of the picture in pixels
+    /// Width of the picture in pixels
     #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
     pub width: u32,
-    /// Draw a PNG on dark paper; an SVG is light or dark as its reader's setting is
+    /// Draw a PNG on dark paper; an SVG is light or dark by its reader's setting
     #[arg(long)]
     dark: bool,
 }
 
 impl Ink {
-    /// The file, and what its ending asks for; known before anything long is computed.
+    /// Returns the file with its format, so that errors are found before any long computation.
     pub fn out(&self) -> Result<Option<(&Path, Drawing)>, String> {
         self.out.as_deref().map(|path| Ok((path, drawing(path)?))).transpose()
     }
@@ -134,7 +134,7 @@ impl Ink {
     }
 }
 
-/// How a picture is written: the ending of its file says it.
+/// Format of a picture, chosen by the ending of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawing {
     Svg,

@@ -1,4 +1,4 @@
-//! `liouville orbit`
+//! The command `liouville orbit`.
 
 use clap::{Args, ValueEnum};
 use liouville::flow::{self, FlowError, Precision, Start};
@@ -14,27 +14,27 @@ use super::motion::Subject;
 pub struct Orbit {
     #[command(flatten)]
     pub subject: Subject,
-    /// How long to follow the motion; negative: backwards
+    /// Time to follow the motion; negative: backwards
     #[arg(long, default_value = "100", allow_hyphen_values = true)]
     pub time: Rational,
-    /// The start, by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]', moved to the level
-    /// set if it is beside it; drawn by default
+    /// Start by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]', moved to the level set if
+    /// it is off it; drawn by default
     #[arg(long, value_name = "STATE")]
     pub state: Option<String>,
-    /// The arithmetic: 16 or 32 digits
+    /// Arithmetic: 16 or 32 digits
     #[arg(long, value_enum, default_value_t = Digits::Float)]
     pub precision: Digits,
-    /// The number of the state that is drawn
+    /// Number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
 }
 
-/// The arithmetic of a motion.
+/// Arithmetic of a motion.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Digits {
     /// f64 with compensated sums
     Float,
-    /// Some 32 digits, fifty times slower
+    /// About 32 digits, fifty times slower
     DoubleDouble,
 }
 

@@ -1,4 +1,4 @@
-//! `liouville periodic`
+//! The command `liouville periodic`.
 
 use clap::Args;
 use liouville::flow::{FlowError, Multipliers, PeriodicPoint, SectionMap};
@@ -13,11 +13,11 @@ pub struct Periodic {
     pub subject: Subject,
     #[command(flatten)]
     pub plane: Plane,
-    /// A point l,L/G near the one that is looked for; may be repeated
+    /// Point l,L/G near the periodic point; may be repeated
     #[arg(long, value_name = "L,Z", value_parser = parse_start,
           allow_hyphen_values = true, required = true)]
     pub start: Vec<[f64; 2]>,
-    /// After how many crossings it comes back
+    /// Period of the point, in crossings
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub period: u32,
 }

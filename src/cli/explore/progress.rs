@@ -1,11 +1,11 @@
-//! How far a long run is: on a terminal, and nowhere else.
+//! Progress of a long run, displayed on a terminal only.
 
 use std::io::IsTerminal;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar for work of a known length.
+/// Bar for work of a known length.
 pub fn progress(count: u64, what: &str) -> ProgressBar {
     let target = match std::io::stderr().is_terminal() {
         true => ProgressDrawTarget::stderr(),
@@ -20,7 +20,7 @@ pub fn progress(count: u64, what: &str) -> ProgressBar {
     bar
 }
 
-/// Does `work`, which tells what it is at.
+/// Runs `work`, which reports its current task, with a spinner.
 pub fn telling<T>(work: impl FnOnce(&mut dyn FnMut(&str)) -> T) -> T {
     let spinner = match std::io::stderr().is_terminal() {
         true => ProgressBar::new_spinner(),

@@ -1,4 +1,4 @@
-//! `liouville report`
+//! The command `liouville report`.
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -16,12 +16,12 @@ use super::{Answer, Sampling, colour, width};
 
 #[derive(Debug, Args)]
 pub struct Report {
-    /// A case file; it needs no claims
+    /// Case file; claims are not needed
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
-    /// How to write it; for a terminal, unless --out says otherwise
+    /// Output format; text for a terminal, unless --out implies another
     #[arg(long, value_enum)]
     pub format: Option<ReportFormat>,
     /// Print JSON
@@ -37,14 +37,14 @@ pub struct Report {
     pub sampling: Sampling,
 }
 
-/// How a report is written.
+/// Format of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ReportFormat {
-    /// For a terminal
+    /// Text for a terminal
     Text,
     /// Markdown, with formulas as LaTeX between dollars
     Markdown,
-    /// LaTeX: a document of its own
+    /// LaTeX, as a complete document
     Latex,
     /// One self-contained page
     Html,
@@ -71,13 +71,13 @@ pub fn run(options: &Report) -> Result<Answer, String> {
     }
 }
 
-/// What is written.
+/// Form of the output.
 enum Form {
     Json,
     Readable(ReportFormat),
 }
 
-/// The format that is asked for, or that the name of the file says.
+/// Form requested, or implied by the name of the file.
 fn form(options: &Report) -> Form {
     let extension = options.out.as_deref().and_then(|path| path.extension()?.to_str());
     match (options.json, options.format, extension) {

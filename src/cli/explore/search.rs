@@ -1,4 +1,4 @@
-//! `liouville search`
+//! The command `liouville search`.
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -15,15 +15,15 @@ use super::eval::open;
 use super::progress::telling;
 use super::{Answer, colour};
 
-/// The exit code of a search that was stopped.
+/// Exit code of a search that was stopped.
 const STOPPED: u8 = 3;
 
-/// The exit code of a program that Ctrl-C ends.
+/// Exit code of a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
 #[derive(Debug, Args)]
 pub struct Search {
-    /// A case file; it needs no claims
+    /// Case file; claims are not needed
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -31,18 +31,18 @@ pub struct Search {
     /// Count integrals polynomial in the velocities up to this degree
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10))]
     pub degree: u32,
-    /// Do not compare finds with what the case claims
+    /// Skip the comparison of results with the claims of the case
     #[arg(long)]
     pub blind: bool,
-    /// A further term that integrals may contain; may be given several times
+    /// Further term that integrals may contain; may be given several times
     #[arg(long = "term", value_name = "FORMULA")]
     pub terms: Vec<String>,
-    /// Find the parameters for which a density or more integrals exist, or a claim holds that fails
-    /// in general: --conditions, --conditions=NAME
+    /// Find the parameters for which a density or more integrals exist, or for which a claim holds
+    /// that fails in general: --conditions, --conditions=NAME
     #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub conditions: Option<String>,
-    /// Look for integrals that are polynomials of at most this degree in the positions, over denominators
-    /// of the geometry, where the counts leave some: --ansatz, --ansatz=12
+    /// Search for integrals that are polynomials of at most this degree in the positions, over
+    /// denominators of the geometry, where the counts leave some: --ansatz, --ansatz=12
     #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
         value_parser = clap::value_parser!(u32).range(0..=40))]
     pub ansatz: Option<u32>,
@@ -52,17 +52,17 @@ pub struct Search {
     /// Find the rotors under which the known integrals survive
     #[arg(long)]
     pub gyrostats: bool,
-    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian, or for
-    /// one that is given: --poisson, --poisson=H
+    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian,
+    /// or for a given one: --poisson, --poisson=H
     #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub poisson: Option<String>,
-    /// Leave out an ansatz whose matrix takes more memory than this
+    /// Skip an ansatz whose matrix needs more memory than this, in megabytes
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,
-    /// Leave out a count or an ansatz that may take longer than this
+    /// Skip a count or an ansatz that may take longer than this, in seconds
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,
-    /// Stop after this many seconds, and tell what was reached; so does Ctrl-C. The exit code is then 3
+    /// Stop after SECONDS and report partial results (also on Ctrl-C). The exit code is then 3
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     pub within: Option<Duration>,
     /// Seed of primes, points and states
@@ -110,7 +110,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         let search::Plan { unknowns, seconds, megabytes } = plan;
         eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
     }
-    // A second Ctrl-C ends the program.
+    // A second Ctrl-C exits immediately.
     let switch = effort.halt.switch();
     flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
         .and_then(|_| flag::register(SIGINT, switch))

@@ -1,4 +1,4 @@
-//! `liouville section`
+//! The command `liouville section`.
 
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
@@ -10,10 +10,10 @@ use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_start};
 use super::progress::progress;
 use super::{Answer, write};
 
-/// Orbits and crossings where neither the case nor the command line says how many.
+/// Default numbers of orbits and of crossings.
 const ORBITS: usize = 40;
 const CROSSINGS: usize = 500;
-/// Points of a line whose images are drawn, and how many images.
+/// Number of points of a line whose images are drawn, and default number of images.
 const POINTS: usize = 800;
 const IMAGES: usize = 10;
 
@@ -23,19 +23,19 @@ pub struct Section {
     pub subject: Subject,
     #[command(flatten)]
     pub plane: Plane,
-    /// How many orbits to start, spread over the sphere
+    /// Number of orbits to start, spread over the sphere
     #[arg(long)]
     pub orbits: Option<usize>,
-    /// How many crossings of each orbit to draw
+    /// Number of crossings of each orbit to draw
     #[arg(long)]
     pub crossings: Option<usize>,
-    /// How many crossings to leave out at the beginning of each orbit
+    /// Number of crossings to leave out at the beginning of each orbit
     #[arg(long)]
     pub skip: Option<usize>,
-    /// A start l,L/G in place of those of the case; may be repeated
+    /// Start l,L/G in place of those of the case; may be repeated
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
     pub start: Vec<[f64; 2]>,
-    /// Which crossings to draw: up (g grows), down, both
+    /// Crossings to draw: up (g grows), down, both
     #[arg(long)]
     pub direction: Option<Direction>,
     /// Follow the motion backwards in time
@@ -44,17 +44,18 @@ pub struct Section {
     /// Colour the orbits by the value of this claim's formula, instead of one by one
     #[arg(long, value_name = "CLAIM")]
     pub colour: Option<String>,
-    /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and 3π/2)
+    /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and
+    /// 3π/2)
     #[arg(long, value_delimiter = ',')]
     pub lines: Vec<Line>,
-    /// How many images of the lines, forwards and backwards
+    /// Number of images of the lines, forwards and backwards
     #[arg(long)]
     pub images: Option<usize>,
     /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
     /// may be repeated
     #[arg(long, value_name = "L,Z[,N]", value_parser = parse_point, allow_hyphen_values = true)]
     pub separatrices: Vec<([f64; 2], usize)>,
-    /// Tell the class of each orbit, from its exponents over this time and back: --classes, --classes=5000
+    /// Classify each orbit by its exponents over this time and back: --classes, --classes=5000
     #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000")]
     pub classes: Option<f64>,
     #[command(flatten)]
@@ -63,7 +64,7 @@ pub struct Section {
     pub threads: Threads,
 }
 
-/// A point of a section, and its period.
+/// Reads a point of a section with its period.
 fn parse_point(text: &str) -> Result<([f64; 2], usize), String> {
     match text.match_indices(',').nth(1) {
         None => Ok((parse_start(text)?, 1)),
@@ -122,9 +123,9 @@ pub fn run(options: &Section) -> Result<Answer, String> {
         true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
         false => report.text(),
     };
-    // Nothing at all to draw is a failure; single orbits may fail.
+    // A picture without any crossing is a failure; single orbits may fail.
     let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
-    // Of many potentials above the energy the lowest tells how much is missing.
+    // Of several starts below the potential, the lowest potential shows how much energy is missing.
     let missing = |problem: &&FlowError| match problem {
         FlowError::BelowPotential { potential, .. } => *potential,
         _ => f64::NEG_INFINITY,
@@ -136,7 +137,7 @@ pub fn run(options: &Section) -> Result<Answer, String> {
     }
 }
 
-/// The orbits with their exponents, followed in both directions of time.
+/// Classifies the orbits by their exponents, followed in both directions of time.
 fn classes(
     case: &Case,
     request: &SectionRequest,
@@ -157,7 +158,7 @@ fn classes(
     Ok(exponents::rows(names, forward, Some(backward)))
 }
 
-/// The images of the lines that are asked for, forwards and backwards.
+/// Computes the images of the requested lines, forwards and backwards.
 fn images(
     case: &Case,
     request: &SectionRequest,
@@ -184,7 +185,7 @@ fn images(
     lines.iter().map(image).collect()
 }
 
-/// What the command line asks for, and the case where it does not say.
+/// Request of the command line, completed from the case.
 fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
     let plan = case.section.as_ref();
     let (g0, energy) = options.plane.of(case)?;

@@ -1,4 +1,4 @@
-//! `liouville stress`
+//! The command `liouville stress`.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -12,13 +12,13 @@ use super::Answer;
 
 #[derive(Debug, Args)]
 pub struct Stress {
-    /// How many random bodies are judged at each power of ten
+    /// Number of random bodies judged at each power of ten
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub bodies: u64,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// How many threads to use; all cores by default
+    /// Number of threads; all cores by default
     #[arg(long)]
     pub threads: Option<usize>,
     /// Print JSON
@@ -51,7 +51,8 @@ pub fn run(options: &Stress) -> Result<Answer, String> {
     Ok(Answer { text, code: u8::from(verdicts.wrong > 0 || problems) })
 }
 
-/// One sweep: the digits lost at each power of ten, and verdicts for as many bodies as asked for.
+/// Runs one sweep: the digits lost at each power of ten, and verdicts for the requested number of
+/// bodies.
 fn sweep(scenario: &Scenario, options: &Stress) -> SweepReport {
     let exponents: Vec<i32> = (scenario.from..=scenario.to).collect();
     let points: Vec<(Point, Option<StressError>)> = exponents

@@ -1,15 +1,15 @@
-//! Registers for a program, by one scan over its steps.
+//! Register allocation for a program, by one scan over its steps.
 //!
-//! Inputs and constants stay in memory: one operand of an instruction may be there, which costs
-//! nothing as long as there are two loads for two instructions. A result is given a register; where
-//! none is free, the one whose next use is furthest goes to the frame, and is read from there.
+//! Inputs and constants stay in memory: one operand of an instruction may be there, at no cost as
+//! long as there are two loads for two instructions. A result is given a register; where none is
+//! free, the one whose next use is furthest goes to the frame, and is read from there.
 
 use super::super::program::{Program, Step, Sum, Value};
 use super::encode::{Area, Assembler, Assembly, Order, Pair, Place, Register, Signs, Width};
 use crate::number::{Function, Operation};
 
-/// The instructions of a program, and the constants its frame begins with; `None` where it has a
-/// function that is no instruction.
+/// Assembles a program; also returns the constants at the beginning of its frame. `None` where the
+/// program has a function that is not an instruction.
 pub(super) fn assemble(program: &Program, width: Width) -> Option<(Assembly, Vec<f64>)> {
     let mut scan = Scan::new(program, width);
     for (index, step) in program.steps.iter().enumerate() {
@@ -25,25 +25,25 @@ pub(super) fn assemble(program: &Program, width: Width) -> Option<(Assembly, Vec
     Some((scan.assembler.finish(), scan.constants))
 }
 
-/// Where the scan stands.
+/// State of the scan.
 struct Scan<'p> {
     program: &'p Program,
     assembler: Assembler,
     constants: Vec<f64>,
-    /// The steps that read each result.
+    /// Steps that read each result.
     reads: Vec<Vec<u32>>,
-    /// The outputs that each result is.
+    /// Outputs equal to each result.
     outputs: Vec<Vec<u32>>,
-    /// Where each result is, once it was made.
+    /// Place of each result made so far.
     places: Vec<Place>,
-    /// The result in each register.
+    /// Result in each register.
     held: Vec<Option<u32>>,
-    /// The next free vector of the frame.
+    /// Next free vector of the frame.
     spills: u32,
     free_spills: Vec<u32>,
 }
 
-/// Constants that the instructions need beside those of the program.
+/// Constants that the instructions need in addition to those of the program.
 const ONE: f64 = 1.0;
 const SIGN_BIT: f64 = -0.0;
 const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
@@ -97,7 +97,7 @@ impl<'p> Scan<'p> {
             },
             Step::Fused(sum, arguments) => self.fused(index, sum, arguments),
         };
-        // Not before the instruction: it may read what another value is spilled over.
+        // Not before the instruction: it may read a slot that would otherwise be reused.
         self.release_spills(index, step);
         self.places[index] = Place::Register(target);
         for output in &self.outputs[index] {
@@ -107,7 +107,7 @@ impl<'p> Scan<'p> {
         Some(())
     }
 
-    /// `a op b` in a register.
+    /// Emits `a op b` into a register.
     fn pair(&mut self, index: usize, pair: Pair, a: Value, b: Value) -> Register {
         let (mut x, mut y) = (self.place(a), self.place(b));
         let commutes = !matches!(pair, Pair::Sub | Pair::Div);
@@ -127,7 +127,7 @@ impl<'p> Scan<'p> {
         target
     }
 
-    /// `a b ± c` in a register, one of whose sources it replaces.
+    /// Emits `a b ± c` into a register, replacing one of its sources.
     fn fused(&mut self, index: usize, sum: Sum, arguments: [Value; 3]) -> Register {
         let signs = match sum {
             Sum::Plus => Signs::Add,
@@ -136,7 +136,7 @@ impl<'p> Scan<'p> {
         };
         let places = arguments.map(|argument| self.place(argument));
         let in_memory = |k: &usize| matches!(places[*k], Place::Memory(..));
-        // The source that the result replaces: one that nobody reads again; else one that must be
+        // The source that the result replaces: one that is not read again; else one that must be
         // brought to a register anyway; else a copy of the third.
         let dying = (0..3).find(|k| !in_memory(k) && self.is_last_read(arguments[*k], index));
         let replaced = dying.or_else(|| (0..3).find(in_memory)).unwrap_or(2);
@@ -185,7 +185,7 @@ impl<'p> Scan<'p> {
         }
     }
 
-    /// Gives back the registers of values that are read for the last time.
+    /// Frees the registers of values that are read for the last time.
     fn release(&mut self, index: usize, arguments: &[Value]) {
         for argument in arguments {
             if self.is_last_read(*argument, index)
@@ -196,7 +196,7 @@ impl<'p> Scan<'p> {
         }
     }
 
-    /// Gives back the vectors of the frame whose values were read for the last time.
+    /// Frees the vectors of the frame whose values were read for the last time.
     fn release_spills(&mut self, index: usize, step: &Step) {
         for argument in step.arguments() {
             if self.is_last_read(argument, index)
@@ -208,7 +208,7 @@ impl<'p> Scan<'p> {
         }
     }
 
-    /// A register for a result, none of those in `taken`.
+    /// Allots a register for a result, none of those in `taken`.
     fn take(&mut self, index: usize, taken: &[Place]) -> Register {
         let may_be = |register: &usize| !taken.contains(&Place::Register(*register as Register));
         let registers = || (0..self.held.len()).filter(may_be);

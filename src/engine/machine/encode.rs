@@ -1,10 +1,10 @@
-//! The few x86-64 instructions that a program needs, as bytes.
+//! Encoding of the few x86-64 instructions that a program needs.
 //!
-//! AVX-512 has its own prefix (EVEX, Intel SDM vol. 2A, 2.7), with 32 registers of 8 lanes; AVX2 the
-//! older one (VEX, 2.3), with 16 of 4. Opcodes are the same. The tests read everything back with a
-//! disassembler.
+//! AVX-512 has a different prefix (EVEX, Intel SDM vol. 2A, 2.7), with 32 registers of 8 lanes;
+//! AVX2 has the older one (VEX, 2.3), with 16 of 4. Opcodes are the same. The tests read everything
+//! back with a disassembler.
 
-/// Vectors of one instruction set.
+/// Vector width of an instruction set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Width {
     /// AVX2 and FMA: 4 lanes.
@@ -33,11 +33,11 @@ impl Width {
     }
 }
 
-/// A vector register.
+/// Number of a vector register.
 pub(super) type Register = u8;
 
-/// An area of memory, by the register that points to it. Rows are rows of lanes of which one vector
-/// after the other is taken; the frame holds the same vectors in every turn.
+/// Area of memory, with a register that points to it. Inputs and outputs are rows of lanes,
+/// traversed vector by vector; the frame holds the same vectors in every turn of the loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Area {
     Inputs,
@@ -45,7 +45,7 @@ pub(super) enum Area {
     Frame,
 }
 
-/// Where a vector is.
+/// Location of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Register(Register),
@@ -76,8 +76,8 @@ impl Pair {
     }
 }
 
-/// Which of the three sources the result replaces, by the order in which they are multiplied and
-/// added (the first is the target, the third may be in memory).
+/// Operand order of a fused sum, by the source that the result replaces (the first is the target,
+/// the third may be in memory).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     /// target · third ± second
@@ -103,15 +103,15 @@ pub(super) enum Signs {
 const LOAD: u8 = 0x10;
 const STORE: u8 = 0x11;
 const SQUARE_ROOT: u8 = 0x51;
-/// Maps of opcodes.
+/// Opcode maps.
 const MAP_0F: u8 = 1;
 const MAP_0F38: u8 = 2;
-/// The prefix 66 in compressed form: packed doubles.
+/// Prefix 66 in compressed form: packed doubles.
 const PACKED_DOUBLE: u8 = 1;
 /// Bytes between the same lanes of two rows.
 const ROW_BYTES: i32 = 8 * super::super::LANES as i32;
 
-/// Bytes of a loop under construction, and how much memory they touch.
+/// Encoder of a loop under construction, with the extent of the memory it touches.
 #[derive(Debug)]
 pub(super) struct Assembler {
     width: Width,
@@ -119,19 +119,19 @@ pub(super) struct Assembler {
     extent: Extent,
 }
 
-/// How much memory of each area is touched.
+/// Extent of the memory touched in each area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Extent {
-    /// Rows of inputs.
+    /// Number of rows of inputs.
     pub(super) inputs: usize,
-    /// Rows of outputs.
+    /// Number of rows of outputs.
     pub(super) outputs: usize,
-    /// Vectors of the frame.
+    /// Number of vectors of the frame.
     pub(super) frame: usize,
 }
 
-/// A function of the areas and the number of turns, `extern "sysv64"`, whose only effect is to read
-/// and write what its extent says.
+/// Code of a function of the areas and the number of turns, `extern "sysv64"`, whose only effect is
+/// to read and write within its extent.
 #[derive(Debug)]
 pub(super) struct Assembly {
     pub(super) bytes: Vec<u8>,
@@ -144,27 +144,27 @@ impl Assembler {
         Self { width, bytes: Vec::new(), extent: Extent::default() }
     }
 
-    /// `target = source`
+    /// Loads a register: `target = source`.
     pub(super) fn load(&mut self, target: Register, source: Place) {
         self.vector(MAP_0F, LOAD, target, 0, source);
     }
 
-    /// `target = source`, to memory.
+    /// Stores a register to memory.
     pub(super) fn store(&mut self, area: Area, index: u32, source: Register) {
         self.vector(MAP_0F, STORE, source, 0, Place::Memory(area, index));
     }
 
-    /// `target = x op y`
+    /// Emits `target = x op y`.
     pub(super) fn pair(&mut self, pair: Pair, target: Register, x: Register, y: Place) {
         self.vector(MAP_0F, pair.opcode(), target, x, y);
     }
 
-    /// `target = √x`
+    /// Emits `target = √x`.
     pub(super) fn square_root(&mut self, target: Register, x: Place) {
         self.vector(MAP_0F, SQUARE_ROOT, target, 0, x);
     }
 
-    /// A fused sum of target, second and third.
+    /// Emits a fused sum of target, second and third.
     pub(super) fn fused(
         &mut self,
         order: Order,
@@ -186,7 +186,7 @@ impl Assembler {
         self.vector(MAP_0F38, order + signs, target, second, third);
     }
 
-    /// Closes the loop: one vector further in every row, as often as was asked for.
+    /// Closes the loop: advances by one vector in every row, and repeats for the number of turns.
     pub(super) fn finish(mut self) -> Assembly {
         let step = self.width.bytes() as u8;
         // add rdi, step; add rdx, step; dec rcx; jnz to the beginning; vzeroupper; ret
@@ -198,7 +198,8 @@ impl Assembler {
         Assembly { bytes: self.bytes, width: self.width, extent: self.extent }
     }
 
-    /// One vector instruction: `register` and `place` in the ModRM byte, `second` in the prefix.
+    /// Encodes a vector instruction: `register` and `place` in the ModRM byte, `second` in the
+    /// prefix.
     fn vector(&mut self, map: u8, opcode: u8, register: u8, second: u8, place: Place) {
         // Bits 3 and 4 of the register in the place.
         let (low, bit3, bit4) = match place {
@@ -225,7 +226,7 @@ impl Assembler {
             Width::Four => self.bytes.extend([
                 0xc4,
                 not(register >> 3) << 7 | 1 << 6 | not(bit3) << 5 | map,
-                // Of these instructions the fused ones alone look at the topmost bit.
+                // Of these instructions only the fused ones use the topmost bit.
                 u8::from(map == MAP_0F38) << 7 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
             ]),
         }
@@ -237,7 +238,7 @@ impl Assembler {
         }
     }
 
-    /// ModRM and displacement of a place in memory.
+    /// Encodes ModRM and displacement of a place in memory.
     fn memory(&mut self, area: Area, index: u32, fields: u8) {
         let width = self.width.bytes();
         let offset = index as i32 * if area == Area::Frame { width } else { ROW_BYTES };
@@ -262,7 +263,7 @@ impl Assembler {
     }
 }
 
-/// The register that points to an area: rdi, rdx, rsi.
+/// Number of the register that points to an area: rdi, rdx, rsi.
 fn base(area: Area) -> u8 {
     match area {
         Area::Inputs => 7,
@@ -343,7 +344,7 @@ mod tests {
         assert_eq!(found.op_mask(), Iced::None, "no lane is masked");
     }
 
-    /// The only instruction that `emit` writes.
+    /// Assembles a single instruction and reads it back.
     fn one(width: Width, emit: impl FnOnce(&mut Assembler)) -> Instruction {
         let mut assembler = Assembler::new(width);
         emit(&mut assembler);

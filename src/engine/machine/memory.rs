@@ -1,4 +1,4 @@
-//! Machine code in memory that is written first and executed then, never both.
+//! Executable memory for machine code: written first, executed afterwards, never both at once.
 
 #![allow(
     unsafe_code,
@@ -11,22 +11,22 @@ use super::super::{LANES, Row};
 use super::encode::{Assembly, Extent, Width};
 use crate::graph::{Vectors, widest};
 
-/// Inputs, frame, outputs, turns.
+/// Signature of the code: inputs, frame, outputs, turns.
 #[cfg(target_arch = "x86_64")]
 type Entry = unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize);
 
-/// Never called: there is no code for other processors.
+/// Placeholder, never called: other processors have no code.
 #[cfg(not(target_arch = "x86_64"))]
 type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64, usize);
 
-/// Instructions in memory from which they can be executed; `None` where the system refuses it.
+/// Maps instructions into executable memory; `None` where the system refuses it.
 pub(crate) fn executable(bytes: &[u8]) -> Option<Mmap> {
     let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
     memory.copy_from_slice(bytes);
     memory.make_exec().ok()
 }
 
-/// A function that can be called.
+/// A callable function in executable memory.
 #[derive(Debug)]
 pub(super) struct Executable {
     memory: Mmap,
@@ -35,7 +35,8 @@ pub(super) struct Executable {
 }
 
 impl Executable {
-    /// `None` where the processor lacks the instructions, or the system refuses the memory.
+    /// Maps the code. `None` where the processor lacks the instructions, or the system refuses the
+    /// memory.
     pub(super) fn new(assembly: &Assembly) -> Option<Self> {
         let has = match assembly.width {
             Width::Eight => widest() == Vectors::Avx512,
@@ -48,7 +49,7 @@ impl Executable {
         Some(Self { memory, width: assembly.width, extent: assembly.extent })
     }
 
-    /// Runs over all lanes of the rows. Panics where there are fewer rows than are touched.
+    /// Runs over all lanes of the rows. Panics where there are fewer rows than the code touches.
     pub(super) fn run(&self, inputs: &[Row], frame: &mut [Row], outputs: &mut [Row]) {
         let enough = inputs.len() >= self.extent.inputs
             && outputs.len() >= self.extent.outputs

@@ -4,8 +4,8 @@
 //! Program ─ registers allotted ─▶ instructions ─ encoded ─▶ bytes ─ write, then execute ─▶ function
 //! ```
 //!
-//! x86-64 with AVX-512 or with AVX2 and FMA; elsewhere, and for programs with functions that are no
-//! instructions (exp, sin, …), there is none, and the interpreter does the work.
+//! Code exists for x86-64 with AVX-512 or with AVX2 and FMA. Elsewhere, and for programs with
+//! functions that are not instructions (exp, sin, …), the interpreter does the work.
 
 mod allocate;
 mod encode;
@@ -23,14 +23,14 @@ pub(crate) use memory::executable;
 #[derive(Debug)]
 pub(super) struct Code {
     executable: Executable,
-    /// What the frame holds at the beginning; spilled values follow.
+    /// Initial content of the frame; spilled values follow.
     constants: Vec<f64>,
     frame_rows: usize,
     lanes: usize,
     outputs: usize,
 }
 
-/// The memory of a run beside its inputs.
+/// Memory of a run, apart from its inputs.
 #[derive(Debug)]
 pub(super) struct Memory {
     frame: Vec<Row>,
@@ -38,7 +38,8 @@ pub(super) struct Memory {
 }
 
 impl Code {
-    /// Machine code with these vectors, if there can be any.
+    /// Generates machine code with these vectors. `None` where the processor, the system or the
+    /// program allows none.
     pub(super) fn new(program: &Program, vectors: Vectors) -> Option<Self> {
         let width = match vectors {
             Vectors::Avx512 => Width::Eight,
@@ -53,7 +54,7 @@ impl Code {
         Some(Self { executable, constants, frame_rows, lanes, outputs })
     }
 
-    /// The memory of a run, with the constants in place.
+    /// Memory of a run, with the constants in place.
     pub(super) fn memory(&self) -> Memory {
         let mut frame = vec![Row([0.0; LANES]); self.frame_rows];
         let vectors = frame.iter_mut().flat_map(|row| row.0.chunks_exact_mut(self.lanes));
@@ -70,7 +71,7 @@ impl Code {
 }
 
 impl Memory {
-    /// The row of an output.
+    /// Row of an output.
     pub(super) fn output(&self, index: usize) -> &Row {
         &self.outputs[index]
     }

@@ -10,23 +10,23 @@ use memmap2::Mmap;
 use super::encode::Assembler;
 use crate::engine::executable;
 
-/// Rows, copies, constants, sums.
+/// Signature of the code: rows, copies, constants, sums.
 #[cfg(target_arch = "x86_64")]
 type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 
-/// Never called: there is no code for other processors.
+/// Placeholder, never called: there is no code for other processors.
 #[cfg(not(target_arch = "x86_64"))]
 type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 
-/// A function that can be called.
+/// A callable function in executable memory.
 pub(super) struct Executable {
     memory: Mmap,
     touched: [(i32, i32); 4],
 }
 
-/// What a function is given.
+/// Memory passed to a function.
 pub(super) struct Given<'m> {
-    /// Rows and copies, and where the bases point to in it.
+    /// Rows and copies; the next two fields are the offsets of their bases in it.
     pub(super) memory: &'m mut [f64],
     pub(super) rows: usize,
     pub(super) copies: usize,
@@ -35,7 +35,8 @@ pub(super) struct Given<'m> {
 }
 
 impl Executable {
-    /// `None` where the system refuses the memory. The processor is to have the instructions.
+    /// Maps the code. `None` where the system refuses the memory. The processor must have the
+    /// instructions.
     pub(super) fn new(assembler: &Assembler) -> Option<Self> {
         if cfg!(not(target_arch = "x86_64")) {
             return None;
@@ -43,7 +44,7 @@ impl Executable {
         Some(Self { memory: executable(&assembler.bytes)?, touched: assembler.touched })
     }
 
-    /// Calls the function. Panics where it would touch what it is not given.
+    /// Calls the function. Panics where it would touch memory outside of what is passed.
     pub(super) fn call(&self, given: Given<'_>) {
         let Given { memory, rows, copies, constants, sums } = given;
         let within = |(least, most): (i32, i32), base: usize, length: usize| {
@@ -56,9 +57,9 @@ impl Executable {
             && within(of_constants, 0, constants.len())
             && within(of_sums, 0, sums.len());
         assert!(enough, "machine code needs {:?}", self.touched);
-        // SAFETY: the bytes are made by the assembler alone, as a function of this type that has no jumps
-        // and touches no more than is said, which is within what is given.
-        // It is made only where the processor has its instructions.
+        // SAFETY: the bytes come from the assembler alone, as a function of this type that has no
+        // jumps and touches no more than it records, which lies within what is passed. It is made
+        // only where the processor has its instructions.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
             let all = memory.as_mut_ptr();

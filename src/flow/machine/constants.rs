@@ -1,10 +1,10 @@
-//! The numbers that instructions read beside the rows.
+//! Constants that instructions read in addition to the rows.
 
 use super::super::code::Code;
 use super::encode::{At, Base};
 
-/// 1/n, 1/(n + 1) and small numbers; a scale and a constant for each operation; a slope, and what is fixed of
-/// it, for each term; the coefficients of factors and of copies.
+/// List of constants: 1/n, 1/(n + 1) and small numbers; a scale and a constant for each operation;
+/// a slope, and its fixed part, for each term; the coefficients of factors and of copies.
 pub(super) struct Constants {
     pub(super) list: Vec<f64>,
     slopes: usize,
@@ -14,7 +14,7 @@ pub(super) struct Constants {
     weights: usize,
 }
 
-/// Where the scales begin.
+/// Index of the first scale.
 const SCALES: usize = 5;
 
 impl Constants {
@@ -42,19 +42,19 @@ impl Constants {
         }
     }
 
-    /// Takes the scales and slopes of an expansion.
+    /// Copies the scales and slopes of an expansion.
     pub(super) fn take(&mut self, code: &Code<f64>) {
         let (scales, slopes) = self.list[SCALES..].split_at_mut(self.slopes - SCALES);
         scales.iter_mut().zip(&code.finishes).for_each(|(own, finish)| *own = finish.scale);
         slopes.iter_mut().zip(&code.terms).for_each(|(own, term)| *own = term.slope);
     }
 
-    /// Takes 1/n and 1/(n + 1).
+    /// Copies 1/n and 1/(n + 1).
     pub(super) fn at_order(&mut self, n: usize, inverses: &[f64]) {
         self.list[..2].copy_from_slice(&inverses[n..n + 2]);
     }
 
-    /// Takes the slopes of the rows n x_n.
+    /// Sets the slopes of the terms n x_n.
     pub(super) fn thetas(&mut self, code: &Code<f64>, n: usize) {
         for theta in &code.thetas {
             self.list[self.slopes + *theta as usize] = n as f64;

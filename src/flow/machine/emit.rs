@@ -1,15 +1,15 @@
-//! From bound operations to instructions.
+//! Instructions for bound operations.
 
 use super::super::code::{Code, Order, Place, Product, first};
 use super::super::number::BLOCK;
 use super::constants::Constants;
 use super::encode::{Assembler, At, Base, Pairs, Register, Width};
 
-/// Registers 0 and 1 are for what is used at once; the others keep the last rows in turn.
+/// Registers that keep the last rows in turn; 0 and 1 are for temporary values.
 const KEPT: std::ops::Range<usize> = 2..16;
 
-/// The inner sums along so many vectors. The rows are given at order 0, the copies at the last order
-/// that there is.
+/// Emits the inner sums along `vectors` vectors. The rows are addressed at order 0, the copies at
+/// the last order that exists.
 pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Assembler {
     let mut to = Assembler::default();
     let mut products = code.products.as_slice();
@@ -25,7 +25,8 @@ pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Asse
     to
 }
 
-/// The products of one operation added up in the lanes of a register: eight sums, or four where it has four lanes.
+/// Adds the products of one operation in the lanes of a register: eight sums, or four where it has
+/// four lanes.
 fn inner_sum(
     to: &mut Assembler,
     width: Width,
@@ -53,8 +54,9 @@ fn inner_sum(
     }
 }
 
-/// The lanes of registers 0 to 7 added up in the interpreter's order,
-/// ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)); of four lanes, s₀ + s₄ and so on are there already.
+/// Adds the lanes of registers 0 to 7 in the interpreter's order,
+/// ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)); with four lanes, s₀ + s₄ and so on are there
+/// already.
 fn totals(to: &mut Assembler, width: Width, at: i32) {
     const X: Register = 8;
     const Y: Register = 9;
@@ -89,7 +91,8 @@ fn totals(to: &mut Assembler, width: Width, at: i32) {
     }
 }
 
-/// Order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are given at order n.
+/// Emits order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are
+/// addressed at order n.
 pub(super) fn finish(code: &Code<f64>, constants: &Constants) -> Assembler {
     let mut to = Assembler::default();
     let mut kept = Kept::new();
@@ -124,7 +127,7 @@ pub(super) fn finish(code: &Code<f64>, constants: &Constants) -> Assembler {
     to
 }
 
-/// Order n + 1 of the state.
+/// Emits order n + 1 of the state.
 pub(super) fn next_order(code: &Code<f64>, constants: &Constants, to: &mut Assembler, kept: &Kept) {
     let mut copy = 0;
     for component in &code.state {
@@ -143,7 +146,7 @@ pub(super) fn next_order(code: &Code<f64>, constants: &Constants, to: &mut Assem
     }
 }
 
-/// The rows that are in registers.
+/// Rows held in registers.
 pub(super) struct Kept {
     rows: [Option<Place>; KEPT.end],
     next: usize,
@@ -154,7 +157,7 @@ impl Kept {
         Self { rows: [None; KEPT.end], next: KEPT.start }
     }
 
-    /// The register for a row that is to be made.
+    /// Allots a register for a row that is about to be made.
     pub(super) fn place_of(&mut self, row: Place) -> Register {
         let register = self.next;
         self.next = if register + 1 == KEPT.end { KEPT.start } else { register + 1 };

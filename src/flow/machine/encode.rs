@@ -1,12 +1,12 @@
-//! The few x86-64 instructions that an expansion needs, as bytes.
+//! Encoding of the few x86-64 instructions that an expansion needs.
 //!
-//! Operands in memory are a base register and a distance in f64; encodings are those of the Intel SDM,
-//! vol. 2A, 2.3 (VEX) and 2.7 (EVEX). The tests read everything back with a disassembler.
+//! Operands in memory are a base register and a distance in f64; encodings are those of the Intel
+//! SDM, vol. 2A, 2.3 (VEX) and 2.7 (EVEX). The tests read everything back with a disassembler.
 
-/// A register, by its number; vectors use the same sixteen.
+/// Number of a register; vectors use the same sixteen.
 pub(super) type Register = u8;
 
-/// What a base register points to.
+/// Memory that a base register points to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Base {
     /// The rows, at an order: rdi.
@@ -19,17 +19,17 @@ pub(super) enum Base {
     Sums,
 }
 
-/// A number in memory, or the first of several.
+/// Address of a number in memory, or of the first of several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct At(pub(super) Base, pub(super) i32);
 
-/// How many numbers an instruction treats.
+/// Number of f64 in an operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Width {
     One,
-    /// AVX2 and FMA.
+    /// Four numbers, with AVX2 and FMA.
     Four,
-    /// AVX-512F.
+    /// Eight numbers, with AVX-512F.
     Eight,
 }
 
@@ -43,27 +43,27 @@ impl Width {
     }
 }
 
-/// Which pairs of neighbours among four or eight numbers.
+/// Selection of pairs of neighbours among four or eight numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Pairs {
-    /// The first half.
+    /// Pairs of the first half.
     Lower,
-    /// The second half.
+    /// Pairs of the second half.
     Upper,
-    /// The first, the third.
+    /// First and third pairs.
     Even,
-    /// The second, the fourth.
+    /// Second and fourth pairs.
     Odd,
 }
 
-/// Maps of opcodes, and prefixes in compressed form.
+/// Opcode maps, and prefixes in compressed form.
 const MAP_0F: u8 = 1;
 const MAP_0F38: u8 = 2;
 const MAP_0F3A: u8 = 3;
 const PACKED: u8 = 1;
 const SCALAR: u8 = 3;
 
-/// Instructions one after the other, and what they touch.
+/// Encoded instructions, and the range of memory they touch.
 #[derive(Debug, Default)]
 pub(super) struct Assembler {
     pub(super) bytes: Vec<u8>,
@@ -72,7 +72,7 @@ pub(super) struct Assembler {
 }
 
 impl Assembler {
-    /// register = 0, in all lanes
+    /// Sets register = 0 in all lanes.
     pub(super) fn zero(&mut self, register: Register) {
         // vxorpd of 128 bits clears what is above them.
         let high = (register >> 3 ^ 1) & 1;
@@ -82,49 +82,49 @@ impl Assembler {
         self.bytes.extend([0xc4, first, (!register & 15) << 3 | PACKED, 0x57, fields]);
     }
 
-    /// register = numbers
+    /// Loads numbers to a register.
     pub(super) fn load(&mut self, width: Width, register: Register, from: At) {
         self.plain(width, 0x10, register, 0, from);
     }
 
-    /// numbers = register
+    /// Stores a register to numbers.
     pub(super) fn store(&mut self, width: Width, register: Register, to: At) {
         self.plain(width, 0x11, register, 0, to);
     }
 
-    /// register = x · y, one number
+    /// Sets register = x · y, one number.
     pub(super) fn multiply(&mut self, register: Register, x: Register, y: At) {
         self.plain(Width::One, 0x59, register, x, y);
     }
 
-    /// register = x / y, one number
+    /// Sets register = x / y, one number.
     pub(super) fn divide(&mut self, register: Register, x: Register, y: At) {
         self.plain(Width::One, 0x5e, register, x, y);
     }
 
-    /// register = √x, one number
+    /// Sets register = √x, one number.
     pub(super) fn square_root(&mut self, register: Register, x: At) {
         self.plain(Width::One, 0x51, register, register, x);
     }
 
-    /// register = register + x · y, rounded once
+    /// Sets register = register + x · y, rounded once.
     pub(super) fn fused(&mut self, width: Width, register: Register, x: Register, y: At) {
         let opcode = if width == Width::One { 0xb9 } else { 0xb8 };
         self.instruction(width, MAP_0F38, PACKED, 1, [opcode, register, x], y);
     }
 
-    /// register = x + y of vectors
+    /// Sets register = x + y, vectors.
     pub(super) fn add(&mut self, width: Width, register: Register, x: Register, y: Register) {
         self.between(width, MAP_0F, [0x58, register, x, y]);
     }
 
-    /// Even and odd numbers of x and y in turn: x₀ y₀ x₂ y₂ … or x₁ y₁ x₃ y₃ …
+    /// Interleaves the even or odd numbers of x and y: x₀ y₀ x₂ y₂ … or x₁ y₁ x₃ y₃ …
     pub(super) fn mix(&mut self, width: Width, odd: bool, [register, x, y]: [Register; 3]) {
         self.between(width, MAP_0F, [0x14 + u8::from(odd), register, x, y]);
     }
 
-    /// Pairs of x, then pairs of y: of four numbers the first or the second pair of each, of eight the two
-    /// that are meant.
+    /// Joins pairs of x and pairs of y: of four numbers the first or the second pair of each, of
+    /// eight the two selected.
     pub(super) fn pairs(&mut self, width: Width, which: Pairs, [register, x, y]: [Register; 3]) {
         let (opcode, choice) = match (width, which) {
             (Width::Eight, Pairs::Lower) => (0x23, 0x44),
@@ -138,7 +138,7 @@ impl Assembler {
         self.bytes.push(choice);
     }
 
-    /// The end of a function.
+    /// Ends a function.
     pub(super) fn end(&mut self) {
         // vzeroupper; ret
         self.bytes.extend([0xc5, 0xf8, 0x77, 0xc3]);
@@ -150,7 +150,7 @@ impl Assembler {
         self.instruction(width, MAP_0F, prefix, wide, [opcode, register, x], at);
     }
 
-    /// An instruction of vectors without memory.
+    /// Encodes a vector instruction without a memory operand.
     fn between(&mut self, width: Width, map: u8, [opcode, register, x, y]: [u8; 4]) {
         let not = |register: Register| (register >> 3 ^ 1) & 1;
         let first = not(register) << 7 | 1 << 6 | not(y) << 5 | map;
@@ -206,7 +206,7 @@ mod tests {
         (Base::Sums, Iced::RCX),
     ];
 
-    /// The only instruction that `emit` writes.
+    /// Assembles a single instruction and reads it back.
     fn one(emit: impl FnOnce(&mut Assembler)) -> Instruction {
         let mut assembler = Assembler::default();
         emit(&mut assembler);

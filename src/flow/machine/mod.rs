@@ -1,8 +1,8 @@
 //! Machine code for the expansions of a program over f64.
 //!
-//! An interpreter of programs spends most of its time on where things stand. Here places are part of the
-//! instructions, and what has just been computed stays in registers. The same sums are made in the same
-//! order, so that the bits are those of the interpreter.
+//! An interpreter of programs spends most of its time on addresses. Here addresses are part of the
+//! instructions, and recent results stay in registers. The same sums are made in the same order, so
+//! that the bits are those of the interpreter.
 
 mod call;
 mod constants;
@@ -20,22 +20,22 @@ use call::{Executable, Given};
 use constants::Constants;
 use encode::Width;
 
-/// The functions of a program, and what they need beside its memory.
+/// Functions of a program, and the data they need besides its memory.
 pub(super) struct Machine {
     order: usize,
     orders: usize,
-    /// By how many vectors along the order they take, less one.
+    /// Inner sums, indexed by the number of vectors along the order, less one.
     inner_sums: Vec<Executable>,
     finish: Executable,
-    /// Order 0, where all its functions are instructions.
+    /// Order 0, if all functions in it are instructions.
     values: Option<Executable>,
     constants: Constants,
-    /// The inner sums.
+    /// Values of the inner sums.
     inner: Vec<f64>,
 }
 
 impl Machine {
-    /// Machine code for a program, if there can be any.
+    /// Generates machine code for a program. `None` where the processor or the system allows none.
     pub(super) fn new(code: &Code<f64>, order: usize) -> Option<Self> {
         match widest() {
             Vectors::Avx512 => Self::with_width(code, order, Width::Eight),
@@ -44,7 +44,7 @@ impl Machine {
         }
     }
 
-    /// The processor is to have instructions of this width.
+    /// Generates code with instructions of this width, which the processor must have.
     fn with_width(code: &Code<f64>, order: usize, width: Width) -> Option<Self> {
         let constants = Constants::new(code);
         let lengths = 1..=order.div_ceil(BLOCK);
@@ -64,7 +64,8 @@ impl Machine {
         })
     }
 
-    /// Order 0 of all rows and order 1 of the state, with the slopes; no where it cannot.
+    /// Computes order 0 of all rows and order 1 of the state, with the slopes. Returns `false` if
+    /// there is no code for that.
     #[inline(always)]
     pub(super) fn begin(&mut self, inverses: &[f64], memory: &mut [f64]) -> bool {
         let Some(values) = &self.values else { return false };
@@ -79,13 +80,14 @@ impl Machine {
         true
     }
 
-    /// Takes the slopes that were computed elsewhere.
+    /// Copies the slopes computed elsewhere.
     #[inline(always)]
     pub(super) fn take(&mut self, code: &Code<f64>) {
         self.constants.take(code);
     }
 
-    /// Orders 1 to `order` - 1 of all rows, and to `order` of the state, from what was begun.
+    /// Computes orders 1 to `order` - 1 of all rows, and up to `order` of the state, from what
+    /// `begin` made.
     #[inline(always)]
     pub(super) fn run(&mut self, code: &Code<f64>, inverses: &[f64], memory: &mut [f64]) {
         self.inner.fill(0.0);

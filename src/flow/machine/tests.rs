@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 
 const ORDERS: [usize; 3] = [7, 20, 25];
 
-/// Fields with all rules, and with those that are instructions alone.
+/// Fields that use all rules, and fields whose rules are all instructions.
 fn programs() -> Vec<(&'static str, Program)> {
     let number = |n: i64, d: i64| Expr::rational(&Rational::new(n, d));
     let algebraic = |x: &[Expr]| {

@@ -1,15 +1,16 @@
-//! Order 0 of all rows, and the slopes that the orders above have in common, as instructions.
+//! Instructions for order 0 of all rows, and for the slopes that the higher orders share.
 
 use super::super::code::{Bound, Code, Operation, Place, part};
 use super::constants::Constants;
 use super::emit::{Kept, next_order};
 use super::encode::{Assembler, At, Base, Register, Width};
 
-/// Registers for what is used at once.
+/// Registers for temporary values.
 const A: Register = 0;
 const B: Register = 1;
 
-/// Order 0 of all rows and order 1 of the state, with scales and slopes; `None` where a rule is no instruction.
+/// Emits order 0 of all rows and order 1 of the state, with scales and slopes. `None` where a rule
+/// is not an instruction.
 pub(super) fn values(code: &Code<f64>, constants: &Constants) -> Option<Assembler> {
     let mut values = Values { code, constants, to: Assembler::default(), kept: Kept::new() };
     for (index, operation) in code.operations.iter().enumerate() {
@@ -42,7 +43,7 @@ struct Values<'c> {
 }
 
 impl Values<'_> {
-    /// constant + Σ c x + Σ c x y
+    /// Emits constant + Σ c x + Σ c x y.
     fn sum(&mut self, index: usize, operation: &Operation<f64>, place: Place) {
         let sum = self.kept.place_of(place);
         self.to.load(Width::One, sum, self.constants.constant(index));
@@ -63,7 +64,7 @@ impl Values<'_> {
         self.to.store(Width::One, sum, At(Base::Rows, place as i32));
     }
 
-    /// The derivatives of a sum by its rows.
+    /// Emits the derivatives of a sum with respect to its rows.
     fn slopes(&mut self, operation: &Operation<f64>) {
         let factors = part(&self.code.factors, operation.factors);
         for term in operation.terms.0..operation.terms.1 {
@@ -81,7 +82,7 @@ impl Values<'_> {
         }
     }
 
-    /// z = 1/x: the scale is -z, the slope -z²
+    /// Emits z = 1/x, with scale -z and slope -z².
     fn reciprocal(&mut self, index: usize, term: usize, x: Place, place: Place) {
         let z = self.kept.place_of(place);
         self.to.load(Width::One, z, Constants::ONE);
@@ -93,7 +94,7 @@ impl Values<'_> {
         self.to.store(Width::One, A, self.constants.slope(term));
     }
 
-    /// z = √x: the slope is 1/2z, the scale -1/2z
+    /// Emits z = √x, with slope 1/2z and scale -1/2z.
     fn root(&mut self, index: usize, term: usize, x: Place, place: Place) {
         let z = self.kept.place_of(place);
         self.to.square_root(z, At(Base::Rows, x as i32));
@@ -107,7 +108,7 @@ impl Values<'_> {
         self.to.store(Width::One, A, self.constants.scale(index));
     }
 
-    /// A register that holds a row: where it is kept, or else this one.
+    /// Returns a register that holds a row: the one where it is kept, or else this one.
     fn row(&mut self, row: Place, register: Register) -> Register {
         self.kept.find(row).unwrap_or_else(|| {
             self.to.load(Width::One, register, At(Base::Rows, row as i32));

@@ -1,7 +1,7 @@
-//! How a formula looks on paper: boxes made from its tree, for any typesetter.
+//! Layout of a formula on paper: boxes made from its tree, for any typesetter.
 //!
-//! Brackets are those that the tree needs; products stand side by side, quotients over each other,
-//! and in line within exponents.
+//! Brackets appear where the tree needs them; factors stand next to each other; quotients are
+//! stacked, and set in line within exponents.
 
 mod paper;
 
@@ -14,41 +14,41 @@ use super::scope::Symbol;
 pub enum Layout {
     /// Digits, without a sign.
     Number(String),
-    /// A name: letter, what it stands for, index, and how many primes.
+    /// Name: letter, type, index, and number of primes.
     Name {
         /// One letter, perhaps with an accent, or a word.
         letter: String,
-        /// Vectors and matrices are set bold.
+        /// Type of the value; vectors and matrices are set bold.
         kind: Type,
-        /// The index; empty where there is none.
+        /// Index; empty where there is none.
         index: String,
-        /// Primes.
+        /// Number of primes.
         primes: usize,
     },
-    /// The name of a function, upright.
+    /// Name of a function, set upright.
     Word(&'static str),
-    /// A sign between or before others.
+    /// Sign between or before others.
     Sign(&'static str),
-    /// The small space of a product.
+    /// Small space of a product.
     Space,
     /// Boxes in a row.
     Row(Vec<Layout>),
-    /// Between brackets or bars.
+    /// Box between brackets or bars.
     Fenced(&'static str, Box<Layout>, &'static str),
-    /// One over the other.
+    /// Numerator over denominator.
     Fraction(Box<Layout>, Box<Layout>),
-    /// Under a root.
+    /// Box under a root sign.
     Root(Box<Layout>),
-    /// With an exponent.
+    /// Base with an exponent.
     Raised(Box<Layout>, Box<Layout>),
-    /// With an index.
+    /// Base with an index.
     Lowered(Box<Layout>, Box<Layout>),
     /// Rows of a matrix.
     Matrix(Vec<Vec<Layout>>),
 }
 
 impl Layout {
-    /// A name by itself.
+    /// The box of a name.
     pub fn name(text: &str, kind: Type) -> Self {
         let bare = text.trim_end_matches('\'');
         let primes = text.len() - bare.len();
@@ -60,17 +60,17 @@ impl Layout {
         Layout::Name { letter, kind, index, primes }
     }
 
-    /// left = right
+    /// The box of an equation, left = right.
     pub fn equation(left: Layout, right: Layout) -> Self {
         Layout::Row(vec![left, Layout::Sign("="), right])
     }
 
-    /// left ↦ right
+    /// The box of a map, left ↦ right.
     pub fn image(left: Layout, right: Layout) -> Self {
         Layout::Row(vec![left, Layout::Sign("↦"), right])
     }
 
-    /// Is it so high that brackets around it have to grow?
+    /// Whether the box is so high that brackets around it have to grow.
     pub fn is_tall(&self) -> bool {
         match self {
             Layout::Fraction(..) | Layout::Matrix(_) => true,
@@ -95,7 +95,7 @@ impl Layout {
 }
 
 impl Formula {
-    /// The formula as it looks on paper, with the names that symbols have.
+    /// Sets the formula, with the given names of its symbols.
     pub fn layout(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
         paper::set(&self.arena, names)
     }

@@ -1,4 +1,4 @@
-//! The tree of a formula becomes boxes.
+//! Boxes of the tree of a formula.
 
 use super::Layout;
 use crate::formula::arena::{Arena, Constant, Extreme, Function, NodeId, Operation};
@@ -6,7 +6,7 @@ use crate::formula::kind::Type;
 use crate::formula::scope::Symbol;
 use crate::number::rational::Rational;
 
-/// How tightly a box holds together; one that is looser than its place asks for gets brackets.
+/// Strength with which a box holds together; one looser than its place requires gets brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Bond {
     Sum,
@@ -23,13 +23,13 @@ struct Paper<'f> {
     names: &'f dyn Fn(Symbol) -> String,
 }
 
-/// The box of the whole formula.
+/// Sets the whole formula.
 pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String) -> Layout {
     Paper { arena, names }.set(arena.nodes.len() - 1, false).0
 }
 
 impl Paper<'_> {
-    /// The box of a node; `inline` where fractions would be too high.
+    /// Sets a node; `inline` where fractions would be too high.
     fn set(&self, node: NodeId, inline: bool) -> Bonded {
         use Operation::*;
         let whole = |layout| (layout, Bond::Whole);
@@ -121,7 +121,7 @@ impl Paper<'_> {
         }
     }
 
-    /// The box of a node in a place that asks for this bond.
+    /// Sets a node in a place that requires this bond.
     fn at(&self, node: NodeId, least: Bond, inline: bool) -> Layout {
         match self.set(node, inline) {
             (layout, bond) if bond >= least => layout,
@@ -134,7 +134,7 @@ impl Paper<'_> {
         Layout::name(&(self.names)(symbol), kind)
     }
 
-    /// a sign b; the right side holds together more tightly than the whole.
+    /// Sets `a sign b`; the right side holds together more tightly than the whole.
     fn between(
         &self,
         a: NodeId,
@@ -178,13 +178,13 @@ impl Paper<'_> {
         self.at(a, Bond::Whole, inline).raised(minus_one)
     }
 
-    /// `det A`, with brackets unless A is one letter, or its power.
+    /// Sets `det A`, with brackets unless A is one letter, or its power.
     fn applied(&self, word: &'static str, a: NodeId, inline: bool) -> Bonded {
         let argument = self.at(a, Bond::Power, inline);
         (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), Bond::Power)
     }
 
-    /// `max(a,b)`
+    /// Sets a call such as `max(a,b)`.
     fn called(&self, word: &'static str, arguments: &[NodeId], inline: bool) -> Bonded {
         (Layout::Row(vec![Layout::Word(word), self.list(arguments, inline)]), Bond::Power)
     }
@@ -229,7 +229,7 @@ impl Paper<'_> {
         }
     }
 
-    /// Terms or factors in a row, those in the middle of a long one left out.
+    /// Sets terms or factors in a row, leaving out those in the middle of a long one.
     fn chain(
         &self,
         parts: &[NodeId],
@@ -283,10 +283,10 @@ impl Paper<'_> {
     }
 }
 
-/// How many parts of a list, a sum or a matrix are shown.
+/// Number of parts above which a list, a sum or a matrix is abridged.
 const MOST_SHOWN: usize = 6;
 
-/// The parts that are shown: all, or the first two and the last, with a gap between.
+/// Parts to show: all, or the first two and the last, with a gap between.
 fn shown(parts: &[NodeId]) -> Vec<Option<&NodeId>> {
     match parts {
         [first, second, .., last] if parts.len() > MOST_SHOWN => {
@@ -314,7 +314,7 @@ fn digits(text: &str) -> Layout {
     Layout::Number(text.to_string())
 }
 
-/// A number, its sign before it, a fraction in line or over each other.
+/// Sets a number, its sign before it, a fraction in line or stacked.
 fn number(value: &Rational, inline: bool) -> Bonded {
     let (above, below) = value.parts();
     let (above, below) = (above.magnitude().to_string(), below.to_string());
@@ -332,7 +332,7 @@ fn number(value: &Rational, inline: bool) -> Bonded {
     }
 }
 
-/// What stands behind a minus sign, if the box is that; the box itself otherwise.
+/// Removes a leading minus sign; `Err` with the box itself if there is none.
 fn without_minus(layout: Layout) -> Result<Layout, Layout> {
     match layout {
         Layout::Row(mut parts) if parts.len() == 2 && parts[0] == Layout::Sign("−") => {

@@ -1,8 +1,8 @@
-//! Every error: what it says, where it points, and what it suggests.
+//! Tests of every error: its message, its place, and its help.
 
 use super::*;
 
-/// Checks the message, the text pointed at and the help of the error a text gives.
+/// Checks message, place and help of the error for a text.
 #[track_caller]
 fn error(text: &str, message: &str, at: &str, help: Option<&str>) {
     let error = refuse(text);

@@ -129,7 +129,7 @@ fn forms_have_weights_mutants_and_boxes() {
     assert_eq!(set("vector(i, 1..9, x^i)"), "(x^{1},x^{2},…,x^{9})", "and so have lists");
 }
 
-/// A plain reading of the boxes that occur here.
+/// Plain text of the boxes that occur here.
 fn plain(layout: &Layout) -> String {
     match layout {
         Layout::Name { letter, index, .. } => format!("{letter}{index}"),

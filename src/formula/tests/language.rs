@@ -1,4 +1,4 @@
-//! What formulas mean: precedence, spellings, functions, constants, size.
+//! Tests of the meaning of formulas: precedence, spellings, functions, constants, size.
 
 use std::time::{Duration, Instant};
 
@@ -218,7 +218,7 @@ fn reading_and_evaluating_keep_within_a_small_stack() {
             ("sum(i, 1..1, ", ")", 190),
             ("if(1 = 1, ", ", 0)", 190),
         ] {
-            // most of these are no formulas of fitting types; all must come back
+            // most of these are not formulas of fitting types; all must return
             let text = format!("{}x{}", open.repeat(times), close.repeat(times));
             if let Ok(formula) = Formula::parse(&text, &Names) {
                 assert!(formula.evaluate(&mut value_of).scalar().is_some(), "{open} nested");

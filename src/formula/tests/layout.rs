@@ -1,4 +1,4 @@
-//! How formulas are set.
+//! Tests of the layout of formulas.
 
 use crate::formula::{Formula, Layout, Scope, Symbol, Type};
 
@@ -17,7 +17,7 @@ impl Scope for Letters {
     }
 }
 
-/// A plain reading of the boxes, with every bracket that they have.
+/// Plain text of the boxes, with every bracket.
 fn plain(layout: &Layout) -> String {
     match layout {
         Layout::Number(text) => text.clone(),

@@ -1,10 +1,10 @@
-//! The logarithmic derivative is derivative over value.
+//! Tests of the logarithmic derivative against derivative over value.
 
 use num_dual::Dual;
 
 use super::*;
 
-/// A direction in which every component moves at its own speed.
+/// A direction in which every component changes at a different rate.
 fn seeded(symbol: Symbol) -> Value<Dual<f64>> {
     let mut speed = 0.3 + 0.1 * f64::from(symbol.0);
     value_of(symbol).map(|re| {

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{Formula, FormulaError, Scope, Symbol, Type, Value};
 
-/// The names the tests use.
+/// Names used in the tests.
 const NAMES: [(&str, Type); 18] = [
     ("m", Type::Scalar),
     ("R", Type::Scalar),
@@ -55,7 +55,7 @@ fn symbol(name: &str) -> Symbol {
     Names.lookup(name).expect("a name of the tests").0
 }
 
-/// Positive values, no two alike.
+/// Positive values, all different.
 fn value_of(Symbol(number): Symbol) -> Value<f64> {
     let place = number as usize;
     let entry = |i: usize| 0.5 + 0.37 * ((7 * place + 3 * i + i * i * place) % 11) as f64;
@@ -100,7 +100,7 @@ fn evaluate(text: &str) -> Value<f64> {
     read(text).evaluate(&mut value_of)
 }
 
-/// Do the two agree up to rounding?
+/// Whether two values agree up to rounding.
 fn close(a: &Value<f64>, b: &Value<f64>) -> bool {
     let (a, b) = (a.components(), b.components());
     let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));

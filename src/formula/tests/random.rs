@@ -1,10 +1,10 @@
-//! Random formulas mean what they say, and random texts never panic.
+//! Tests of random formulas against their meaning, and of random texts against panics.
 
 use proptest::prelude::*;
 
 use super::*;
 
-/// A formula of known meaning: how it is written, how tightly it binds, what it is worth.
+/// Formula of known meaning: its text, its binding strength, its value.
 #[derive(Clone, Debug)]
 struct Sample {
     text: String,
@@ -24,7 +24,7 @@ impl Sample {
         Self { text, level, value }
     }
 
-    /// The text, bracketed if it binds less tightly than its place asks for.
+    /// Returns the text, bracketed if it binds less tightly than its place requires.
     fn at(&self, level: u8) -> String {
         if self.level < level { format!("({})", self.text) } else { self.text.clone() }
     }
@@ -57,7 +57,7 @@ fn number() -> impl Strategy<Value = Sample> {
     })
 }
 
-/// A sum or difference of two samples of one type.
+/// Sum or difference of two samples of one type.
 fn sum(a: &Sample, b: &Sample, minus: bool) -> Sample {
     let sign = if minus { '−' } else { '+' };
     let (left, right) = (a.value.components(), b.value.components());
@@ -182,7 +182,7 @@ fn grown() -> impl Strategy<Value = Sample> {
     })
 }
 
-/// Texts over the alphabet of the language, where most errors are.
+/// Texts over the alphabet of the language, most of them errors.
 fn formula_like() -> impl Strategy<Value = String> {
     let pieces = [
         "m",
@@ -260,7 +260,7 @@ fn check_total(text: &str) {
             formula.evaluate(&mut value_of);
             let constant = |re: f64| num_dual::Dual::from(re);
             formula.logarithmic_derivative::<f64>(&mut |symbol| value_of(symbol).map(constant));
-            // unequal weights are an answer too
+            // an error of unequal weights is a valid answer
             let _ = formula.check_weights(&mut crate::formula::WeightSystem::new("time"));
         }
         Err(error) => assert!(text.get(error.span()).is_some(), "{error} points into `{text}`"),

@@ -5,17 +5,17 @@ use std::fmt::Write;
 use super::{LEFT, PANEL, RIGHT, WIDTH};
 use crate::bench::Row;
 
-/// Errors below this one are drawn at it: exact results have no place on a logarithmic axis.
+/// Decade at which smaller errors are drawn: exact results have no place on a logarithmic axis.
 const LEAST_ERROR: f64 = -90.0;
 
-/// The decades that are shown, as powers of ten.
+/// Range of decades on both axes, as powers of ten.
 pub struct Axes {
     errors: (f64, f64),
     times: (f64, f64),
 }
 
 impl Axes {
-    /// Axes for these rows, to whole decades, with room for labels beside the outermost points.
+    /// Axes for these rows, to whole decades, with room for labels next to the outermost points.
     pub fn of<'r>(rows: impl Iterator<Item = &'r Row>) -> Self {
         let (mut errors, mut times) = ((-16.0f64, -10.0f64), (1.0f64, 2.0f64));
         for row in rows {
@@ -34,7 +34,7 @@ impl Axes {
         [LEFT, top, WIDTH - RIGHT, top + PANEL]
     }
 
-    /// Where a point is drawn; what is exact, or has no error, at the left border.
+    /// Position of a point; at the left border if the result is exact, or has no error.
     pub fn place(&self, error: Option<f64>, nanoseconds: f64, top: f64) -> (f64, f64) {
         let error = error.filter(|error| *error > 0.0).map_or(self.errors.0, decade);
         (self.across(error), self.up(nanoseconds.max(1e-1).log10(), top))
@@ -50,14 +50,14 @@ impl Axes {
         top + (1.0 - share.clamp(0.0, 1.0)) * PANEL
     }
 
-    /// Grid, frame, ticks and the names of the axes.
+    /// Draws grid, frame, ticks and the names of the axes.
     pub fn draw(&self, out: &mut String, top: f64) {
         let bottom = top + PANEL;
         let right = WIDTH - RIGHT;
-        // A tick label is some 40 pixels wide.
+        // A tick label is about 40 pixels wide.
         let every = ((self.errors.1 - self.errors.0) / 16.0).ceil().max(1.0) as i64;
         for exponent in self.errors.0 as i64..=self.errors.1 as i64 {
-            // Beyond 1 there is nothing but labels.
+            // Beyond 1 there is room for labels only.
             if exponent % every != 0 || exponent > 0 {
                 continue;
             }
@@ -97,7 +97,7 @@ fn decade(error: f64) -> f64 {
     error.log10().max(LEAST_ERROR)
 }
 
-/// 10⁻¹⁶
+/// Formats a power of ten: 10⁻¹⁶.
 fn power_of_ten(exponent: i64) -> String {
     let superscript = |digit: char| match digit {
         '-' => '⁻',
@@ -109,7 +109,7 @@ fn power_of_ten(exponent: i64) -> String {
     format!("10{}", exponent.to_string().chars().map(superscript).collect::<String>())
 }
 
-/// 10 ns, 1 µs
+/// Formats a power of ten nanoseconds: 10 ns, 1 µs.
 fn time(exponent: i64) -> String {
     let (unit, least) = match exponent {
         ..3 => ("ns", 0),

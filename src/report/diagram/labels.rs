@@ -1,19 +1,19 @@
-//! Labels beside points, none over another: each takes the first free place of a fixed list.
+//! Labels next to points, without overlap: each takes the first free place of a fixed list.
 
 use std::fmt::Write;
 
-/// The width of a letter in the labels' type, on the large side.
+/// Upper estimate of the width of a letter in the labels' type.
 const LETTER: f64 = 6.4;
 const HEIGHT: f64 = 13.0;
-/// From a point to its label.
+/// Distance from a point to its label.
 const GAP: f64 = 9.0;
-/// The longest title that fits above a panel.
+/// Length of the longest title that fits above a panel.
 const LONGEST: usize = 96;
 
-/// Left, top, right, bottom.
+/// Left, top, right and bottom of a rectangle.
 type Rectangle = [f64; 4];
 
-/// The places that are taken in a panel.
+/// Places already taken in a panel.
 pub struct Labels {
     frame: Rectangle,
     taken: Vec<Rectangle>,
@@ -26,7 +26,7 @@ impl Labels {
         Self { frame, taken: points.iter().map(marker).collect() }
     }
 
-    /// Writes a label near a point, if there is room; the legend tells the rest.
+    /// Writes a label near a point, if there is room; without one, the legend suffices.
     pub fn put(&mut self, out: &mut String, (x, y): (f64, f64), text: &str) {
         let width = width(text);
         for shift in (0..12).flat_map(|step| [f64::from(step) * -7.0, f64::from(step) * 7.0]) {
@@ -96,12 +96,12 @@ impl Labels {
     }
 }
 
-/// About how wide a text is.
+/// Approximate width of a text.
 pub fn width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
 }
 
-/// A title that fits.
+/// Shortens a title to the length that fits.
 pub fn shortened(text: &str) -> String {
     if text.chars().count() <= LONGEST {
         return text.to_string();
@@ -109,7 +109,7 @@ pub fn shortened(text: &str) -> String {
     text.chars().take(LONGEST - 1).chain(['…']).collect()
 }
 
-/// Text as XML wants it.
+/// Escapes a text for XML.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,10 +1,10 @@
-//! The letters of a pixel picture, five dots wide and seven high.
+//! Letters of a pixel picture, five dots wide and seven high.
 
 /// Width and height of a letter, and the distance to the next one.
 pub const SIZE: (i64, i64) = (5, 7);
 pub const ADVANCE: i64 = 6;
 
-/// The rows of a letter from above, the leftmost dot in the highest of five bits.
+/// Rows of a letter from above, the leftmost dot in the highest of five bits.
 pub fn rows(letter: char) -> [u8; 7] {
     match letter {
         '0' => [0b01110, 0b10001, 0b10011, 0b10101, 0b11001, 0b10001, 0b01110],
@@ -21,7 +21,7 @@ pub fn rows(letter: char) -> [u8; 7] {
         'l' => [0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
         'L' => [0b10000, 0b10000, 0b10000, 0b10000, 0b10000, 0b10000, 0b11111],
         'G' => [0b01110, 0b10001, 0b10000, 0b10111, 0b10001, 0b10001, 0b01110],
-        // l alone, which would look like 1.
+        // the letter l, distinct from 1
         'ℓ' => [0b00010, 0b00101, 0b00101, 0b00110, 0b01100, 0b10100, 0b00011],
         '/' => [0b00001, 0b00010, 0b00010, 0b00100, 0b01000, 0b01000, 0b10000],
         '-' => [0b00000, 0b00000, 0b00000, 0b11110, 0b00000, 0b00000, 0b00000],

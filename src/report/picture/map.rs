@@ -1,4 +1,4 @@
-//! Pictures of a plane in which each point has one of a few colours, with a legend below.
+//! Pictures of a plane of points in a few colours, with a legend below.
 
 use std::fmt::Write;
 
@@ -9,34 +9,34 @@ use super::svg::{axes, head, hex};
 use super::{BELOW, Frame, Scale};
 use crate::report::diagram::escape;
 
-/// A line of the legend, and the room for a word of it.
+/// Height of a line of the legend, and width of an entry.
 const LINE: f64 = 18.0;
 const WORD: f64 = 210.0;
 const SQUARE: f64 = 10.0;
 
-/// A colour of the picture and what it means.
+/// A colour of the picture with its meaning.
 #[derive(Clone, Debug)]
 pub struct Swatch {
-    /// Red, green, blue.
+    /// Red, green and blue.
     pub colour: [u8; 3],
-    /// What it means.
+    /// Meaning of the colour.
     pub name: String,
 }
 
 /// A plane of coloured points.
 #[derive(Clone, Debug)]
 pub struct Map {
-    /// What it shows.
+    /// Title of the picture.
     pub title: String,
-    /// The axes.
+    /// Horizontal axis.
     pub across: Scale,
-    /// The axis upwards.
+    /// Vertical axis.
     pub up: Scale,
-    /// The colours.
+    /// Colours with their meanings.
     pub swatches: Vec<Swatch>,
-    /// The colour of each point, by its place among the swatches, row by row from below.
+    /// Colour of each point as an index of `swatches`, row by row from below.
     pub rows: Vec<Vec<usize>>,
-    /// The width in pixels.
+    /// Width in pixels.
     pub width: u32,
 }
 
@@ -51,7 +51,7 @@ impl Map {
         ((f64::from(self.width) / WORD) as usize).max(1)
     }
 
-    /// Where the swatches of the legend stand: their upper left corners.
+    /// Positions of the swatches in the legend: upper left corners, with the index of each.
     fn legend(&self, frame: &Frame) -> impl Iterator<Item = (f64, f64, usize)> {
         let (left, top) = (frame.left, frame.top + frame.height + BELOW);
         let a_line = self.words_a_line();
@@ -61,7 +61,7 @@ impl Map {
         })
     }
 
-    /// The picture as SVG: a path for each colour.
+    /// Renders the picture as SVG: a path for each colour.
     pub fn svg(&self) -> String {
         let frame = self.frame();
         let mut out = head(&self.title, &frame);
@@ -72,7 +72,7 @@ impl Map {
             for (row, cells) in self.rows.iter().enumerate() {
                 let y = frame.top + frame.height - high * (row + 1) as f64;
                 let mut column = 0;
-                // One rectangle for neighbours of one colour.
+                // A run of one colour is drawn as one rectangle.
                 while column < cells.len() {
                     let run = cells[column..].iter().take_while(|cell| **cell == index).count();
                     if run > 0 {
@@ -107,7 +107,7 @@ impl Map {
         out + "</svg>\n"
     }
 
-    /// The picture as PNG.
+    /// Renders the picture as PNG.
     pub fn png(&self, paper: Paper) -> Result<Vec<u8>, png::EncodingError> {
         let frame = self.frame();
         let mut canvas = Canvas::new(&frame);

@@ -1,23 +1,23 @@
-//! Colours of equal lightness around the circle, readable on white and on black.
+//! Colours of equal lightness around the hue circle, legible on white and on black.
 
 /// Lightness and chroma of all colours, in the space Oklab (Ottosson 2020).
 const LIGHTNESS: f64 = 0.62;
 const CHROMA: f64 = 0.14;
-/// The part of the circle that is used: both ends of a scale have to differ.
+/// Part of the hue circle in use: both ends of a scale have to differ.
 const FROM: f64 = 0.07;
 const SPAN: f64 = 0.80;
 
-/// The colours around what is drawn.
+/// Background of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paper {
-    /// Dark on white.
+    /// Dark ink on white.
     Light,
-    /// Light on black.
+    /// Light ink on black.
     Dark,
 }
 
 impl Paper {
-    /// Paper, frame and ink.
+    /// Colours of paper, frame and ink.
     pub fn colours(self) -> [[u8; 3]; 3] {
         match self {
             Paper::Light => [[255; 3], [136; 3], [17; 3]],
@@ -26,7 +26,7 @@ impl Paper {
     }
 }
 
-/// The colour at a place from 0 to 1: from red over green and blue to purple.
+/// Colour at a position from 0 to 1: from red over green and blue to purple.
 pub fn colour(shade: f64) -> [u8; 3] {
     let angle = 2.0 * std::f64::consts::PI * (FROM + SPAN * shade.clamp(0.0, 1.0));
     let (a, b) = (CHROMA * libm::cos(angle), CHROMA * libm::sin(angle));

@@ -1,24 +1,24 @@
-//! The picture as PNG: a palette image, without anything that depends on time or place.
+//! Pictures as PNG: a palette image, independent of time and machine.
 
 use super::glyphs::{ADVANCE, SIZE, rows};
 use super::palette::{Paper, colour};
 use super::{Dot, Frame, Picture, Tint};
 
-/// Colours of dots; paper, frame and ink come before them.
+/// Number of colours of dots; paper, frame and ink come before them in the palette.
 const SHADES: u8 = 96;
 const PAPER: u8 = 0;
 const LINE: u8 = 1;
 pub(super) const INK: u8 = 2;
 pub(super) const FIRST: u8 = 3;
 
-/// The pixels of a picture as palette indices.
+/// Pixels of a picture as palette indices.
 pub(super) struct Canvas {
     width: i64,
     height: i64,
     pixels: Vec<u8>,
 }
 
-/// The picture of a section.
+/// Renders the picture of a section as PNG.
 pub fn png(picture: &Picture, paper: Paper) -> Result<Vec<u8>, png::EncodingError> {
     let frame = picture.frame();
     let mut canvas = Canvas::new(&frame);
@@ -58,7 +58,7 @@ impl Canvas {
         }
     }
 
-    /// A circle of radius 4.
+    /// Draws a circle of radius 4.
     fn ring(&mut self, x: f64, y: f64) {
         for step in 0..64 {
             let angle = f64::from(step) * std::f64::consts::PI / 32.0;
@@ -97,7 +97,7 @@ impl Canvas {
         self.write(&up, left - 6 - extent(&up), y);
     }
 
-    /// Writes from the left, and gives where the next letter would stand.
+    /// Writes a text from the left. Returns the position of the next letter.
     pub fn write(&mut self, text: &str, left: i64, top: i64) -> i64 {
         let mut place = left;
         for letter in spelled(text).chars() {
@@ -134,7 +134,7 @@ impl Canvas {
     }
 }
 
-/// Greek letters that have no dots, by their names.
+/// Spells out Greek letters that have no glyph.
 fn spelled(text: &str) -> String {
     let names = [
         ("α", "alpha"),

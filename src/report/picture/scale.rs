@@ -1,14 +1,14 @@
-//! Axes: what they show, from where to where, and where ticks stand.
+//! Axes of pictures: name, range, and ticks.
 
 use std::f64::consts::PI;
 
-/// About so many steps between ticks.
+/// Approximate number of steps between ticks.
 const STEPS: f64 = 5.0;
 
 /// An axis of a picture.
 #[derive(Clone, Debug)]
 pub struct Scale {
-    /// What it shows.
+    /// Name of the axis.
     pub name: String,
     from: f64,
     to: f64,
@@ -16,19 +16,19 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// l, a whole turn.
+    /// Axis of l over a whole turn.
     pub fn longitude() -> Self {
         let names = ["0", "π/2", "π", "3π/2", "2π"].into_iter().enumerate();
         let ticks = names.map(|(k, name)| (k as f64 * PI / 2.0, name.to_string())).collect();
         Self { name: "l".to_string(), from: 0.0, to: 2.0 * PI, ticks }
     }
 
-    /// L/G, from pole to pole.
+    /// Axis of L/G from pole to pole.
     pub fn height() -> Self {
         Self::new("L/G", -1.0, 1.0)
     }
 
-    /// Ticks at round numbers.
+    /// Axis with ticks at round numbers.
     pub fn new(name: &str, from: f64, to: f64) -> Self {
         let rough = (to - from).abs() / STEPS;
         let power = libm::pow(10.0, libm::floor(libm::log10(rough)));
@@ -46,17 +46,17 @@ impl Scale {
         Self { name: name.to_string(), from, to, ticks: (first..=last).map(tick).collect() }
     }
 
-    /// Where a value stands between the ends, from 0 to 1.
+    /// Position of a value between the ends, from 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.from) / (self.to - self.from)
     }
 
-    /// Ticks with their words.
+    /// Ticks with their labels.
     pub fn ticks(&self) -> &[(f64, String)] {
         &self.ticks
     }
 
-    /// Where the name of the axis stands: between the last two ticks.
+    /// Position of the axis name: between the last two ticks.
     pub fn name_at(&self) -> f64 {
         match &self.ticks[..] {
             [.., (a, _), (b, _)] => (a + b) / 2.0,
@@ -64,7 +64,7 @@ impl Scale {
         }
     }
 
-    /// The letters of the widest word beside the axis.
+    /// Number of letters of the widest label of the axis.
     pub fn widest(&self) -> usize {
         let words = self.ticks.iter().map(|(_, word)| word).chain([&self.name]);
         words.map(|word| word.chars().count()).max().unwrap_or(0)

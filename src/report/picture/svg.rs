@@ -1,4 +1,4 @@
-//! The picture as SVG: a path of round points for each colour.
+//! Pictures as SVG: a path of round points for each colour.
 
 use std::fmt::Write;
 
@@ -6,10 +6,10 @@ use super::palette::colour;
 use super::{Dot, Frame, Picture, Tint};
 use crate::report::diagram::escape;
 
-/// The diameter of a dot in pixels.
+/// Diameter of a dot in pixels.
 const DOT: f64 = 1.4;
 
-/// The beginning of a picture; dark where the reader prefers that.
+/// Opens a picture, with dark colours where the reader prefers them.
 pub(super) fn head(title: &str, frame: &Frame) -> String {
     let mut out = opening(title, frame);
     out.push_str(&format!(
@@ -34,7 +34,7 @@ fn opening(title: &str, frame: &Frame) -> String {
     )
 }
 
-/// The picture of a section within a page: the page has the paper, and its colour is the ink.
+/// Draws the picture of a section within a page, which provides the paper and the ink colour.
 pub fn inline_svg(picture: &Picture) -> String {
     let frame = picture.frame();
     let mut out = opening(&picture.title, &frame);
@@ -46,7 +46,7 @@ pub fn inline_svg(picture: &Picture) -> String {
     out + "</g>\n</svg>\n"
 }
 
-/// The picture of a section.
+/// Draws the picture of a section.
 pub fn svg(picture: &Picture) -> String {
     let frame = picture.frame();
     let mut out = head(&picture.title, &frame);
@@ -113,18 +113,18 @@ pub(super) fn axes(out: &mut String, frame: &Frame) {
     );
 }
 
-/// A colour as SVG writes it.
+/// Formats a colour for SVG.
 pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Points as strokes of no length, each relative to the one before.
+/// Draws points as strokes of length zero, each relative to the one before.
 fn path(out: &mut String, frame: &Frame, dots: &[Dot], attributes: &str) {
     if dots.is_empty() {
         return;
     }
     let _ = write!(out, "<path {attributes} d=\"");
-    // Tenths of a pixel.
+    // Positions in tenths of a pixel.
     let place = |dot: &Dot| {
         let tenths = |x: f64| (x * 10.0).round() as i64;
         (tenths(frame.x(dot.l)), tenths(frame.y(dot.z)))
@@ -141,7 +141,7 @@ fn path(out: &mut String, frame: &Frame, dots: &[Dot], attributes: &str) {
     out.push_str("\"/>\n");
 }
 
-/// A number of tenths as a decimal.
+/// Formats a number of tenths as a decimal.
 fn tenth(value: i64) -> String {
     let sign = if value < 0 { "-" } else { "" };
     let (whole, part) = (value.abs() / 10, value.abs() % 10);

@@ -1,11 +1,11 @@
-//! From a survey to a document: which sections there are, and what they say.
+//! Composition of the document of a survey: its sections and their contents.
 
 use super::document::{Block, Cell, Document, Section};
 use super::entry::{self, blocks, independence};
 use super::picture;
 use crate::survey::{Count, Finding, Integrals, Measure, Survey, Unknown};
 
-/// The document of a survey.
+/// Composes the document of a survey.
 pub fn document(survey: &Survey) -> Document {
     let sections = [
         Section::new("Where it stands", standing(survey)),
@@ -138,7 +138,7 @@ fn measure(survey: &Survey) -> Vec<Block> {
     found
 }
 
-/// Every sixth column and fourth row of the map, for formats without pictures.
+/// Table of every eighth column and fourth row of the map, for formats without pictures.
 fn table_of(map: &crate::survey::SphereMap) -> Block {
     let shown =
         |value: &Option<f64>| Cell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));

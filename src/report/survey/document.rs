@@ -1,46 +1,46 @@
-//! A report as sections of blocks, before any format: what is said, once for all formats.
+//! A report as sections of blocks, independent of the output format.
 
 use super::picture::Picture;
 use crate::formula::Layout;
 
 /// A whole report.
 pub struct Document {
-    /// The title of the case.
+    /// Title of the case.
     pub title: String,
-    /// One sentence on the system.
+    /// Description of the system in one sentence.
     pub lead: String,
-    /// The class, in a few words.
+    /// Class of the system, in a few words.
     pub headline: String,
-    /// Its parts.
+    /// Sections of the report.
     pub sections: Vec<Section>,
 }
 
-/// A part of a report.
+/// A section of a report.
 pub struct Section {
-    /// Its heading.
+    /// Heading of the section.
     pub title: &'static str,
-    /// What it says.
+    /// Contents of the section.
     pub blocks: Vec<Block>,
 }
 
-/// Something that is said.
+/// A block of a section.
 pub enum Block {
     /// A paragraph.
     Text(String),
-    /// Lines of a list.
+    /// Items of a list.
     List(Vec<String>),
-    /// Lines that are folded away where a format can: what they are, and they.
+    /// Heading and lines that are folded away where the format allows it.
     Folded(&'static str, Vec<String>),
     /// A claim with its verdict.
     Entry(Box<Entry>),
     /// A table with a heading.
     Table {
-        /// The heading.
+        /// Heading of each column.
         head: Vec<&'static str>,
-        /// The rows, as long as the heading.
+        /// Rows, as long as the heading.
         rows: Vec<Vec<Cell>>,
     },
-    /// A picture, for formats that have them.
+    /// A picture, for formats that support them.
     Picture(Picture),
 }
 
@@ -48,45 +48,45 @@ pub enum Block {
 pub enum Cell {
     /// Words.
     Text(String),
-    /// A formula, as typed and as set.
+    /// A formula, as typed and as typeset.
     Formula(String, Option<Layout>),
 }
 
 /// A claim with its verdict.
 pub struct Entry {
-    /// Does it hold, fail, or is it open?
+    /// Mark of the verdict.
     pub mark: Mark,
-    /// The verdict in a word.
+    /// Verdict in one word.
     pub verdict: &'static str,
-    /// Its name.
+    /// Name of the claim.
     pub name: String,
-    /// What it states, as typed.
+    /// Statement of the claim, as typed.
     pub statement: Option<String>,
-    /// The same as set.
+    /// Statement of the claim, as typeset.
     pub layout: Option<Layout>,
-    /// The names it uses: as typed, and as set.
+    /// Definitions of the names used: as typed, and as typeset.
     pub definitions: Vec<(String, Option<Layout>)>,
-    /// What the verdict says beside, in a few words.
+    /// Additional facts about the verdict, in a few words.
     pub remarks: Vec<String>,
-    /// Where the formula comes from.
+    /// Source of the formula.
     pub source: String,
-    /// On what grounds, line by line.
+    /// Grounds of the verdict, line by line.
     pub evidence: Vec<String>,
 }
 
-/// A verdict at a glance.
+/// Mark of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// It holds.
+    /// The claim holds.
     Holds,
-    /// It fails.
+    /// The claim fails.
     Fails,
-    /// It is not decided.
+    /// The claim is not decided.
     Open,
 }
 
 impl Mark {
-    /// The sign used in all formats.
+    /// Sign of the mark in all formats.
     pub fn sign(self) -> &'static str {
         match self {
             Mark::Holds => "✓",
@@ -97,7 +97,7 @@ impl Mark {
 }
 
 impl Section {
-    /// A section, unless it says nothing.
+    /// A section, or `None` if it has no contents.
     pub fn new(title: &'static str, blocks: Vec<Block>) -> Option<Self> {
         (!blocks.is_empty()).then_some(Self { title, blocks })
     }

@@ -1,4 +1,4 @@
-//! A finding as an entry of a report.
+//! Findings as entries of a report.
 
 use super::document::{Block, Entry, Mark};
 use crate::survey::Finding;
@@ -49,7 +49,7 @@ fn mark(verdict: Verdict) -> Mark {
     }
 }
 
-/// The claim that integrals are independent.
+/// Entry of the claim that integrals are independent.
 pub fn independence(claim: &ClaimReport) -> Block {
     Block::Entry(Box::new(Entry {
         mark: mark(claim.verdict),
@@ -64,7 +64,7 @@ pub fn independence(claim: &ClaimReport) -> Block {
     }))
 }
 
-/// What a verdict says beside.
+/// Additional facts about the verdict on a finding.
 fn remarks(finding: &Finding) -> Vec<String> {
     let evidence = &finding.claim.evidence;
     let mut remarks = Vec::new();
@@ -91,7 +91,7 @@ fn remarks(finding: &Finding) -> Vec<String> {
     remarks
 }
 
-/// Where a claim holds, in words.
+/// Domain on which a claim holds, in words.
 fn place(holds: &[String]) -> Option<String> {
     Some(match holds.first()?.as_str() {
         "everywhere" => "everywhere".to_string(),
@@ -100,7 +100,7 @@ fn place(holds: &[String]) -> Option<String> {
     })
 }
 
-/// The grounds of a verdict, line by line.
+/// Grounds of a verdict, line by line.
 pub fn grounds(evidence: &Evidence) -> Vec<String> {
     let mut lines: Vec<String> =
         evidence.climb.iter().map(|rung| format!("{}: {}", rung.rung, rung.found)).collect();
@@ -112,7 +112,7 @@ pub fn grounds(evidence: &Evidence) -> Vec<String> {
     lines
 }
 
-/// A state at which a claim fails, as `eval` takes it.
+/// State at which a claim fails, in the notation of `eval`.
 pub fn witness(witness: &Witness) -> String {
     let set = witness.parameters.iter().map(|(name, value)| format!("--set '{name}={value}' "));
     format!(

@@ -1,12 +1,12 @@
-//! A document as one HTML page that needs nothing beside itself: formulas as MathML, pictures as
-//! SVG, evidence folded, light and dark as the reader's system is.
+//! A document as one self-contained HTML page: formulas as MathML, pictures as SVG, evidence
+//! folded, light or dark as the reader's system.
 
 use super::document::{Block, Cell, Document, Entry, Mark};
 use crate::report::typeset::mathml::{escaped, formula};
 
 const STYLE: &str = include_str!("page.css");
 
-/// The whole page.
+/// Renders the whole page.
 pub fn render(document: &Document) -> String {
     let title = escaped(&document.title);
     let mut out = format!(

@@ -6,7 +6,7 @@ use crate::report::typeset::latex::{escaped, formula};
 const HEAD: &str = "% XeLaTeX or LuaLaTeX\n\\documentclass[a4paper,11pt]{article}\n\\usepackage{amsmath,amssymb,longtable,fontspec}\n\
 \\usepackage[margin=25mm]{geometry}\n\\setmainfont{DejaVu Serif}\n\\setmonofont{DejaVu Sans Mono}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{4pt}\n";
 
-/// The whole document.
+/// Renders the whole document.
 pub fn render(document: &Document) -> String {
     let mut out = format!(
         "{HEAD}\\title{{{}}}\n\\date{{}}\n\\begin{{document}}\n\\maketitle\n",
@@ -36,7 +36,7 @@ fn set(block: &Block) -> String {
             }
             out + "\\end{longtable}\n"
         }
-        // LaTeX has no SVG of its own; the page has the pictures.
+        // LaTeX does not support SVG; the HTML page has the pictures.
         Block::Picture(_) => String::new(),
     }
 }

@@ -3,7 +3,7 @@
 use super::document::{Block, Cell, Document, Entry};
 use crate::report::typeset::latex::formula;
 
-/// The whole document.
+/// Renders the whole document.
 pub fn render(document: &Document) -> String {
     let mut out = format!("# {}\n", document.title);
     for section in &document.sections {
@@ -78,7 +78,7 @@ fn entry(entry: &Entry) -> String {
     out
 }
 
-/// What Markdown would read as markup.
+/// Escapes the characters that Markdown would read as markup.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

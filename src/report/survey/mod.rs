@@ -1,10 +1,10 @@
-//! What is known about a system, for people: on a terminal, as Markdown, LaTeX and one HTML page.
+//! Reports of surveys: on a terminal, as Markdown, LaTeX and one HTML page.
 //!
 //! ```text
 //! Survey ─ compose ─▶ Document ─▶ terminal, markdown, latex, html
 //! ```
 //!
-//! What is said is said once, in `compose`; a format only sets it.
+//! The content is made once, in `compose`; a format only typesets it.
 
 mod compose;
 mod document;
@@ -21,28 +21,28 @@ use crate::survey::Survey;
 
 pub use terminal::Style;
 
-/// The survey as JSON.
+/// Renders the survey as JSON.
 pub fn json(survey: &Survey) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(survey)
 }
 
-/// The survey for a terminal.
+/// Renders the survey for a terminal.
 pub fn text(survey: &Survey, style: Style) -> String {
     terminal::render(&compose::document(survey), style)
 }
 
-/// The survey as Markdown, with formulas as LaTeX between dollars.
+/// Renders the survey as Markdown, with formulas as LaTeX between dollars.
 pub fn markdown(survey: &Survey) -> String {
     markdown::render(&compose::document(survey))
 }
 
-/// The survey as a LaTeX document, for XeLaTeX or LuaLaTeX.
+/// Renders the survey as a LaTeX document, for XeLaTeX or LuaLaTeX.
 pub fn latex(survey: &Survey) -> String {
     latex::render(&compose::document(survey))
 }
 
-/// The survey as one self-contained HTML page, with a section of the body's motion, or the reason why
-/// there is none.
+/// Renders the survey as one self-contained HTML page, with a section of the body's motion, or the
+/// reason why there is none.
 pub fn html(survey: &Survey, motion: Result<&Portrait, &FlowError>) -> String {
     let mut document = compose::document(survey);
     document.insert_motion(motion);

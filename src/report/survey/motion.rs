@@ -1,15 +1,15 @@
-//! The section of a body's motion in a document.
+//! Poincaré section of a body's motion in a document.
 
 use super::document::{Block, Document, Section};
 use super::picture::Picture;
 use crate::flow::{FlowError, Portrait};
 use crate::report::{picture as drawn, section};
 
-/// The width of the picture in pixels.
+/// Width of the picture in pixels.
 const WIDTH: u32 = 640;
 
 impl Document {
-    /// Puts the section behind the system's description.
+    /// Inserts the section after the system's description.
     pub(super) fn insert_motion(&mut self, motion: Result<&Portrait, &FlowError>) {
         let blocks = match motion {
             Ok(portrait) => blocks(portrait),

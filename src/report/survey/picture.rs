@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use crate::survey::{Class, SphereMap, Standing, Wireframe};
 
-/// A picture with what it shows.
+/// A picture with its caption.
 pub struct Picture {
-    /// The picture, an `svg` element.
+    /// SVG element of the picture.
     pub svg: String,
-    /// What it shows, in words.
+    /// Caption of the picture.
     pub caption: String,
 }
 
@@ -19,10 +19,10 @@ fn svg(width: f64, height: f64, caption: &str, inner: &str) -> String {
     )
 }
 
-/// The body, seen from a little above, lines on the far side pale.
+/// Draws the body, seen from slightly above, with pale lines on the far side.
 pub fn body(frame: &Wireframe) -> Picture {
     const SIZE: f64 = 260.0;
-    // An orthonormal frame of the picture: right, up, towards the eye.
+    // Orthonormal frame of the picture: right, up, towards the eye.
     let (right, up, eye) = ([-0.6, 0.8, 0.0], [-0.32, -0.24, 0.9165], [0.7332, 0.5499, 0.4]);
     let along = |a: [f64; 3], b: [f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let reach = frame.lines.iter().flatten().map(|(r, _)| along(*r, *r).sqrt()).fold(0.0, f64::max);
@@ -60,7 +60,7 @@ pub fn body(frame: &Wireframe) -> Picture {
     Picture { svg: svg(SIZE, SIZE, &caption, &inner), caption }
 }
 
-/// A function on the sphere, longitude to the right and latitude upwards.
+/// Draws a function on the sphere, longitude to the right and latitude upwards.
 pub fn sphere(map: &SphereMap) -> Picture {
     const CELL: f64 = 11.0;
     const LEFT: f64 = 44.0;
@@ -68,7 +68,7 @@ pub fn sphere(map: &SphereMap) -> Picture {
     let values = map.values.iter().flatten().flatten();
     let (low, high) = values
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
-    // The criterion has two signs, and 0 in the middle.
+    // The criterion has both signs, and 0 in the middle of the scale.
     let is_signed = map.quantity == "C";
     let (low, high) = match is_signed {
         true => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
@@ -125,7 +125,7 @@ pub fn sphere(map: &SphereMap) -> Picture {
     Picture { svg: svg(bar + 82.0, TOP + height + 26.0, &caption, &inner), caption }
 }
 
-/// Dark to light, readable without colours too.
+/// Colour scale from dark to light, legible without colours too.
 const RISING: [[f64; 3]; 5] = [
     [59.0, 15.0, 112.0],
     [49.0, 87.0, 149.0],
@@ -133,7 +133,7 @@ const RISING: [[f64; 3]; 5] = [
     [94.0, 201.0, 98.0],
     [250.0, 230.0, 60.0],
 ];
-/// Negative, zero, positive.
+/// Colour scale of negative, zero and positive values.
 const SIGNED: [[f64; 3]; 5] = [
     [33.0, 72.0, 150.0],
     [130.0, 170.0, 215.0],
@@ -150,7 +150,7 @@ fn mixed(stops: &[[f64; 3]], share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", part(0), part(1), part(2))
 }
 
-/// The four classes, that of the system marked.
+/// Draws the four classes, with that of the system marked.
 pub fn hierarchy(standing: &Standing) -> Picture {
     const WIDE: f64 = 150.0;
     const HIGH: f64 = 52.0;

@@ -4,14 +4,14 @@ use comfy_table::{ContentArrangement, Table, presets};
 
 use super::document::{Block, Cell, Document, Entry, Mark};
 
-/// How much is shown, and whether in colour.
+/// Style of the output.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Show the grounds of each verdict.
+    /// Whether to show the grounds of each verdict.
     pub verbose: bool,
-    /// Use colours.
+    /// Whether to use colours.
     pub colour: bool,
-    /// The width to lay out for.
+    /// Width to lay out for.
     pub width: u16,
 }
 
@@ -27,7 +27,7 @@ impl Style {
     }
 }
 
-/// The whole document.
+/// Renders the whole document.
 pub fn render(document: &Document, style: Style) -> String {
     let mut out = format!("{}\n", style.painted(&document.title, BOLD));
     for section in &document.sections {
@@ -99,7 +99,7 @@ fn table(head: &[&str], rows: &[Vec<Cell>], style: Style) -> String {
     table.trim_fmt().lines().map(|line| format!("   {line}\n")).collect()
 }
 
-/// Lines no longer than the terminal is wide; words stay whole.
+/// Wraps a text to the width of the terminal; words stay whole.
 fn wrapped(text: &str, first: &str, next: &str, width: u16) -> String {
     let mut out = String::from(first);
     let mut length = first.chars().count();

@@ -1,9 +1,9 @@
-//! The paper's tables as Markdown and as LaTeX.
+//! Tables of the paper as Markdown and as LaTeX.
 
 use super::{CellClaim, Filled, Regenerated};
 use crate::report::typeset::latex::escaped;
 
-/// A Markdown table: rows as in the paper, verdicts as links.
+/// Renders a Markdown table: rows as in the paper, verdicts as links.
 pub fn markdown(table: &Regenerated) -> String {
     let mut out = format!("| Table {} |", table.table);
     for column in &table.columns {
@@ -25,7 +25,7 @@ pub fn markdown(table: &Regenerated) -> String {
     out
 }
 
-/// A LaTeX table, one paragraph column a body.
+/// Renders a LaTeX table, with one paragraph column for each body.
 pub fn latex(table: &Regenerated) -> String {
     let count = table.columns.len();
     let width = 0.86 / count.max(1) as f64;
@@ -58,7 +58,7 @@ pub fn latex(table: &Regenerated) -> String {
     out
 }
 
-/// The words of a cell and its claims, or a dash.
+/// Joins the words of a cell and its claims, or returns a dash.
 fn joined(
     cell: &Filled,
     words: impl Fn(&str) -> String,

@@ -1,9 +1,9 @@
-//! LaTeX mathematics: commands of amsmath and nothing else.
+//! Formulas in LaTeX, with commands of amsmath only.
 
 use super::mathml::without_tilde;
 use crate::formula::{Layout, Type};
 
-/// The formula between dollars, without them.
+/// Renders a formula in math mode, without the dollars.
 pub fn formula(layout: &Layout) -> String {
     match layout {
         Layout::Number(digits) => digits.clone(),
@@ -72,7 +72,7 @@ fn letters_of(text: &str) -> String {
     text.chars().map(letters).collect::<String>().trim_end().to_string()
 }
 
-/// Greek letters by name.
+/// Greek letters as commands.
 fn letters(letter: char) -> String {
     let name = match letter {
         'α' => "alpha",
@@ -113,7 +113,7 @@ fn letters(letter: char) -> String {
     format!("\\{name} ")
 }
 
-/// What LaTeX would read as a command.
+/// Escapes the characters that LaTeX would read as commands.
 pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

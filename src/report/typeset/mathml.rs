@@ -1,19 +1,19 @@
-//! MathML Core: what browsers typeset by themselves.
+//! Formulas in MathML Core, which browsers typeset natively.
 
 use crate::formula::{Layout, Type};
 
-/// A formula in a line, or by itself where `display`.
+/// Renders a formula in a line, or as a block if `display`.
 pub fn formula(layout: &Layout, display: bool) -> String {
     let style = if display { " display=\"block\"" } else { "" };
     format!("<math{style}>{}</math>", row(layout))
 }
 
-/// What XML would read as a tag.
+/// Escapes the characters that XML would read as markup.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A box as one element.
+/// Renders a box as one element.
 fn row(layout: &Layout) -> String {
     match layout {
         Layout::Number(digits) => format!("<mn>{}</mn>", escaped(digits)),
@@ -71,7 +71,7 @@ fn name(letter: &str, kind: Type, index: &str, primes: usize) -> String {
     }
 }
 
-/// A letter, and whether it had a tilde.
+/// Letter without its tilde, and whether it had one.
 pub fn without_tilde(letter: &str) -> (String, bool) {
     match letter.strip_suffix('\u{303}') {
         Some(rest) => (rest.to_string(), true),

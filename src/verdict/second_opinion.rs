@@ -1,0 +1,312 @@
+//! Check of proofs by enclosures at states with many combinations of signs.
+//!
+//! A proof with roots and moduli is about cells, one for each combination of signs. The states of
+//! the first block may all lie in one of them. States in further cells are drawn inside and at the
+//! ends of the ranges, and then found by bisection between two states whose signs differ. The
+//! residual is enclosed at each of them. An enclosure that excludes 0 contradicts the proof; that is
+//! an error of the program, and is reported as one.
+
+use std::collections::VecDeque;
+
+use num_integer::Integer;
+use rustc_hash::FxHashSet;
+
+use super::antiderivative_value;
+use super::bench::Bench;
+use super::evidence::Verdict;
+use super::finding::undecide;
+use super::ladder::Open;
+use super::recorded::Recorded;
+use super::sampler::{LANES, Sampler};
+use super::witness::witness;
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
+use crate::mechanics::Draw;
+use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
+use crate::number::{Domain, Function, Operation};
+use crate::proof::Group;
+
+/// Largest number of values whose signs are distinguished.
+const MOST_SIGNS: usize = 32;
+/// Number of blocks of states drawn inside the ranges, and of those drawn at their ends.
+const BLOCKS: u64 = 2;
+/// Largest number of blocks of states found by bisection.
+const MOST_BLOCKS_BETWEEN: usize = 12;
+/// Largest number of pairs of states for bisection, followed by that of halvings for each.
+const MOST_PAIRS: usize = 32;
+const MOST_HALVINGS: u32 = 24;
+
+/// One number for each draw: an f64, and whether it is exact.
+type Numbers = Vec<(f64, bool)>;
+
+/// Signs at a state, two bits each; `None` where there is no state.
+type Signs = Option<u64>;
+
+/// A contradiction: the drawn numbers, and an enclosure of the residual.
+type Contradiction = (Numbers, (f64, f64));
+
+impl Bench<'_> {
+    /// Encloses the residuals of proved claims in all cells found; a contradiction leaves the claim
+    /// undecided.
+    pub(super) fn second_opinion(
+        &self,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), Fault> {
+        if sampler.is_numerical() {
+            return Ok(());
+        }
+        for (item, finding) in open.iter_mut() {
+            let is_proved = finding.settled == Some(Verdict::Proved) && finding.is_zero;
+            if !is_proved || !self.has_cells(sampler, item) {
+                continue;
+            }
+            if let Some((numbers, residual)) = self.contradiction(sampler, item)? {
+                let exact = |(value, _): &(f64, bool)| Rational::from_f64(*value);
+                let numbers: Option<Vec<Rational>> = numbers.iter().map(exact).collect();
+                let printed = sampler.printed_from(&numbers.unwrap_or_default(), BITS_PRINTED);
+                let found = witness(self.case, None, &printed, residual);
+                let parameters: Vec<String> = found
+                    .parameters
+                    .iter()
+                    .map(|(name, value)| format!("{name}={value}"))
+                    .collect();
+                finding.evidence.proof = None;
+                undecide(
+                    finding,
+                    format!(
+                        "internal error: a proof contradicts the residual {:.3e} ± {:.1e} at {} {}; \
+                         please report this file",
+                        residual.0,
+                        residual.1,
+                        parameters.join(" "),
+                        found.state
+                    ),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a proof of the claim has more than one cell, as far as its expressions show.
+    fn has_cells(&self, sampler: &Sampler, item: &Recorded<'_>) -> bool {
+        let outputs = item.residual.iter().chain(&item.requirement).copied();
+        !signs(self.graph, outputs).is_empty()
+            || !signs(sampler.graph(), sampler.made().iter().copied()).is_empty()
+    }
+
+    /// Searches for a state at which the residual is not 0.
+    fn contradiction(
+        &self,
+        sampler: &Sampler,
+        item: &Recorded<'_>,
+    ) -> Result<Option<Contradiction>, Fault> {
+        let required = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
+        let group = Group { outputs: item.residual.clone(), required };
+        let open = vec![None; sampler.recipes().len()];
+        let (graph, groups) = sampler.compose_groups(self.graph, &[group], &open)?;
+        let Some(group) = groups.into_iter().next() else { return Ok(None) };
+        let all = group.outputs.iter().chain(&group.required).copied();
+        let signs = signs(&graph, all.clone());
+        let outputs: Vec<Expr> = signs.iter().map(|place| graph.at(*place)).chain(all).collect();
+        let tape = Tape::new(&graph, &outputs);
+        let free = graph.inputs().saturating_sub(sampler.recipes().len());
+        let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
+        let mut search = Search {
+            evaluator: Evaluator::new(&tape, Ball::<LANES>),
+            is_range: sampler.recipes().iter().map(is_range).collect(),
+            further: (0..free).map(|k| Ball::<LANES>.constant(&antiderivative_value(k))).collect(),
+            signs: signs.len(),
+            residuals: group.outputs.len(),
+        };
+        let mut states = Vec::new();
+        for start in 0..BLOCKS {
+            let indices = (1 + start) * LANES as u64..(2 + start) * LANES as u64;
+            states.extend(indices.clone().map(|index| sampler.nearest_draws(index)));
+            states.extend(indices.map(|index| sampler.nearest_edge(index)));
+        }
+        Ok(search.run(states))
+    }
+}
+
+/// Precision in bits of a printed state that contradicts a proof.
+const BITS_PRINTED: u32 = 53;
+
+/// A search for states with further combinations of signs.
+struct Search<'t> {
+    evaluator: Evaluator<'t, Ball<LANES>>,
+    /// Whether each draw is from a range.
+    is_range: Vec<bool>,
+    /// Values of antiderivatives, which follow the draws.
+    further: Vec<Balls<LANES>>,
+    signs: usize,
+    residuals: usize,
+}
+
+impl Search<'_> {
+    /// Tests some states, and states between those whose signs differ.
+    fn run(&mut self, states: Vec<Numbers>) -> Option<Contradiction> {
+        let mut first: Vec<(Numbers, Signs)> = Vec::new();
+        for block in states.chunks(LANES) {
+            match self.look(block) {
+                Ok(signs) => first.extend(block.iter().cloned().zip(signs)),
+                Err(contradiction) => return Some(contradiction),
+            }
+        }
+        let differ = |pair: &&[(Numbers, Signs)]| pair[0].1 != pair[1].1;
+        let pairs = first.windows(2).filter(differ).take(MOST_PAIRS);
+        let mut open: VecDeque<_> =
+            pairs.map(|pair| (pair[0].clone(), pair[1].clone(), MOST_HALVINGS)).collect();
+        for _ in 0..MOST_BLOCKS_BETWEEN {
+            let taken: Vec<_> = open.drain(..open.len().min(LANES)).collect();
+            if taken.is_empty() {
+                return None;
+            }
+            let between: Vec<Numbers> =
+                taken.iter().map(|(a, b, _)| self.middle(&a.0, &b.0)).collect();
+            let found = match self.look(&between) {
+                Ok(signs) => signs,
+                Err(contradiction) => return Some(contradiction),
+            };
+            for (((a, b, left), numbers), signs) in taken.into_iter().zip(between).zip(found) {
+                let mid = (numbers, signs);
+                if left > 0 && a.1 != signs {
+                    open.push_back((a, mid.clone(), left - 1));
+                }
+                if left > 0 && b.1 != signs {
+                    open.push_back((mid, b, left - 1));
+                }
+            }
+        }
+        None
+    }
+
+    /// Returns the signs at a block of states; fails with a state that contradicts the proof.
+    fn look(&mut self, states: &[Numbers]) -> Result<Vec<Signs>, Contradiction> {
+        let last = states.len() - 1;
+        let width = states[0].len();
+        let column = |k: usize| Balls::about(|lane| states[lane.min(last)][k]);
+        let mut columns: Vec<Balls<LANES>> = (0..width).map(column).collect();
+        columns.extend(self.further.iter().cloned());
+        self.evaluator.run(&columns);
+        let outputs: Vec<&Balls<LANES>> = self.evaluator.outputs().collect();
+        let (signs, values) = outputs.split_at(self.signs);
+        let (residuals, required) = values.split_at(self.residuals);
+        let mut found = Vec::with_capacity(states.len());
+        for (lane, numbers) in states.iter().enumerate() {
+            if !required.iter().all(|block| block.is_defined(lane)) {
+                found.push(None);
+                continue;
+            }
+            let away = residuals.iter().find(|block| block.excludes_zero(lane));
+            if let (Some(away), true) = (away, residuals.iter().all(|r| r.is_defined(lane))) {
+                return Err((numbers.clone(), (away.mid[lane], away.rad[lane])));
+            }
+            let code = |block: &Balls<LANES>| match block.excludes_zero(lane) {
+                true => 1 + u64::from(block.mid[lane] > 0.0),
+                false => 0,
+            };
+            let all = signs.iter().fold(0, |all, block| all << 2 | code(block));
+            found.push(Some(all));
+        }
+        Ok(found)
+    }
+
+    /// Returns the midpoint of two states, with the listed values of the first.
+    fn middle(&self, a: &Numbers, b: &Numbers) -> Numbers {
+        let half = |((a, b), is_range): ((&(f64, bool), &(f64, bool)), &bool)| match is_range {
+            true => (a.0 + (b.0 - a.0) / 2.0, true),
+            false => *a,
+        };
+        a.iter().zip(b).zip(&self.is_range).map(half).collect()
+    }
+}
+
+/// Finds the places of values whose signs divide the states into cells: arguments of moduli, and
+/// factors under roots of even index.
+fn signs(graph: &Graph, outputs: impl IntoIterator<Item = Expr>) -> Vec<usize> {
+    let reached = graph.reached(outputs);
+    let mut found = Vec::new();
+    let mut seen = FxHashSet::default();
+    let mut add = |place: usize| {
+        if seen.insert(place) && !matches!(graph.step(place), Step::Constant(_)) {
+            found.push(place);
+        }
+    };
+    for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        match step {
+            Step::Unary(Function::Abs, argument) => add(argument),
+            Step::Unary(Function::Sqrt, radicand) => factors(graph, radicand, &mut add),
+            Step::Power(radicand, exponent) if exponent.parts().1.is_even() => {
+                factors(graph, radicand, &mut add);
+            }
+            _ => {}
+        }
+    }
+    found.truncate(MOST_SIGNS);
+    found
+}
+
+/// Finds the factors of a radicand that may change sign where the radicand does not.
+fn factors(graph: &Graph, radicand: usize, add: &mut impl FnMut(usize)) {
+    let mut open = vec![radicand];
+    while let Some(place) = open.pop() {
+        match graph.step(place) {
+            Step::Binary(Operation::Mul, a, b) => open.extend([a, b]),
+            Step::Unary(Function::Neg | Function::Recip, a) | Step::Power(a, _) => open.push(a),
+            // the sign of the whole radicand is known
+            _ if place == radicand => {}
+            _ => add(place),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::record;
+    use crate::mechanics::Phase;
+    use crate::mechanics::calculus::Jet;
+    use crate::verdict::Options;
+    use crate::verdict::recorded::Common;
+
+    /// Finds the residual at a state that contradicts `identity`, with y' = 0 and a given range of x.
+    fn found(range: &str, identity: &str) -> Option<f64> {
+        let text = format!(
+            "title = \"signs\"\nsystem = \"field\"\n[state]\nx = \"{range}\"\ny = \"1..2\"\n\
+             [field]\nx = \"y\"\ny = \"0\"\n[[claim]]\nidentity = \"{identity} = 0\"\n"
+        );
+        let case = crate::case::Case::parse(&text, &[]).expect("a case");
+        let (model, claim) = (&case.model, &case.claims[0]);
+        let inputs = model.free_components() + model.dimension();
+        let (graph, (common, item)) = record(inputs, |inputs| {
+            let jet = Jet::new(Phase::new(model, &[], inputs));
+            (Common::of(&jet), Recorded::new(claim, &jet))
+        })
+        .expect("records");
+        let options = Options::default();
+        let bench =
+            Bench { case: &case, common: &common, options: &options, graph: &graph, inputs };
+        let sampler = Sampler::new(&case, &claim.place, 1).expect("samples");
+        assert!(bench.has_cells(&sampler, &item), "{identity} has cells");
+        bench.contradiction(&sampler, &item).expect("looks").map(|(_, (residual, _))| residual)
+    }
+
+    #[test]
+    fn cells_at_the_end_of_a_range_are_looked_at() {
+        assert!(found("-0.0001..2", "abs(x) - x").is_some_and(|residual| residual > 0.0));
+        assert!(found("-1..2000000", "sqrt(x^2*y) - x*sqrt(y)").is_some());
+    }
+
+    #[test]
+    fn thin_cells_between_two_others_are_looked_at() {
+        let identity = "abs(x - 1.4) + abs(x - 1.40001) - abs(2*x - 2.80001)";
+        assert!(found("0..2", identity).is_some_and(|residual| residual > 0.0));
+    }
+
+    #[test]
+    fn true_identities_are_not_contradicted() {
+        assert_eq!(found("-1..2", "abs(x)*abs(x) - x^2"), None);
+        assert_eq!(found("-1..2", "sqrt(x^2*y) - abs(x)*sqrt(y)"), None);
+    }
+}
