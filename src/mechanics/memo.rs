@@ -57,8 +57,8 @@ impl<T: Scalar> Memo<T> {
     }
 }
 
-/// Evaluates the formulas that the formula of `symbol` uses before it. `formula` returns the formula
-/// of a symbol that has no value yet.
+/// Evaluates the formulas that the formula of `symbol` uses before it. `formula` returns the
+/// formula of a symbol that has no value yet.
 fn settle<'f>(
     symbol: Symbol,
     formula: impl Fn(Symbol) -> Option<&'f Formula>,
