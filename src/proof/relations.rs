@@ -144,7 +144,7 @@ impl<'g> Relations<'g> {
         None
     }
 
-    /// Proves that the places' values are the combinations.
+    /// Whether the values at the places are proved to be the combinations.
     fn verify(&self, places: &[usize], basis: &[usize], combinations: &[Combination]) -> bool {
         self.vanish(places, &|values| {
             places
@@ -161,7 +161,7 @@ impl<'g> Relations<'g> {
         })
     }
 
-    /// Proves that some functions of the values at these places vanish.
+    /// Whether some functions of the values at these places are proved to vanish.
     fn vanish(&self, places: &[usize], defects: &Defects<'_>) -> bool {
         let reached = self.graph.reached_from(places);
         let recorded = record(self.sources.len(), |inputs| {

@@ -3,8 +3,8 @@
 //! A proof with roots and moduli is about cells, one for each combination of signs. The states of
 //! the first block may all lie in one of them. States in further cells are drawn inside and at the
 //! ends of the ranges, and then found by bisection between two states whose signs differ. The
-//! residual is enclosed at each of them. An enclosure that excludes 0 contradicts the proof; that is
-//! an error of the program, and is reported as one.
+//! residual is enclosed at each of them. An enclosure that excludes 0 contradicts the proof; that
+//! is an error of the program, and is reported as one.
 
 use std::collections::VecDeque;
 
@@ -270,7 +270,8 @@ mod tests {
     use crate::verdict::Options;
     use crate::verdict::recorded::Common;
 
-    /// Finds the residual at a state that contradicts `identity`, with y' = 0 and a given range of x.
+    /// Finds the residual at a state that contradicts `identity`, with y' = 0 and a given range of
+    /// x.
     fn found(range: &str, identity: &str) -> Option<f64> {
         let text = format!(
             "title = \"signs\"\nsystem = \"field\"\n[state]\nx = \"{range}\"\ny = \"1..2\"\n\
