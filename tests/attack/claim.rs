@@ -154,7 +154,14 @@ impl Claim {
                 let (a, b) = super::real::both(plain.value(a), plain.value(b))?;
                 Ok(vec![difference(&a, &b)?])
             }
-            Claim::Integral(f) => Ok(vec![along(&place.jet(f)?, &flow()?)?]),
+            Claim::Integral(f) => {
+                let flow = flow()?;
+                // Where nothing moves, |x| is kept at x = 0, too.
+                if flow.iter().all(|rate| is_zero(&rate.value)) {
+                    return place.value(f).map(|_| vec![whole(0)]);
+                }
+                Ok(vec![along(&place.jet(f)?, &flow)?])
+            }
             Claim::Rate(f, g) => {
                 let (f, g) = super::real::both(place.jet(f), place.value(g))?;
                 Ok(vec![difference(&along(&f, &flow()?)?, &g)?])

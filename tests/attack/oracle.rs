@@ -122,7 +122,11 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
         }
     };
     let mut seen: Vec<(Point, u64)> = Vec::new();
-    for index in 0..60 * effort {
+    // A branch of a level may have few states in its ranges.
+    for index in 0..600 * effort {
+        if index >= 60 * effort && (scene.level.is_none() || seen.len() >= 20 * effort) {
+            break;
+        }
         let point = scene.point(stream, index % 3 == 2);
         if let Some(found) = sight(&point) {
             note(&point, found);

@@ -7,7 +7,7 @@ use liouville::verdict::{ClaimReport, Options, Verdict, Witness, judge};
 use num_bigint::BigInt;
 
 use super::jet::Place;
-use super::real::{Found, Lack, Real, difference, height, is_zero, whole};
+use super::real::{Found, Real, difference, height, is_zero, whole};
 use super::scene::{Origin, Scene};
 
 /// The answer on a claim.
@@ -100,7 +100,8 @@ pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, 
         let value = match &symbol.origin {
             Origin::Fixed(n) => Ok(super::real::number(*n)),
             Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
-            Origin::Input(..) => Err(Lack::Decision),
+            // No claim names the input of a chart, and the witness gives what depends on it.
+            Origin::Input(..) => Ok(whole(0)),
             Origin::State(..) | Origin::Range(..) | Origin::List(_) => {
                 let value = read(given(&symbol.name)?)?;
                 if scene.is_out_of_range(place, &value) {

@@ -227,7 +227,15 @@ fn beside(
             wrong.then_some(Wrong::OtherSign)
         }
         (Claim::Integral(f), _, Some(independence)) => {
-            let survey = in_cells(scene, &Claim::Independent(vec![f.clone()]), stream, 1);
+            let claim = Claim::Independent(vec![f.clone()]);
+            let efforts = [1, 6, 30].into_iter();
+            let mut surveys = efforts.map(|effort| in_cells(scene, &claim, stream, effort));
+            let Some(mut survey) = surveys.next() else { return None };
+            // A cell in which it is new may be thin.
+            while survey.off == 0 && independence == Independence::Independent {
+                let Some(next) = surveys.next() else { break };
+                survey = next;
+            }
             let wrong = match independence {
                 Independence::Independent => {
                     survey.off == 0 && survey.zero > 0 && survey.unsure == 0
