@@ -238,7 +238,9 @@ fn beside(
             }
             let wrong = match independence {
                 Independence::Independent => {
-                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0
+                    // States of a chart outside the declared ranges are none to the oracle.
+                    let is_charted = scene.level.as_ref().is_some_and(|l| l.chart.is_some());
+                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0 && !is_charted
                 }
                 Independence::Constant | Independence::General => survey.off > 0,
             };
