@@ -75,6 +75,11 @@ impl Draws {
         self.picked(seed, index, 0, Source::edge)
     }
 
+    /// Returns the f64 nearest to each number of [`Draws::edge`], and whether it is exact.
+    pub fn nearest_edge(&self, seed: u64, index: u64) -> Vec<(f64, bool)> {
+        self.picked(seed, index, 0, Source::nearest_edge)
+    }
+
     /// Returns the f64 nearest to each number, and whether it is exact.
     pub fn nearest(&self, seed: u64, index: u64, attempt: u32) -> Vec<(f64, bool)> {
         self.picked(seed, index, attempt, Source::nearest)
@@ -149,6 +154,18 @@ impl Source {
 impl Source {
     /// Draws a number near one of both ends or 0, or any number, up to a thousandth of the range.
     fn edge(&self, bits: u64, is_short: bool) -> Rational {
+        let (near, bits) = self.near(bits);
+        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
+    }
+
+    /// Returns the f64 nearest to [`Source::edge`], and whether it is exact.
+    fn nearest_edge(&self, bits: u64, is_short: bool) -> (f64, bool) {
+        let (near, bits) = self.near(bits);
+        near.map_or_else(|| self.nearest(bits, is_short), |near| (near, true))
+    }
+
+    /// Draws a number near an end or 0, if one of those is drawn, and the bits that are left.
+    fn near(&self, bits: u64) -> (Option<f64>, u64) {
         const NEAR: f64 = 1.0 / 1024.0;
         let (place, bits) = (bits % 4, bits >> 2 << 2);
         let near = match self {
@@ -163,7 +180,7 @@ impl Source {
             }
             _ => None,
         };
-        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
+        (near, bits)
     }
 }
 
@@ -311,6 +328,8 @@ mod tests {
         assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
         assert!(found.iter().any(|x| *x > 999.0), "near the upper end");
         assert!(found.iter().any(|x| (2.0..998.0).contains(x)), "anywhere");
+        let nearest: Vec<f64> = (0..64).map(|k| draws.nearest_edge(1, k)[0].0).collect();
+        assert_eq!(nearest, found, "the same numbers");
     }
 
     #[test]

@@ -357,7 +357,7 @@ impl Sampler {
 
     /// Returns the draws of a state near the ends of ranges, in f64.
     pub fn nearest_edge(&self, index: u64) -> Vec<(f64, bool)> {
-        self.draws.edge(self.seed, index).iter().map(Rational::to_f64).collect()
+        self.draws.nearest_edge(self.seed, index)
     }
 
     /// Number of draws for the parameters.

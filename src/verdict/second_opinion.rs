@@ -29,7 +29,7 @@ use crate::proof::Group;
 /// Largest number of values whose signs are distinguished.
 const MOST_SIGNS: usize = 32;
 /// Number of blocks of states drawn inside the ranges, and of those drawn at their ends.
-const BLOCKS: u64 = 2;
+const BLOCKS: u64 = 1;
 /// Largest number of blocks of states found by bisection.
 const MOST_BLOCKS_BETWEEN: usize = 12;
 /// Largest number of pairs of states for bisection, followed by that of halvings for each.

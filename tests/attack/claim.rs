@@ -163,8 +163,13 @@ impl Claim {
                 Ok(vec![along(&place.jet(f)?, &flow)?])
             }
             Claim::Rate(f, g) => {
+                let flow = flow()?;
+                if flow.iter().all(|rate| is_zero(&rate.value)) {
+                    let (_, g) = super::real::both(place.value(f), place.value(g))?;
+                    return Ok(vec![g]);
+                }
                 let (f, g) = super::real::both(place.jet(f), place.value(g))?;
-                Ok(vec![difference(&along(&f, &flow()?)?, &g)?])
+                Ok(vec![difference(&along(&f, &flow)?, &g)?])
             }
             Claim::Relation(f, cofactor) => {
                 let (f, cofactor) = super::real::both(place.jet(f), place.value(cofactor))?;

@@ -90,6 +90,10 @@ impl Scout<'_> {
                 if *top < 0 && self.sign(a) == 0 {
                     return None;
                 }
+                if top % 2 == 0 {
+                    // √(a²) has a corner where a is 0.
+                    self.sign(a);
+                }
                 let n = i32::try_from(*top).unwrap_or(i32::MAX);
                 let value = a.value.powi(n);
                 let blow = (a.size / a.value.abs()).max(1.0);
