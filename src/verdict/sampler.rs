@@ -7,14 +7,15 @@ use crate::case::Case;
 use crate::claim::Place;
 use num_dual::DualNum;
 
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, literally, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, literally, record};
 use crate::level::{self, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, Draws, Line, Origin};
-use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::exact::Exact;
+use crate::number::mixed::{Mixed, Number};
 use crate::number::precise::Precise;
 use crate::number::rational::Rational;
+use crate::number::{Domain, Function};
 use crate::proof::{Extent, Group, Source};
 use crate::scalar::Scalar;
 
@@ -29,6 +30,8 @@ pub const LANES: usize = 64;
 
 /// Number of draws tried for a state that has to lie in given ranges.
 const ATTEMPTS: u32 = 64;
+/// Bits in which a state that f64 cannot decide is looked at.
+const EXACT_BITS: u32 = 256;
 
 /// A sampler of the inputs of a case's tapes at one place.
 #[derive(Clone)]
@@ -53,6 +56,8 @@ pub struct Sampler {
     unguarded: Tape,
     /// Whether some draws lead to no state.
     is_guarded: bool,
+    /// Whether the states are made with moduli.
+    has_moduli: bool,
     newton: Option<Newton>,
 }
 
@@ -96,6 +101,9 @@ impl Sampler {
         })?;
         let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
         let is_guarded = solution.is_some();
+        let reached = graph.reached(guarded.iter().copied());
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(Function::Abs, _));
+        let has_moduli = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), Draws::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());
@@ -114,6 +122,7 @@ impl Sampler {
             tape,
             unguarded,
             is_guarded,
+            has_moduli,
             newton,
         })
     }
@@ -185,7 +194,8 @@ impl Sampler {
                 let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
                 let mut left = Vec::new();
                 for (place, lane) in open.iter().enumerate() {
-                    match exists(place) {
+                    let index = start + (first + lane) as u64;
+                    match exists(place) || self.exists_exactly(index, attempt, sets) {
                         true => own[*lane] = attempt,
                         false => left.push(*lane),
                     }
@@ -197,6 +207,28 @@ impl Sampler {
             }
         }
         attempts
+    }
+
+    /// Whether the draws lead to a state in exact numbers. Only these know that √(y + |y|) exists
+    /// for y < 0, so they are asked where a modulus is involved.
+    fn exists_exactly(&self, index: u64, attempt: u32, sets: Option<usize>) -> bool {
+        if !self.has_moduli {
+            return false;
+        }
+        let domain = Mixed::new(EXACT_BITS);
+        let made = self.made_in(&domain, &[self.drawn_numbers(index, attempt, sets)]);
+        made.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
+    }
+
+    /// Returns the draws of a state, with the parameters of its set if there are few.
+    fn drawn_numbers(&self, index: u64, attempt: u32, sets: Option<usize>) -> Vec<Rational> {
+        let mut own = self.draws.attempt(self.seed, index, attempt);
+        if let Some(sets) = sets {
+            let set = (index % LANES as u64) as usize * sets / LANES;
+            let shared = self.draws.state(self.seed, set as u64);
+            own[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
+        }
+        own
     }
 
     /// Returns the draws of a state in f64, with the parameters of its set if there are few.
@@ -394,12 +426,7 @@ impl Sampler {
         sets: usize,
     ) -> Vec<D::Block> {
         let attempts = self.attempts(start, LANES, Some(sets));
-        let state = |(lane, attempt)| {
-            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
-            let own = self.draws.attempt(self.seed, start + lane as u64, attempt);
-            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
-            values
-        };
+        let state = |(lane, attempt)| self.drawn_numbers(start + lane as u64, attempt, Some(sets));
         let numbers: Vec<Vec<Rational>> = attempts.into_iter().enumerate().map(state).collect();
         self.made_in(domain, &numbers)
     }
@@ -411,10 +438,8 @@ impl Sampler {
         index: u64,
         sets: usize,
     ) -> Vec<D::Block> {
-        let mut values = self.numbers(1, index).swap_remove(0);
-        let set = (index % LANES as u64) as usize * sets / LANES;
-        let shared = self.draws.state(self.seed, set as u64);
-        values[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
+        let attempt = self.attempts(index, 1, Some(sets))[0];
+        let values = self.drawn_numbers(index, attempt, Some(sets));
         self.made_in(domain, &[values])
     }
 
