@@ -76,7 +76,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
 }
 
 /// The components of a formula as formulas of their own.
-fn components(text: &str, kind: Type) -> Vec<String> {
+pub fn components(text: &str, kind: Type) -> Vec<String> {
     match kind {
         Type::Scalar => vec![text.to_string()],
         _ => kind.indices().iter().map(|index| format!("({text}){index}")).collect(),

@@ -5,8 +5,10 @@
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is a claim like any other, and climbs the same ladder
+//! absence    what a case claims not to be there: proved by the counts, refuted by a find
 //! ```
 
+mod absence;
 mod ansatz;
 mod ask;
 mod branches;
@@ -36,6 +38,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
+pub use absence::judge;
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};

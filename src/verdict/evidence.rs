@@ -153,6 +153,7 @@ pub struct Evidence {
     /// was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, with twice
     /// its digits, with more. `ball at numerical states`: where the level set has no parametrisation.
     /// `prime field`: an identity tested modulo random primes. `motion`: numbers from motions.
+    /// `count`: a rank modulo a prime, which bounds how many there are.
     pub method: &'static str,
     /// The proof, where there is one.
     #[serde(flatten)]
@@ -194,6 +195,12 @@ pub struct Evidence {
     /// For claims about motion: what was measured.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
+    /// For claims of absence that hold: what is excluded, for which parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub theorem: Option<String>,
+    /// For claims of absence that fail: what there is, proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exhibit: Option<String>,
     /// All rungs, in order.
     pub climb: Vec<Rung>,
     /// Why a claim is undecided, or what its verdict leaves open.

@@ -55,6 +55,8 @@ pub struct CaseReport {
     pub mutants: Option<MutationReport>,
     /// How many claims about motion were left alone.
     pub motions_left: usize,
+    /// How many claims of absence were left alone.
+    pub absences_left: usize,
 }
 
 /// Why a case cannot be judged.
@@ -144,7 +146,8 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case but those about motion, which [`observe`](crate::observe) looks at.
+/// Judges all claims of a case but those about motion, which [`observe`](crate::observe) looks at, and
+/// those of absence, which [`search`](crate::search) counts.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
@@ -176,5 +179,6 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         .map(|(item, finding)| report(case, item, finding, options))
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
-    Ok(CaseReport { claims, warnings, mutants, motions_left: case.motions.len() })
+    let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
+    Ok(CaseReport { claims, warnings, mutants, motions_left, absences_left })
 }

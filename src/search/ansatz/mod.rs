@@ -15,16 +15,16 @@
 
 mod brackets;
 mod characters;
-mod coefficients;
+pub mod coefficients;
 mod forces;
 mod gyrostats;
 mod integrals;
-mod monomials;
+pub mod monomials;
 mod poisson;
 mod potentials;
 mod size;
-mod subspace;
-mod system;
+pub mod subspace;
+pub mod system;
 
 use super::conditions::components;
 use super::terms::{Term, read};
@@ -76,7 +76,7 @@ pub fn search(
 }
 
 /// The parameters' components in which coefficients are written, and those of J where there is one.
-fn coordinates(case: &Case) -> Vec<Term> {
+pub fn coordinates(case: &Case) -> Vec<Term> {
     let entries = ["J1", "J2", "J3", "J12", "J13", "J23"].map(str::to_string);
     let tensor = read(entries.to_vec(), &case.model.vocabulary);
     [components(case), tensor].concat()
