@@ -33,7 +33,7 @@ pub fn look(
     kind: &Absence,
 ) -> Result<Outcome, SearchError> {
     if has_lists(asked.case) {
-        let reason = "a parameter has a list of values: give one with --set, or a case to each";
+        let reason = "a parameter has a list of values: give each a case of its own";
         return Ok(Outcome::Open(reason.to_string()));
     }
     if contains_integrals(asked.case)? {
@@ -55,12 +55,17 @@ pub fn look(
             "degree {degree} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
         )));
     }
-    let count = Counting::new(asked, variables, degree, monomials)?;
-    let Some(count) = count else { return Ok(Outcome::Open(SearchError::NoPoints.to_string())) };
+    let counting = Counting::new(asked, variables, degree, monomials)?;
+    let Some(counting) = counting else { return Ok(nothing()) };
     match kind {
-        Absence::NoIntegral(_) => count.no_integral(),
-        Absence::NoDensity(_) => count.no_density(),
+        Absence::NoIntegral(_) => counting.no_integral(),
+        Absence::NoDensity(_) => counting.no_density(),
     }
+}
+
+/// Where no state has a value modulo a prime.
+fn nothing() -> Outcome {
+    Outcome::Open(SearchError::NoPoints.to_string())
 }
 
 /// All that is counted of a field.
@@ -200,7 +205,7 @@ impl<'a> Counting<'a> {
         let columns = self.columns(0);
         let found = self.system.null_space(&self.at, &columns);
         let (Some(found), Some(space)) = (found, self.space()?) else {
-            return Ok(Outcome::Open(SearchError::NoPoints.to_string()));
+            return Ok(nothing());
         };
         let dimension = found.len();
         if dimension < space.dimension {
@@ -270,11 +275,12 @@ impl<'a> Counting<'a> {
     }
 
     fn no_density(&self) -> Result<Outcome, SearchError> {
-        let nothing = || Ok(Outcome::Open(SearchError::NoPoints.to_string()));
         for (alpha, direction) in &self.weighted {
             self.asked.effort.halt.check()?;
             let columns = self.columns(*direction);
-            let Some(found) = self.system.null_space(&self.at, &columns) else { return nothing() };
+            let Some(found) = self.system.null_space(&self.at, &columns) else {
+                return Ok(nothing());
+            };
             let Some(vector) = found.first() else { continue };
             let root = exponent(&[Rational::new(alpha.signum(), alpha.abs())], &["1"]);
             if let Some(polynomial) = self.written(vector, *direction) {
@@ -292,12 +298,12 @@ impl<'a> Counting<'a> {
         }
         // L_vP + s div v = 0, without the constants: ln ρ = P/s.
         let columns = [&self.columns(0)[1..], &[self.divergence]].concat();
-        let Some(found) = self.system.null_space(&self.at, &columns) else { return nothing() };
+        let Some(found) = self.system.null_space(&self.at, &columns) else { return Ok(nothing()) };
         if found.iter().any(|own| own.last().is_some_and(|last| *last != 0)) {
             return self.exponential(&found, &columns);
         }
-        let Some(space) = self.space()? else { return nothing() };
-        if found.len() + 1 > space.dimension {
+        let Some(space) = self.space()? else { return Ok(nothing()) };
+        if found.len() + 1 != space.dimension {
             let reason = "there are more integrals of this degree than are claimed, and the count does \
                           not tell them from densities: claim them as well";
             return Ok(Outcome::Open(reason.to_string()));

@@ -185,6 +185,12 @@ fn is_of_class(asked: &Asked<'_>, formula: &str, most: u32) -> Result<bool, Sear
 }
 
 fn reasons(report: &Report, otherwise: &str) -> String {
-    let all = [report.remarks.clone(), report.unreached.clone()].concat();
+    // `check` has no such options.
+    let remark = |text: &String| match text.split_once("; raise --seconds") {
+        Some((reason, _)) => format!("{reason}: ask for a lower degree"),
+        None => text.trim_end_matches("; give values with --set").to_string(),
+    };
+    let unreached = report.unreached.iter().map(|what| format!("not reached: {what}"));
+    let all: Vec<String> = report.remarks.iter().map(remark).chain(unreached).collect();
     if all.is_empty() { otherwise.to_string() } else { all.join("; ") }
 }
