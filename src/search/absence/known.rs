@@ -95,10 +95,10 @@ impl Known {
             dimension: by_gradients.products(most, true),
             names: independents.into_iter().map(|(name, _)| name).collect(),
         };
-        if let Some(space) = self.by_values(case, most, seed)? {
-            if space.dimension > best.dimension {
-                best = space;
-            }
+        if let Some(space) = self.by_values(case, most, seed)?
+            && space.dimension > best.dimension
+        {
+            best = space;
         }
         Ok(best)
     }
