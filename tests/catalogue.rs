@@ -10,7 +10,8 @@ use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use liouville::case::Case;
-use liouville::verdict::{CaseReport, JudgeError, Options, judge};
+use liouville::search::judge;
+use liouville::verdict::{CaseReport, JudgeError, Options};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -26,11 +27,13 @@ fn main() -> ExitCode {
             }
             Ok(case) => {
                 let judged = Arc::new(Judged { case, report: OnceLock::new() });
-                claims += judged.case.claims.len();
-                for (index, claim) in judged.case.claims.iter().enumerate() {
+                claims += judged.case.claims.len() + judged.case.absences.len();
+                let names = judged.case.claims.iter().map(|claim| &claim.name);
+                let absent = judged.case.absences.iter().map(|claim| &claim.name);
+                for (index, claim) in names.chain(absent).enumerate() {
                     let judged = Arc::clone(&judged);
                     let test = move || judged.check(index);
-                    trials.push(Trial::test(format!("{name} :: {}", claim.name), test));
+                    trials.push(Trial::test(format!("{name} :: {claim}"), test));
                 }
             }
         }

@@ -63,6 +63,7 @@ impl Case {
         root.allow(&KEYS);
         let mut asked = self.clone();
         asked.motions.clear();
+        asked.absences.clear();
         if let Some(section) = root.table("let") {
             abbreviate(&section, &mut asked.model);
         }

@@ -12,8 +12,8 @@ use super::section::Section;
 use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
-    Case, Claim, Column, MotionClaim, TABLE_ROWS, charts, homogeneous, lists, one_sided, poincare,
-    shadows, toml_errors, variables, velocities, weights,
+    AbsenceClaim, Case, Claim, Column, MotionClaim, TABLE_ROWS, absences, charts, homogeneous,
+    lists, one_sided, poincare, shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -157,7 +157,7 @@ fn read(
         plan: section.as_ref(),
         source: &source,
     };
-    let (claims, motions) = read_claims(root, &context);
+    let Stated { claims, motions, absences } = read_claims(root, &context);
     let check = root.keep(root.boolean("check-weights")).flatten().unwrap_or(true);
     let dimensions = root.table("dimensions");
     let column = root.keep(column(root)).flatten();
@@ -181,6 +181,7 @@ fn read(
         free_draws,
         claims,
         motions,
+        absences,
         column,
         section,
         one_sided,
@@ -189,24 +190,35 @@ fn read(
     })
 }
 
-/// Reads all claims that can be read, those about motion separately.
-fn read_claims(root: &Section<'_>, context: &Context<'_>) -> (Vec<Claim>, Vec<MotionClaim>) {
-    let (mut claims, mut motions, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    for stated in root.tables("claim") {
-        if claims::is_misspelt(&stated) {
+/// Claims that can be read, by the way in which they are judged.
+#[derive(Default)]
+struct Stated {
+    claims: Vec<Claim>,
+    motions: Vec<MotionClaim>,
+    absences: Vec<AbsenceClaim>,
+}
+
+fn read_claims(root: &Section<'_>, context: &Context<'_>) -> Stated {
+    let (mut stated, mut names) = (Stated::default(), Vec::new());
+    for section in root.tables("claim") {
+        if claims::is_misspelt(&section) {
             continue;
         }
-        if claims::is_about_motion(&stated) {
-            let claim = root.keep(claims::read_motion(&stated, context, &names));
+        if absences::is_about_absence(&section) {
+            let claim = root.keep(absences::read(&section, context, &names));
             names.extend(claim.iter().map(|claim| claim.name.clone()));
-            motions.extend(claim);
+            stated.absences.extend(claim);
+        } else if claims::is_about_motion(&section) {
+            let claim = root.keep(claims::read_motion(&section, context, &names));
+            names.extend(claim.iter().map(|claim| claim.name.clone()));
+            stated.motions.extend(claim);
         } else {
-            let claim = root.keep(claims::read(&stated, context, &names));
+            let claim = root.keep(claims::read(&section, context, &names));
             names.extend(claim.iter().map(|claim| claim.name.clone()));
-            claims.extend(claim);
+            stated.claims.extend(claim);
         }
     }
-    (claims, motions)
+    stated
 }
 
 /// Rejects a level equation with an ∫: its open constant does not fix a level set.

@@ -2,14 +2,17 @@
 
 use std::ops::Range;
 
+use toml::de::DeValue;
+
 use super::error::{Mistake, Problem};
 use super::field::sides;
 use super::formulas::formula;
 use super::section::{Section, Text};
 use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
+use crate::claim::absence::ABSENCES;
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
 use crate::claim::{Kind, Place, Reader, STATEMENTS};
-use crate::formula::{Formula, Type, canonical_name};
+use crate::formula::{Formula, Type, canonical_name, excerpt};
 use crate::mechanics::{Model, Reach, Vocabulary};
 
 /// Keys common to all claims.
@@ -26,10 +29,10 @@ pub fn is_about_motion(section: &Section<'_>) -> bool {
 /// Whether the claim has no statement because its key is misspelt, which is then reported.
 pub fn is_misspelt(section: &Section<'_>) -> bool {
     let states = |key: &&str| section.has(key);
-    if STATEMENTS.iter().chain(MOTIONS).any(states) {
+    if STATEMENTS.iter().chain(MOTIONS).chain(ABSENCES).any(states) {
         return false;
     }
-    !section.allow(&[STATEMENTS, MOTIONS, &COMMON].concat())
+    !section.allow(&[STATEMENTS, MOTIONS, ABSENCES, &COMMON].concat())
 }
 
 /// Context in which claims are read.
@@ -56,7 +59,7 @@ pub fn read(
     let base = kind.text().unwrap_or_else(|| kind.name().to_string());
     let claim = Claim {
         name: name(section, base, taken)?,
-        source: section.text("source")?.map_or(context.source.to_string(), |text| text.value),
+        source: source(section, context)?,
         place,
         only_there,
         expect: expect(section)?,
@@ -118,7 +121,7 @@ pub fn read_motion(
     }
     Ok(MotionClaim {
         name: name(section, kind.text(), taken)?,
-        source: section.text("source")?.map_or(context.source.to_string(), |text| text.value),
+        source: source(section, context)?,
         expect: expect(section)?,
         note: section.text("note")?.map(|text| text.value),
         kind,
@@ -126,13 +129,13 @@ pub fn read_motion(
 }
 
 /// The mistake of a claim with no statement, or several.
-fn statements(section: &Section<'_>, given: usize) -> Mistake {
+pub fn statements(section: &Section<'_>, given: usize) -> Mistake {
     let message = match given {
         0 => "this claim states nothing".to_string(),
         _ => format!("this claim makes {given} statements"),
     };
     let remedy = match given {
-        0 => format!("give one of {}", [STATEMENTS, MOTIONS].concat().join(", ")),
+        0 => format!("give one of {}", [STATEMENTS, MOTIONS, ABSENCES].concat().join(", ")),
         _ => "write a [[claim]] for each".to_string(),
     };
     Mistake::at(section.span.clone(), Problem::Other { message, remedy })
@@ -161,9 +164,11 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
 }
 
 /// Entries of a claim in a case file.
-struct Entries<'e, 's> {
-    section: &'e Section<'s>,
-    model: &'e Model,
+pub struct Entries<'e, 's> {
+    /// Its table.
+    pub section: &'e Section<'s>,
+    /// The case that it is about.
+    pub model: &'e Model,
 }
 
 impl Reader for Entries<'_, '_> {
@@ -245,6 +250,44 @@ impl Reader for Entries<'_, '_> {
         outer.section(inner)?.map(|section| formulas_of(&section, scope)).transpose()
     }
 
+    fn text_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        remedy: &str,
+    ) -> Result<Option<String>, Mistake> {
+        if self.section.value(key).is_none() {
+            return Ok(None);
+        }
+        let Ok(Some(table)) = self.section.section(key) else {
+            let message = format!("`{key}` does not say what is excluded");
+            return Err(self.complaint(key, message, remedy));
+        };
+        table.allow(&[inner]);
+        match table.value(inner) {
+            None => Err(self.complaint(key, format!("`{key}` has no `{inner}`"), remedy)),
+            Some(value) => Ok(Some(match value.get_ref() {
+                DeValue::Integer(number) => number.to_string(),
+                DeValue::Float(number) => number.to_string(),
+                DeValue::String(text) => excerpt(&format!("\"{text}\"")),
+                _ => inner.to_string(),
+            })),
+        }
+    }
+
+    fn complaint_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        message: String,
+        remedy: &str,
+    ) -> Mistake {
+        let table = self.section.section(key).ok().flatten();
+        let own = table.and_then(|table| Some(table.value(inner)?.span()));
+        let span = own.unwrap_or_else(|| place_of(self.section, key));
+        Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
+    }
+
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
         let span = place_of(self.section, key);
         Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
@@ -266,8 +309,13 @@ fn formulas_of(
     Ok(entries)
 }
 
+/// Where the claim comes from: the source of the case unless it names its own.
+pub fn source(section: &Section<'_>, context: &Context<'_>) -> Result<String, Mistake> {
+    Ok(section.text("source")?.map_or(context.source.to_string(), |text| text.value))
+}
+
 /// Name of a claim: the one given, or `base`, numbered where it is taken.
-fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
+pub fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
@@ -309,7 +357,8 @@ fn place(section: &Section<'_>, context: &Context<'_>) -> Result<(Place, bool), 
     }
 }
 
-fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
+/// The row of the paper's table that the claim fills.
+pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
@@ -319,7 +368,8 @@ fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     }
 }
 
-fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
+/// What the file expects of the claim.
+pub fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
     let Some(text) = section.text("expect")? else { return Ok(Expect::Holds) };
     match text.value.as_str() {
         "holds" => Ok(Expect::Holds),

@@ -1,6 +1,7 @@
 //! Case files, read into a [`Case`]: a model with its names, a chart, and claims.
 
 mod abbreviations;
+mod absences;
 mod arbitrary;
 mod ask;
 mod ball;
@@ -36,6 +37,7 @@ mod weights;
 
 use std::path::Path;
 
+use crate::claim::absence::Absence;
 use crate::claim::motion::Motion;
 use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
@@ -69,6 +71,8 @@ pub struct Case {
     pub claims: Vec<Claim>,
     /// Claims about motion in the order of the file.
     pub motions: Vec<MotionClaim>,
+    /// The claims of absence in the order of the file.
+    pub absences: Vec<AbsenceClaim>,
     /// Table and column of the paper that this case belongs to.
     pub column: Option<Column>,
     /// Poincaré section that shows the motion.
@@ -138,6 +142,23 @@ pub struct MotionClaim {
     /// Expectation of the file.
     pub expect: Expect,
     /// Remark of the author.
+    pub note: Option<String>,
+}
+
+/// A claim of absence with what is expected of it.
+#[derive(Clone, Debug)]
+pub struct AbsenceClaim {
+    /// Its name; unique in the case.
+    pub name: String,
+    /// What is claimed.
+    pub kind: Absence,
+    /// Equation number, theorem, section.
+    pub source: String,
+    /// What the file expects.
+    pub expect: Expect,
+    /// The row of the paper's table that it fills.
+    pub cell: Option<String>,
+    /// A remark.
     pub note: Option<String>,
 }
 

@@ -3,6 +3,7 @@
 //! Each kind of claim is one file that defines its residual; sampling, the ladder, verdicts and
 //! reports are written once for all of them.
 
+pub mod absence;
 mod bracket;
 mod commutator;
 mod components;

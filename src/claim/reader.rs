@@ -53,6 +53,24 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
+    /// The number under `inner` in the table under `key`, which has no other keys, as it is written, a
+    /// string with its quotes; `remedy` is told where there is no such table.
+    fn text_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        remedy: &str,
+    ) -> Result<Option<String>, Self::Error>;
+
+    /// A complaint about what stands under `inner` in the table under `key`.
+    fn complaint_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        message: String,
+        remedy: &str,
+    ) -> Self::Error;
+
     /// Makes a complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;
 

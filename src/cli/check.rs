@@ -2,16 +2,30 @@
 
 use std::io::IsTerminal;
 
+#[cfg(feature = "explore")]
+use liouville::case::Case;
 use liouville::report::{diagnostic, json, terminal};
-use liouville::verdict::{self, Options};
+#[cfg(not(feature = "explore"))]
+use liouville::verdict;
+use liouville::verdict::Options;
+#[cfg(feature = "explore")]
+use liouville::verdict::{CaseReport, JudgeError};
 
 use super::files::Judge;
 use super::{Answer, Check, colour, files, width};
 
-/// Judge of cases, including the claims about motion where they are requested.
+/// Judge of cases, including the claims of absence, and those about motion where requested.
 #[cfg(feature = "explore")]
 fn judge(options: &Check) -> Judge {
-    if options.motion { liouville::observe::judge } else { verdict::judge }
+    if options.motion { with_motions } else { liouville::search::judge }
+}
+
+#[cfg(feature = "explore")]
+fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    let mut report = liouville::search::judge(case, options)?;
+    report.claims.extend(liouville::observe::observe(case, options));
+    report.motions_left = 0;
+    Ok(report)
 }
 
 #[cfg(not(feature = "explore"))]

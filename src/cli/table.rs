@@ -1,17 +1,16 @@
 //! The command `liouville table`.
 
 use liouville::report::{diagnostic, table};
-use liouville::verdict;
+#[cfg(feature = "explore")]
+use liouville::search::judge;
+#[cfg(not(feature = "explore"))]
+use liouville::verdict::judge;
 
 use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
-    let run = files::judge(
-        &options.paths,
-        &options.sampling.options(),
-        verdict::judge,
-        options.sampling.threads,
-    )?;
+    let run =
+        files::judge(&options.paths, &options.sampling.options(), judge, options.sampling.threads)?;
     for outcome in &run.outcomes {
         if let Err(failures) = &outcome.result {
             anstream::eprintln!("{}", diagnostic::rendered(failures));

@@ -111,6 +111,9 @@ pub struct Summary {
     /// Number of claims about motion that were skipped.
     #[serde(skip_serializing_if = "is_zero")]
     pub motions_left: usize,
+    /// Claims of absence that were left alone.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub absences_left: usize,
     /// Counts of mutants, if they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mutants: Option<MutantCounts>,
@@ -161,6 +164,7 @@ impl RunReport {
                 Ok(ref report) => {
                     summary.cases += 1;
                     summary.motions_left += report.motions_left;
+                    summary.absences_left += report.absences_left;
                 }
                 Err(_) => summary.errors += 1,
             }

@@ -55,8 +55,19 @@ fn case(outcome: &Outcome, style: Style) -> String {
     out.push('\n');
     if style.verbose {
         out.push_str(&details(report));
+    } else {
+        out.push_str(&theorems(report));
     }
     out
+}
+
+/// What claims of absence exclude, which no table has room for.
+fn theorems(report: &CaseReport) -> String {
+    let stated = report.claims.iter().filter_map(|claim| {
+        let theorem = claim.evidence.theorem.as_ref()?;
+        Some(format!("    {}\n      theorem   {theorem}\n", claim.name))
+    });
+    stated.collect()
 }
 
 fn claims(report: &CaseReport, style: Style) -> String {
@@ -109,6 +120,11 @@ fn remark(claim: &ClaimReport) -> String {
             words.extend(evidence.remark.clone());
             words.extend(evidence.reason.clone());
         }
+        // The theorem stands below the table.
+        Verdict::Proved if evidence.theorem.is_some() => {
+            words.extend(evidence.remark.clone());
+            words.push(evidence.method.to_string());
+        }
         Verdict::Confirmed | Verdict::Proved => {
             words.push(evidence.holds.join("; "));
             match evidence.independence {
@@ -132,6 +148,7 @@ fn remark(claim: &ClaimReport) -> String {
                 None => evidence.method.to_string(),
             });
         }
+        Verdict::Refuted if evidence.exhibit.is_some() => words.extend(evidence.exhibit.clone()),
         Verdict::Refuted => {
             if let Some(witness) = &evidence.witness {
                 let shown = witness.digits.clone();
@@ -178,7 +195,7 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        if evidence.measured.is_empty() {
+        if evidence.measured.is_empty() && evidence.method != "count" {
             out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
         }
         for (index, found) in evidence.measured.iter().enumerate() {
@@ -221,6 +238,11 @@ fn details(report: &CaseReport) -> String {
                 set.collect::<String>(),
                 witness.state
             ));
+        }
+        for (label, text) in [("theorem", &evidence.theorem), ("exhibit", &evidence.exhibit)] {
+            if let Some(text) = text {
+                out.push_str(&format!("      {label:<9} {text}\n"));
+            }
         }
         if let Some(reason) = &evidence.reason {
             out.push_str(&format!("      reason    {reason}\n"));
@@ -276,6 +298,12 @@ fn summary(run: &RunReport) -> String {
             false => "the feature `explore` is left out",
         };
         line.push_str(&format!("; {left} about motion not looked at: {how}"));
+    }
+    if summary.absences_left > 0 {
+        let left = count(summary.absences_left, "claim");
+        line.push_str(&format!(
+            "; {left} of absence not looked at: the feature `explore` is left out"
+        ));
     }
     if let Some(mutants) = summary.mutants {
         line.push_str(&format!(

@@ -76,7 +76,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
 }
 
 /// Splits a formula into its components as separate formulas.
-fn components(text: &str, kind: Type) -> Vec<String> {
+pub fn components(text: &str, kind: Type) -> Vec<String> {
     match kind {
         Type::Scalar => vec![text.to_string()],
         _ => kind.indices().iter().map(|index| format!("({text}){index}")).collect(),

@@ -30,7 +30,7 @@ pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
 }
 
 /// Whether all formulas that enter theorems agree modulo primes with their values at real states.
-fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let sampler = Sampler::new(case, &Place::level(&case.model), effort.options.seed)?;
     if sampler.is_numerical() {
         return Ok(true);

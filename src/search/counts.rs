@@ -228,7 +228,7 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
 }
 
 /// Estimates the number of unknowns and bounds the time in seconds.
-fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
+pub fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
     let (positions, velocities) =
         (local.coordinates.positions as u32, local.coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);

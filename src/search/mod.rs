@@ -2,12 +2,14 @@
 //! theorem.
 //!
 //! ```text
-//! count      number of integrals polynomial in the velocities, with any coefficients
+//! count      number of integrals polynomial in the velocities there are, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
+//! absence    a claim that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
+mod absence;
 mod ansatz;
 mod ask;
 mod branches;
@@ -37,6 +39,7 @@ use crate::graph::Fault;
 use crate::mechanics::Model;
 use crate::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
+pub use absence::judge;
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};

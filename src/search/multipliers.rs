@@ -21,7 +21,7 @@ use crate::case::Case;
 use crate::number::rational::Rational;
 
 /// Values of α to try: P^(m/n) is Q^(1/n) with Q = P^m.
-const WEIGHTS: [i64; 8] = [1, -1, 2, -2, 3, -3, 4, -4];
+pub const WEIGHTS: [i64; 8] = [1, -1, 2, -2, 3, -3, 4, -4];
 
 /// Largest degree of polynomials that are counted.
 const MOST: u32 = 4;

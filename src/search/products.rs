@@ -3,7 +3,7 @@
 use num_dual::Dual;
 
 use super::SearchError;
-use super::ask::{holds, judged};
+use super::ask::judged;
 use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::{Effort, Report, ask};
@@ -13,6 +13,7 @@ use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::Phase;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::proof::Chance;
+use crate::verdict::Verdict;
 
 /// Highest degree that is recognised.
 const MOST: usize = 16;
@@ -26,12 +27,18 @@ const TRIALS: usize = 64;
 pub struct Generators(Vec<(String, u32)>);
 
 impl Generators {
+    /// Integrals of which the degrees are known.
+    pub fn of(known: Vec<(String, u32)>) -> Self {
+        Self(known)
+    }
+
     /// Collects the energy, if it is an integral.
     pub fn energy(case: &Case, effort: &Effort) -> Result<Self, SearchError> {
         let mut generators = Self::default();
         if case.model.vocabulary.find("energy").is_some() {
             let reports = judged(case, &["integral = \"energy\"".to_string()], effort)?;
-            if reports.iter().any(holds) {
+            // Theorems rest on it: what is seen in numbers is not enough.
+            if reports.iter().any(|report| report.verdict == Verdict::Proved) {
                 generators.add(case, "energy", effort.options.seed)?;
             }
         }
@@ -107,7 +114,7 @@ impl Generators {
 /// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
 /// are linear equations for the coefficients of P. The logarithm's slope is a rational function
 /// where F has factors that fields lack, such as exponentials of the positions.
-fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
+pub fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
     let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
     let Ok(formula) = Formula::parse(formula, &model.vocabulary) else { return Ok(None) };

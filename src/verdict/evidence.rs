@@ -154,7 +154,7 @@ pub struct Evidence {
     /// it was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, in
     /// double-double, in higher precision. `ball at numerical states`: where the level set has no
     /// parametrisation. `prime field`: an identity tested modulo random primes. `motion`: numbers
-    /// from motions.
+    /// from motions. `count`: a rank modulo a prime, an upper bound on a number of invariants.
     pub method: &'static str,
     /// Proof, if there is one.
     #[serde(flatten)]
@@ -196,6 +196,12 @@ pub struct Evidence {
     /// Measured quantities, for claims about motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
+    /// For claims of absence that hold: what is excluded, for which parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub theorem: Option<String>,
+    /// For claims of absence that fail: what there is, proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exhibit: Option<String>,
     /// Results of all rungs, in order.
     pub climb: Vec<Rung>,
     /// Reason why a claim is undecided, or restriction of its verdict.

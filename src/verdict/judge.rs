@@ -56,6 +56,8 @@ pub struct CaseReport {
     pub mutants: Option<MutationReport>,
     /// Number of claims about motion that were left out.
     pub motions_left: usize,
+    /// How many claims of absence were left alone.
+    pub absences_left: usize,
 }
 
 /// The reason why a case cannot be judged.
@@ -146,7 +148,7 @@ impl JudgeError {
 }
 
 /// Judges all claims of a case except those about motion, which are left to
-/// [`observe`](crate::observe).
+/// [`observe`](crate::observe), and those of absence, left to [`search`](crate::search).
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
@@ -178,5 +180,6 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         .map(|(item, finding)| report(case, item, finding, options))
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
-    Ok(CaseReport { claims, warnings, mutants, motions_left: case.motions.len() })
+    let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
+    Ok(CaseReport { claims, warnings, mutants, motions_left, absences_left })
 }

@@ -16,16 +16,16 @@
 
 mod brackets;
 mod characters;
-mod coefficients;
+pub mod coefficients;
 mod forces;
 mod gyrostats;
 mod integrals;
-mod monomials;
+pub mod monomials;
 mod poisson;
 mod potentials;
 mod size;
-mod subspace;
-mod system;
+pub mod subspace;
+pub mod system;
 
 use super::conditions::components;
 use super::terms::{Term, read};
@@ -78,7 +78,7 @@ pub fn search(
 
 /// Lists the parameters' components in which coefficients are written, including those of J if
 /// there is one.
-fn coordinates(case: &Case) -> Vec<Term> {
+pub fn coordinates(case: &Case) -> Vec<Term> {
     let entries = ["J1", "J2", "J3", "J12", "J13", "J23"].map(str::to_string);
     let tensor = read(entries.to_vec(), &case.model.vocabulary);
     [components(case), tensor].concat()

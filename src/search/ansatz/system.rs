@@ -16,7 +16,9 @@ use crate::graph::{Evaluator, Expr, Tape};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Draw, Phase};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::number::rational::Rational;
 use crate::proof::Chance;
+use crate::scalar::Scalar;
 use crate::verdict::Sampler;
 
 /// Number of lanes of the evaluation.
@@ -82,6 +84,22 @@ impl Recording {
         let (variables, factors) = (variables.len(), factors.len());
         self.derivations.push(Derivation { start, variables, factors });
         self.derivations.len() - 1
+    }
+}
+
+impl Recording {
+    /// Adds variables, which grow at the rate `growth` beside; gives the direction's number. The
+    /// derivative of x^a is v(x^a) + growth·x^a.
+    pub fn derive_growing(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        variables: &[Term],
+        growth: Expr,
+    ) -> usize {
+        let direction = self.derive(moved, variables, &[]);
+        self.outputs.extend([Expr::rational(&Rational::from(1)), growth]);
+        self.derivations[direction].factors = 1;
+        direction
     }
 }
 
@@ -217,13 +235,19 @@ impl System {
         })
     }
 
+    /// A basis of the relations between the functions themselves, as
+    /// [`null_space`](Self::null_space) has it between their derivatives.
+    pub fn dependences(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
+        let m = &at.modulus;
+        self.relations(at, columns.len(), &mut |values| {
+            self.row(m, values, columns, &|column, powers| powers.value(m, column))
+        })
+    }
+
     /// Selects the columns whose functions do not depend on earlier ones; `None` if too few states
     /// have values.
     pub fn distinct(&self, at: &At, columns: &[usize]) -> Option<Vec<usize>> {
-        let m = &at.modulus;
-        let relations = self.relations(at, columns.len(), &mut |values| {
-            self.row(m, values, columns, &|column, powers| powers.value(m, column))
-        })?;
+        let relations = self.dependences(at, columns)?;
         let last = |own: &Vec<u64>| own.iter().rposition(|entry| *entry != 0);
         let dependent: Vec<usize> = relations.iter().filter_map(last).collect();
         let kept = (0..columns.len()).filter(|k| !dependent.contains(k));
