@@ -147,8 +147,8 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case except those about motion, which are left to
-/// [`observe`](crate::observe), and those of absence, left to [`search`](crate::search).
+/// Judges all claims of a case except those about motion and those of absence, which need to follow
+/// motions and to count invariants.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
