@@ -18,7 +18,7 @@ use super::{
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
 /// The keys of a case file.
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "title",
     "source",
     "note",
@@ -30,6 +30,7 @@ const KEYS: [&str; 20] = [
     "body",
     "state",
     "field",
+    "map",
     "hamiltonian",
     "lagrangian",
     "level",
@@ -138,6 +139,7 @@ fn read(
             remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
         }));
     }
+    one_of_field_and_map(root, &system);
     parameters::unknown_settings(root, settings, &parts.model.parameters);
     let has_variables = variables::read(root, &mut parts.model);
     // what was read so far is judged only if all of it is there
@@ -187,6 +189,22 @@ fn read(
         notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
     })
+}
+
+/// A system has rates or images; what the other table says would go unread.
+fn one_of_field_and_map(root: &Section<'_>, system: &str) {
+    let (unread, message, remedy) = match system {
+        "map" => (
+            "field",
+            "a map has images, and no rates",
+            "remove [field], or write system = \"field\" and remove [map]",
+        ),
+        _ => ("map", "[map] makes a map of one's own", "write system = \"map\", or remove [map]"),
+    };
+    if let Some(section) = root.table(unread) {
+        let (message, remedy) = (message.to_string(), remedy.to_string());
+        root.mistakes().add(section.complaint(Problem::Other { message, remedy }));
+    }
 }
 
 /// The claims that can be read, those about motion apart.
@@ -250,7 +268,8 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
         }
         return;
     };
-    let is_own = matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_));
+    let is_own =
+        matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_) | System::Map(_));
     if !is_lagrangian && !is_own {
         root.mistakes().add(Mistake::at(
             section.span.clone(),

@@ -109,6 +109,12 @@ pub fn read_motion(
         (Some(kind), None) => kind?,
         _ => return Err(statements(section, 2)),
     };
+    if model.system.is_map() && context.is_whole {
+        let message = format!("`{key}` speaks of a motion in time, and the case is a map");
+        let remedy = "claim it of a field, or claim an invariant of the map".to_string();
+        let span = place_of(section, key);
+        return Err(Mistake::at(span, Problem::Sense { message, remedy }));
+    }
     let starts_on_section = matches!(kind.beginning(), Beginning::Section(_));
     if context.plan.is_none() && starts_on_section && context.is_whole {
         return Err(section.complaint(Problem::Sense {

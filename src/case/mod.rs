@@ -56,8 +56,8 @@ pub struct Case {
     pub title: String,
     /// Where it comes from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`, `vakonomic`
-    /// or `field`.
+    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
+    /// `vakonomic`, `field` or `map`.
     pub system: String,
     /// The equations and names.
     pub model: Model,

@@ -18,8 +18,7 @@ use crate::mechanics::{
     Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
 };
 
-const SYSTEMS: &str =
-    "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic or field";
+const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic, field or map";
 
 /// A model with the way its states are made.
 pub struct Parts {
@@ -104,6 +103,7 @@ impl<'r, 's> Reading<'r, 's> {
             "nonholonomic" => self.lagrangian(false),
             "vakonomic" => self.lagrangian(true),
             "field" => self.field(),
+            "map" => self.map(),
             found => {
                 let message = format!("unknown system `{found}`");
                 let remedy = format!("write {SYSTEMS}");
@@ -157,6 +157,7 @@ impl<'r, 's> Reading<'r, 's> {
             None if ["field", "hamiltonian"].iter().any(|key| self.root.has(key)) => {
                 Some(Text::made("field".to_string(), 0..0))
             }
+            None if self.root.has("map") => Some(Text::made("map".to_string(), 0..0)),
             None if self.root.value("lagrangian").is_some() => {
                 let remedy = "add system = \"nonholonomic\" or \"vakonomic\"";
                 self.mistakes().add(self.root.missing("system", remedy));
@@ -277,6 +278,22 @@ impl<'r, 's> Reading<'r, 's> {
         Some((System::Field(rates?), Chart::Free))
     }
 
+    fn map(&mut self) -> Read {
+        self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
+        let section = self.root.table("map");
+        if section.is_none() && self.root.value("map").is_none() {
+            let remedy = "add a table [map] with x = \"…\", the image of each variable";
+            self.mistakes().add(self.root.missing("map", remedy));
+        }
+        self.settle(Stage::State);
+        let variables = &self.state.variables;
+        let read = |section: Section<'_>| field::images(&section, variables, &self.vocabulary);
+        let images = section.and_then(read);
+        let level = self.read_level();
+        self.level = level?;
+        Some((System::Map(images?), Chart::Free))
+    }
+
     /// The equations of `[level]`; nothing if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
@@ -301,7 +318,8 @@ impl<'r, 's> Reading<'r, 's> {
 
     /// Time is a variable where formulas use it and it has no other meaning.
     fn add_time(&mut self, reach: Reach) {
-        if self.assumed.time && self.vocabulary.find(TIME).is_none() {
+        let is_discrete = self.root.has("map");
+        if self.assumed.time && !is_discrete && self.vocabulary.find(TIME).is_none() {
             self.state.add_time(&mut self.vocabulary, reach);
         }
     }

@@ -1,4 +1,4 @@
-//! Fixed points on the level, with the spectrum of the linear part.
+//! Fixed points on the level, of a flow or a map, with the spectrum of the linear part.
 
 use num_dual::Dual;
 
@@ -20,6 +20,7 @@ impl Statement for FixedPoint {
     const NAME: &'static str = "fixed-point";
     const COMPANIONS: &'static [&'static str] = &["spectrum"];
     const WIDENS: bool = false;
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let model = from.model();
@@ -42,7 +43,10 @@ impl Statement for FixedPoint {
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
-        let mut residual = at.field().to_vec();
+        let mut residual = match at.model().system.is_map() {
+            true => difference(at.field().to_vec(), state.clone()),
+            false => at.field().to_vec(),
+        };
         residual.extend(jet.level_at(&at, kept));
         if let Some(spectrum) = &self.spectrum {
             let dimension = state.len();

@@ -109,6 +109,11 @@ macro_rules! kinds {
                 match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
             }
 
+            /// Can it be claimed of a map in the place of a flow?
+            fn is_of_maps(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::OF_MAPS,)* }
+            }
+
             /// What it may mean that the residual has no value anywhere.
             pub fn hint_when_undefined(&self) -> &'static str {
                 match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }
@@ -216,6 +221,12 @@ impl Kind {
 
     /// Why this kind of claim cannot be made about `model`, if it cannot.
     pub fn objection(&self, model: &Model) -> Option<Objection> {
+        if model.system.is_map() && !self.is_of_maps() {
+            let message = format!("`{}` speaks of a flow, and the case is a map", self.name());
+            let remedy = "of a map, claim integral, density, symmetry, reversor, fixed-point, \
+                          invariant-relation, identity, independent or limit";
+            return Some(Objection { message, remedy });
+        }
         of_each!(self, statement => statement.objection(model))
     }
 

@@ -45,6 +45,9 @@ pub trait Statement: Clone {
     /// Is it about functions of new variables, and looked at where the states of a place have them?
     const AT_IMAGES: bool = false;
 
+    /// Can it be claimed of a map in the place of a flow?
+    const OF_MAPS: bool = false;
+
     /// What it may mean that the residual has no value anywhere.
     const UNDEFINED: &'static str = "";
 

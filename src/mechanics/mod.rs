@@ -9,6 +9,7 @@ mod configuration;
 mod draws;
 mod flat_base;
 mod hamiltonian;
+pub mod iterate;
 mod lagrangian;
 mod linear;
 mod model;
@@ -72,6 +73,8 @@ pub enum System {
     Hamiltonian(Box<Hamiltonian>),
     /// The user's own field: the rate of each state variable.
     Field(Vec<Formula>),
+    /// A map of the user's own: the image of each state variable.
+    Map(Vec<Formula>),
 }
 
 impl System {
@@ -106,7 +109,7 @@ impl System {
                 energies.chain(&lagrangian.constraints).chain(forces).chain(carried).collect()
             }
             System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
-            System::Field(rates) => rates.iter().collect(),
+            System::Field(rates) | System::Map(rates) => rates.iter().collect(),
         }
     }
 
@@ -124,11 +127,12 @@ impl System {
             System::FlatBase(_)
             | System::Lagrangian(_)
             | System::Hamiltonian(_)
-            | System::Field(_) => false,
+            | System::Field(_)
+            | System::Map(_) => false,
         }
     }
 
-    /// The time derivatives of the state's components, in order.
+    /// The time derivatives of the state's components, in order; of a map their images.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
             System::Rubber(body) => body.field(phase),
@@ -136,7 +140,7 @@ impl System {
             System::Ball(ball) => ball.field(phase),
             System::Lagrangian(lagrangian) => lagrangian.field(phase),
             System::Hamiltonian(hamiltonian) => hamiltonian.field(phase),
-            System::Field(rates) => {
+            System::Field(rates) | System::Map(rates) => {
                 rates.iter().flat_map(|rate| phase.evaluate(rate).components()).collect()
             }
         }
@@ -150,7 +154,7 @@ impl System {
             System::Ball(ball) => Some(ball.energy(phase)),
             System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
             System::Hamiltonian(hamiltonian) => Some(hamiltonian.energy(&phase.configuration)),
-            System::Field(_) => None,
+            System::Field(_) | System::Map(_) => None,
         }
     }
 
@@ -177,7 +181,12 @@ impl System {
 
     /// Is there an energy?
     pub fn has_energy(&self) -> bool {
-        !matches!(self, System::Field(_))
+        !matches!(self, System::Field(_) | System::Map(_))
+    }
+
+    /// Is it a map, whose field is the image of the state?
+    pub fn is_map(&self) -> bool {
+        matches!(self, System::Map(_))
     }
 
     /// Are the rates of velocities more than quadratic forms of the velocities: is there a potential,
@@ -189,7 +198,9 @@ impl System {
             }
             System::FlatBase(body) => body.gyrostat.is_some(),
             System::Ball(ball) => ball.potential.is_some() || ball.rotation.is_some(),
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => true,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+                true
+            }
         }
     }
 
@@ -211,7 +222,9 @@ impl System {
                 }
                 ball.potential = None;
             }
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => return None,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+                return None;
+            }
         }
         Some(free)
     }
@@ -313,7 +326,7 @@ impl System {
             System::Hamiltonian(hamiltonian) => {
                 Value::Scalar(hamiltonian.energy(&phase.configuration))
             }
-            System::Field(_) => Value::Scalar(T::zero()),
+            System::Field(_) | System::Map(_) => Value::Scalar(T::zero()),
         }
     }
 
