@@ -227,6 +227,26 @@ fn a_file_has_rates_or_images() {
 }
 
 #[test]
+fn an_antiderivative_has_no_place_at_two_points() {
+    let open = "∫(exp(x²), x)";
+    for claim in [
+        format!("integral = '{open} + y'"),
+        format!("density = '2 + {open}'"),
+        format!("lyapunov = '{open}'"),
+        format!("identity = 'x' = {open}'").replace("'x' =", "'x ="),
+        format!("symmetry = {{ x = '{open}' }}"),
+        format!("form = {{ x = '{open}' }}"),
+    ] {
+        let (message, _, line) = mistake(&format!("{TURN}[[claim]]\n{claim}\n"));
+        assert!(message.contains("no ∫ in it") && line == 9, "{claim}: {message}");
+    }
+    let image = TURN.replace("y = '−x'", &format!("y = '−x + {open}'"));
+    assert!(mistake(&image).0.contains("no ∫ in it"));
+    let named = TURN.replace("y = '−x'", "y = '−x + I'") + &format!("[let]\nI = '{open}'\n");
+    assert!(mistake(&named).0.contains("no ∫ in it"), "nor by a name");
+}
+
+#[test]
 fn commands_that_need_a_flow_refuse_a_map() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("maps");
     fs::create_dir_all(&path).expect("a scratch folder");

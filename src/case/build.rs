@@ -12,8 +12,8 @@ use super::section::Section;
 use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
-    Case, Claim, Column, MotionClaim, TABLE_ROWS, charts, homogeneous, lists, one_sided, poincare,
-    shadows, toml_errors, variables, velocities, weights,
+    Case, Claim, Column, MotionClaim, TABLE_ROWS, charts, homogeneous, lists, map, one_sided,
+    poincare, shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -140,6 +140,7 @@ fn read(
         }));
     }
     one_of_field_and_map(root, &system);
+    map::no_open_constant(root, &parts.model);
     parameters::unknown_settings(root, settings, &parts.model.parameters);
     let has_variables = variables::read(root, &mut parts.model);
     // what was read so far is judged only if all of it is there

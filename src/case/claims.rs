@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
+use super::complex;
 use super::error::{Mistake, Problem};
 use super::field::sides;
 use super::formulas::formula;
 use super::section::{Section, Text};
 use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
-use crate::claim::{Kind, Place, Reader, STATEMENTS};
+use crate::claim::{Complex, Kind, Place, Reader, STATEMENTS};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Model, Reach, Vocabulary};
 
@@ -155,6 +156,12 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
     let entries = Entries { section, model: context.model };
     match given.as_slice() {
+        ["density"] if section.text("density")?.is_some_and(|text| text.value == "none") => {
+            let message = "that there is no density is claimed near a fixed point".to_string();
+            let remedy =
+                "write no-density = { x = \"…\" }, the point where the divergence is not 0";
+            Err(entries.complaint("density", message, remedy))
+        }
         ["density"] if section.text("density")?.is_some_and(|text| text.value == "exists") => {
             let message = "a density is given by a formula".to_string();
             let remedy = "write density = \"1\" or the like; or claim analytic-density = \"exists\" \
@@ -211,6 +218,15 @@ impl Reader for Entries<'_, '_> {
         }
         let texts = self.section.texts(key)?;
         let read = |text: &Text| formula(text, scope, "an entry", None, Reach::Phase);
+        texts.iter().map(read).collect::<Result<_, _>>().map(Some)
+    }
+
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Mistake> {
+        if self.section.value(key).is_none() {
+            return Ok(None);
+        }
+        let texts = self.section.texts(key)?;
+        let read = |text: &Text| complex::read(text, &self.model.vocabulary);
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 

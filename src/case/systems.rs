@@ -11,7 +11,7 @@ use super::order::{Item, Stage};
 use super::parameters::Setting;
 use super::section::{Section, Text};
 use super::state::{self, State, TIME};
-use super::{ball, body, feedback, hamiltonian, lagrangian, shadows};
+use super::{ball, body, feedback, hamiltonian, lagrangian, map, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
@@ -103,7 +103,7 @@ impl<'r, 's> Reading<'r, 's> {
             "nonholonomic" => self.lagrangian(false),
             "vakonomic" => self.lagrangian(true),
             "field" => self.field(),
-            "map" => self.map(),
+            "map" => map::system(&mut self),
             found => {
                 let message = format!("unknown system `{found}`");
                 let remedy = format!("write {SYSTEMS}");
@@ -276,22 +276,6 @@ impl<'r, 's> Reading<'r, 's> {
         let level = self.read_level();
         self.level = level?;
         Some((System::Field(rates?), Chart::Free))
-    }
-
-    fn map(&mut self) -> Read {
-        self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
-        let section = self.root.table("map");
-        if section.is_none() && self.root.value("map").is_none() {
-            let remedy = "add a table [map] with x = \"…\", the image of each variable";
-            self.mistakes().add(self.root.missing("map", remedy));
-        }
-        self.settle(Stage::State);
-        let variables = &self.state.variables;
-        let read = |section: Section<'_>| field::images(&section, variables, &self.vocabulary);
-        let images = section.and_then(read);
-        let level = self.read_level();
-        self.level = level?;
-        Some((System::Map(images?), Chart::Free))
     }
 
     /// The equations of `[level]`; nothing if one is wrong.

@@ -3,6 +3,9 @@
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Vocabulary};
 
+/// A number by its real part, and a pair of conjugate ones by both parts.
+pub type Complex = (Formula, Option<Formula>);
+
 /// The entries of one claim, whatever file format they stand in.
 pub trait Reader {
     /// A complaint that knows its place in the text.
@@ -50,6 +53,9 @@ pub trait Reader {
         known: &[&'static str],
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
+
+    /// The entries of a list of numbers that may be complex: a, or a and b for a ± b*i.
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Self::Error>;
 
     /// A complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;
