@@ -13,12 +13,12 @@ use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
     AbsenceClaim, Case, Claim, Column, MotionClaim, TABLE_ROWS, absences, charts, homogeneous,
-    lists, one_sided, poincare, shadows, toml_errors, variables, velocities, weights,
+    lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
-/// Keys of a case file.
-const KEYS: [&str; 20] = [
+/// The keys of a case file.
+const KEYS: [&str; 21] = [
     "title",
     "source",
     "note",
@@ -30,6 +30,7 @@ const KEYS: [&str; 20] = [
     "body",
     "state",
     "field",
+    "map",
     "hamiltonian",
     "lagrangian",
     "level",
@@ -138,6 +139,8 @@ fn read(
             remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
         }));
     }
+    one_of_field_and_map(root, &system);
+    map::no_open_constant(root, &parts.model);
     parameters::unknown_settings(root, settings, &parts.model.parameters);
     let has_variables = variables::read(root, &mut parts.model);
     // the parts below are judged only if everything read so far is complete
@@ -188,6 +191,22 @@ fn read(
         notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
     })
+}
+
+/// Refuses a table of rates beside a map, and a table of images beside a field.
+fn one_of_field_and_map(root: &Section<'_>, system: &str) {
+    let (unread, message, remedy) = match system {
+        "map" => (
+            "field",
+            "a map has images, and no rates",
+            "remove [field], or write system = \"field\" and remove [map]",
+        ),
+        _ => ("map", "[map] makes a map of one's own", "write system = \"map\", or remove [map]"),
+    };
+    if let Some(section) = root.table(unread) {
+        let (message, remedy) = (message.to_string(), remedy.to_string());
+        root.mistakes().add(section.complaint(Problem::Other { message, remedy }));
+    }
 }
 
 /// Claims that can be read, by the way in which they are judged.
@@ -262,7 +281,8 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
         }
         return;
     };
-    let is_own = matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_));
+    let is_own =
+        matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_) | System::Map(_));
     if !is_lagrangian && !is_own {
         root.mistakes().add(Mistake::at(
             section.span.clone(),

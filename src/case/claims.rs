@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
+use super::complex;
 use super::error::{Mistake, Problem};
 use super::field::sides;
 use super::formulas::formula;
@@ -11,7 +12,7 @@ use super::section::{Section, Text};
 use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::absence::ABSENCES;
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
-use crate::claim::{Kind, Place, Reader, STATEMENTS};
+use crate::claim::{Complex, Kind, Place, Reader, STATEMENTS};
 use crate::formula::{Formula, Type, canonical_name, excerpt};
 use crate::mechanics::{Model, Reach, Vocabulary};
 
@@ -112,6 +113,12 @@ pub fn read_motion(
         (Some(kind), None) => kind?,
         _ => return Err(statements(section, 2)),
     };
+    if model.system.is_map() && context.is_whole {
+        let message = format!("`{key}` speaks of a motion in time, and the case is a map");
+        let remedy = "claim it of a field, or claim an invariant of the map".to_string();
+        let span = place_of(section, key);
+        return Err(Mistake::at(span, Problem::Sense { message, remedy }));
+    }
     let starts_on_section = matches!(kind.beginning(), Beginning::Section(_));
     if context.plan.is_none() && starts_on_section && context.is_whole {
         return Err(section.complaint(Problem::Sense {
@@ -152,6 +159,12 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
     let entries = Entries { section, model: context.model };
     match given.as_slice() {
+        ["density"] if section.text("density")?.is_some_and(|text| text.value == "none") => {
+            let message = "that there is no density is claimed near a fixed point".to_string();
+            let remedy =
+                "write no-density-near = { x = \"…\" }, the point where the divergence is not 0";
+            Err(entries.complaint("density", message, remedy))
+        }
         ["density"] if section.text("density")?.is_some_and(|text| text.value == "exists") => {
             let message = "a density is given by a formula".to_string();
             let remedy = "write density = \"1\" or the like; or claim analytic-density = \"exists\" \
@@ -210,6 +223,15 @@ impl Reader for Entries<'_, '_> {
         }
         let texts = self.section.texts(key)?;
         let read = |text: &Text| formula(text, scope, "an entry", None, Reach::Phase);
+        texts.iter().map(read).collect::<Result<_, _>>().map(Some)
+    }
+
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Mistake> {
+        if self.section.value(key).is_none() {
+            return Ok(None);
+        }
+        let texts = self.section.texts(key)?;
+        let read = |text: &Text| complex::read(text, &self.model.vocabulary);
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 

@@ -80,21 +80,48 @@ pub fn rates(
     variables: &[Variable],
     vocabulary: &Vocabulary,
 ) -> Option<Vec<Formula>> {
+    all_of(section, variables, vocabulary, true)
+}
+
+/// Reads the images of all variables under a map; nothing if one is missing, or wrong.
+pub fn images(
+    section: &Section<'_>,
+    variables: &[Variable],
+    vocabulary: &Vocabulary,
+) -> Option<Vec<Formula>> {
+    all_of(section, variables, vocabulary, false)
+}
+
+fn all_of(
+    section: &Section<'_>,
+    variables: &[Variable],
+    vocabulary: &Vocabulary,
+    are_rates: bool,
+) -> Option<Vec<Formula>> {
     let given = given_rates(section, variables, vocabulary, Reach::Phase);
     let mut all = Some(Vec::new());
     for (variable, rate) in variables.iter().zip(given) {
         let formulas = match rate {
             GivenRate::Given(formulas) => Some(formulas),
             GivenRate::Broken => None,
-            GivenRate::Missing if variable.name == TIME && variable.kind == Type::Scalar => {
+            GivenRate::Missing
+                if are_rates && variable.name == TIME && variable.kind == Type::Scalar =>
+            {
                 section.keep(one(vocabulary).map(|one| vec![one]))
             }
             GivenRate::Missing => {
                 let name = &variable.name;
-                section.mistakes().add(section.complaint(Problem::Other {
-                    message: format!("[field] has no rate for `{name}`"),
-                    remedy: format!("add \"{name}'\" = \"…\""),
-                }));
+                let (message, remedy) = match are_rates {
+                    true => (
+                        format!("[field] has no rate for `{name}`"),
+                        format!("add \"{name}'\" = \"…\""),
+                    ),
+                    false => (
+                        format!("[map] has no image of `{name}`"),
+                        format!("add \"{name}\" = \"…\"; \"{name}\" where it stays"),
+                    ),
+                };
+                section.mistakes().add(section.complaint(Problem::Other { message, remedy }));
                 None
             }
         };

@@ -9,6 +9,7 @@ mod body;
 mod build;
 mod charts;
 mod claims;
+mod complex;
 mod error;
 mod family;
 mod feedback;
@@ -19,6 +20,7 @@ mod homogeneous;
 mod lagrangian;
 mod lines;
 mod lists;
+mod map;
 mod mistakes;
 mod one_sided;
 mod order;
@@ -58,8 +60,8 @@ pub struct Case {
     pub title: String,
     /// Publication that the case is taken from.
     pub source: String,
-    /// Name of the system: `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`,
-    /// `nonholonomic`, `vakonomic` or `field`.
+    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
+    /// `vakonomic`, `field` or `map`.
     pub system: String,
     /// Equations and names.
     pub model: Model,

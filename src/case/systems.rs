@@ -11,15 +11,14 @@ use super::order::{Item, Stage};
 use super::parameters::Setting;
 use super::section::{Section, Text};
 use super::state::{self, State, TIME};
-use super::{ball, body, feedback, hamiltonian, lagrangian, shadows};
+use super::{ball, body, feedback, hamiltonian, lagrangian, map, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
     Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
 };
 
-const SYSTEMS: &str =
-    "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic or field";
+const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic, field or map";
 
 /// A model with its chart and draws.
 pub struct Parts {
@@ -104,6 +103,7 @@ impl<'r, 's> Reading<'r, 's> {
             "nonholonomic" => self.lagrangian(false),
             "vakonomic" => self.lagrangian(true),
             "field" => self.field(),
+            "map" => map::system(&mut self),
             found => {
                 let message = format!("unknown system `{found}`");
                 let remedy = format!("write {SYSTEMS}");
@@ -157,6 +157,7 @@ impl<'r, 's> Reading<'r, 's> {
             None if ["field", "hamiltonian"].iter().any(|key| self.root.has(key)) => {
                 Some(Text::made("field".to_string(), 0..0))
             }
+            None if self.root.has("map") => Some(Text::made("map".to_string(), 0..0)),
             None if self.root.value("lagrangian").is_some() => {
                 let remedy = "add system = \"nonholonomic\" or \"vakonomic\"";
                 self.mistakes().add(self.root.missing("system", remedy));
@@ -301,7 +302,8 @@ impl<'r, 's> Reading<'r, 's> {
 
     /// Adds time as a variable where formulas use it and it has no other meaning.
     fn add_time(&mut self, reach: Reach) {
-        if self.assumed.time && self.vocabulary.find(TIME).is_none() {
+        let is_discrete = self.root.has("map");
+        if self.assumed.time && !is_discrete && self.vocabulary.find(TIME).is_none() {
             self.state.add_time(&mut self.vocabulary, reach);
         }
     }

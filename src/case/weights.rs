@@ -102,7 +102,7 @@ fn of_system(system: &System) -> Vec<&Formula> {
             energies.chain(&lagrangian.constraints).collect()
         }
         System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
-        System::Field(rates) => rates.iter().collect(),
+        System::Field(rates) | System::Map(rates) => rates.iter().collect(),
     }
 }
 

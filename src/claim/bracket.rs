@@ -57,6 +57,7 @@ impl Bracket {
 
 impl Statement for Bracket {
     const NAME: &'static str = "bracket";
+    const OF_MAPS: bool = true;
     const COMPANIONS: &'static [&'static str] = &["equals"];
     const AT_IMAGES: bool = true;
 

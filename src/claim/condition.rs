@@ -23,6 +23,11 @@ pub enum Need {
         /// Required rank.
         rank: usize,
     },
+    /// A value is not 0 at any state.
+    NotZero {
+        /// The value.
+        value: Expr,
+    },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {
         /// Function whose zeros are considered.

@@ -3,6 +3,9 @@
 //! On a level set {F_i = c_i} the density refers to the volume σ with dx = dF_1∧…∧dF_k∧σ, and the
 //! equation is v(ln ρ) + div v - Σ d(L_vF_i)(n_i) = 0 with dF_i(n_j) = δ_ij. The logarithm is
 //! differentiated through products and powers, so that roots and exponentials of ρ drop out.
+//!
+//! A map keeps the measure |ρ| dx where (ρ∘Φ det DΦ)² = ρ²; a sign of ρ says nothing of a measure, and
+//! a map that turns orientation around keeps one as well. In squares no modulus has to be settled.
 
 use num_dual::DualNum;
 
@@ -12,12 +15,13 @@ use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, dot};
 use crate::scalar::Scalar;
 
-/// The claim that ρ is an invariant density: v(ln ρ) + div v = 0 on the level.
+/// ρ is an invariant density: v(ln ρ) + div v = 0 on the level, or |ρ∘Φ det DΦ| = |ρ|.
 #[derive(Clone, Debug)]
 pub struct Density(pub Formula);
 
 impl Statement for Density {
     const NAME: &'static str = "density";
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         from.required(Self::NAME, Some(Type::Scalar)).map(Self)
@@ -33,13 +37,25 @@ impl Statement for Density {
 
     /// Computes v(ln ρ) + div v minus the cofactors of the level functions.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+        if jet.phase.model().system.is_map() {
+            let [here, there] = self.squares(jet, kept);
+            return vec![there - here];
+        }
         let moved = jet.along_field();
         let along = self.0.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         vec![along + jet.divergence() - jet.level_cofactor(kept)]
     }
 
-    /// Returns the square of the scale |v|(|∇ln ρ| + 1/|x|), and ρ itself for its sign.
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
+    fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
+        if jet.phase.model().system.is_map() {
+            let squares = self.squares(jet, kept);
+            return Context {
+                scale: Some(dot(&squares, &squares)),
+                value: vec![jet.phase.scalar(&self.0)],
+                ..Context::default()
+            };
+        }
         let slope = self.slope(jet);
         let (field, state) = (jet.phase.field(), jet.phase.state());
         let rate = dot(&slope, &slope) + dot(&state, &state).recip();
@@ -56,6 +72,13 @@ impl Statement for Density {
 }
 
 impl Density {
+    /// ρ² and (ρ∘Φ det DΦ)², with the factor of the level's volume on a level.
+    fn squares<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> [T; 2] {
+        let (here, there) = (jet.phase.scalar(&self.0), jet.image().scalar(&self.0));
+        let moved = there * jet.expansion(kept);
+        [here * here, moved * moved]
+    }
+
     /// Computes ∇ln ρ.
     fn slope(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
         jet.along_axes()

@@ -1,71 +1,122 @@
-//! Fixed points on the level, with the spectrum of the linear part.
+//! Fixed points on the level, of a flow or a map, with the spectrum of the linear part.
 
 use num_dual::Dual;
 
 use super::components::Components;
 use super::point::read_point;
-use super::{Reader, Statement, difference};
-use crate::formula::Formula;
+use super::{Complex, Reader, Statement, difference};
+use crate::formula::{Formula, Type};
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::scalar::Scalar;
 
-/// The claim that the field vanishes at a point where the linear part has these eigenvalues, and
-/// otherwise 0.
+/// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0, or
+/// this characteristic polynomial.
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
     point: Components,
-    spectrum: Option<Vec<Formula>>,
+    spectrum: Option<Vec<Complex>>,
+    /// The coefficients of λ^(n-1), …, 1.
+    polynomial: Option<Vec<Formula>>,
 }
 
 impl Statement for FixedPoint {
     const NAME: &'static str = "fixed-point";
-    const COMPANIONS: &'static [&'static str] = &["spectrum"];
+    const COMPANIONS: &'static [&'static str] = &["spectrum", "characteristic-polynomial"];
     const WIDENS: bool = false;
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let model = from.model();
         let point = read_point(from, Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
-        let spectrum = from.list("spectrum")?;
-        if let Some(eigenvalues) = &spectrum
-            && eigenvalues.len() > model.dimension()
-        {
-            let message = format!("{} eigenvalues are too many", eigenvalues.len());
+        let spectrum = from.complex_list("spectrum")?;
+        let count = |(_, imaginary): &Complex| if imaginary.is_some() { 2 } else { 1 };
+        let eigenvalues: usize = spectrum.iter().flatten().map(count).sum();
+        if eigenvalues > model.dimension() {
+            let message = format!("{eigenvalues} eigenvalues are too many");
             let remedy = "list those that are not 0, each as often as it occurs";
             return Err(from.complaint("spectrum", message, remedy));
         }
-        if spectrum.iter().flatten().any(|formula| model.has_antiderivative(formula)) {
+        let parts = spectrum.iter().flatten().flat_map(|(a, b)| [a].into_iter().chain(b));
+        if parts.into_iter().any(|formula| model.has_antiderivative(formula)) {
             let message = "an eigenvalue has no ∫ in it: its constant is open".to_string();
             return Err(from.complaint("spectrum", message, "write the antiderivative out"));
         }
-        Ok(Self { point, spectrum })
+        Ok(Self { point, spectrum, polynomial: read_polynomial(from)? })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
-        let mut residual = at.field().to_vec();
+        let mut residual = match at.model().system.is_map() {
+            true => difference(at.field().to_vec(), state.clone()),
+            false => at.field().to_vec(),
+        };
         residual.extend(jet.level_at(&at, kept));
+        if self.spectrum.is_none() && self.polynomial.is_none() {
+            return residual;
+        }
+        let columns: Vec<Vec<T>> = (0..state.len())
+            .map(|j| at.lift_along(j).field().iter().map(|x: &Dual<T>| x.eps).collect())
+            .collect();
+        let found = characteristic_polynomial(&columns);
         if let Some(spectrum) = &self.spectrum {
-            let dimension = state.len();
-            let columns: Vec<Vec<T>> = (0..dimension)
-                .map(|j| at.lift_along(j).field().iter().map(|x: &Dual<T>| x.eps).collect())
-                .collect();
-            let eigenvalues = spectrum.iter().map(|f| at.scalar(f)).collect::<Vec<T>>();
-            let claimed = coefficients(&eigenvalues, dimension);
-            residual.extend(difference(characteristic_polynomial(&columns), claimed));
+            let value = |(real, imaginary): &Complex| {
+                (at.scalar(real), imaginary.as_ref().map(|part| at.scalar(part)))
+            };
+            let eigenvalues: Vec<(T, Option<T>)> = spectrum.iter().map(value).collect();
+            let claimed = coefficients(&eigenvalues, state.len());
+            residual.extend(difference(found.clone(), claimed));
+        }
+        if let Some(polynomial) = &self.polynomial {
+            let claimed = polynomial.iter().map(|formula| at.scalar(formula)).collect();
+            residual.extend(difference(found, claimed));
         }
         residual
     }
 }
 
-/// Computes the coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) λ^(n-k).
-fn coefficients<T: Scalar>(eigenvalues: &[T], dimension: usize) -> Vec<T> {
+/// Reads the coefficients of a characteristic polynomial, if they are given.
+fn read_polynomial<R: Reader>(from: &R) -> Result<Option<Vec<Formula>>, R::Error> {
+    let key = "characteristic-polynomial";
+    let model = from.model();
+    let Some(polynomial) = from.list(key)? else { return Ok(None) };
+    let dimension = model.dimension();
+    if polynomial.len() != dimension {
+        let message = format!(
+            "{} coefficients are given, and λ^{dimension} has {dimension} below it",
+            polynomial.len()
+        );
+        let remedy = "list those of all lower powers, the highest first, and 0 where one is 0";
+        return Err(from.complaint(key, message, remedy));
+    }
+    if let Some(other) = polynomial.iter().find(|formula| formula.value_type() != Type::Scalar) {
+        let message = format!("a coefficient is a {}", other.value_type());
+        return Err(from.complaint(key, message, "give scalars"));
+    }
+    if polynomial.iter().any(|formula| model.has_antiderivative(formula)) {
+        let message = "a coefficient has no ∫ in it: its constant is open".to_string();
+        return Err(from.complaint(key, message, "write the antiderivative out"));
+    }
+    Ok(Some(polynomial))
+}
+
+/// The coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) Π((λ - a_i)² + b_i²) λ^(n-k).
+fn coefficients<T: Scalar>(eigenvalues: &[(T, Option<T>)], dimension: usize) -> Vec<T> {
     let mut polynomial = vec![T::zero(); dimension + 1];
     polynomial[0] = T::one();
-    for eigenvalue in eigenvalues {
+    for (real, imaginary) in eigenvalues {
+        // times λ² - sλ + p, or λ - s
+        let (sum, product) = match imaginary {
+            None => (*real, T::zero()),
+            Some(part) => (*real + *real, *real * *real + *part * *part),
+        };
         for k in (1..=dimension).rev() {
             let above = polynomial[k - 1];
-            polynomial[k] -= above * *eigenvalue;
+            polynomial[k] -= above * sum;
+            if imaginary.is_some() && k > 1 {
+                let higher = polynomial[k - 2];
+                polynomial[k] += higher * product;
+            }
         }
     }
     polynomial.split_off(1)

@@ -139,6 +139,7 @@ impl Casimir {
 
 impl Statement for Casimir {
     const NAME: &'static str = "casimir";
+    const OF_MAPS: bool = true;
     const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
@@ -194,6 +195,7 @@ impl JacobiIdentity {
 
 impl Statement for JacobiIdentity {
     const NAME: &'static str = "jacobi-identity";
+    const OF_MAPS: bool = true;
     const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

@@ -23,7 +23,7 @@ pub struct Rate {
     rate: Formula,
 }
 
-/// The claim L_vF = κF, so that F = 0 is invariant.
+/// L_vF = κF, or F∘Φ = κF, so that F = 0 is kept.
 #[derive(Clone, Debug)]
 pub struct Relation {
     function: Formula,
@@ -32,6 +32,7 @@ pub struct Relation {
 
 impl Statement for Identity {
     const NAME: &'static str = "identity";
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let (left, right) = from.equation(Self::NAME)?;
@@ -104,6 +105,7 @@ impl Statement for Rate {
 impl Statement for Relation {
     const NAME: &'static str = "invariant-relation";
     const COMPANIONS: &'static [&'static str] = &["cofactor"];
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let function = from.required(Self::NAME, Some(crate::formula::Type::Scalar))?;
@@ -156,7 +158,11 @@ impl Statement for Relation {
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         let value = jet.phase.scalar(&self.cofactor) * jet.phase.scalar(&self.function);
-        difference(jet.rates(&self.function), vec![value])
+        let moved = match jet.phase.model().system.is_map() {
+            true => vec![jet.image().scalar(&self.function)],
+            false => jet.rates(&self.function),
+        };
+        difference(moved, vec![value])
     }
 }
 

@@ -23,6 +23,7 @@ const MOST: usize = 12;
 
 impl Statement for Independent {
     const NAME: &'static str = "independent";
+    const OF_MAPS: bool = true;
     const NEGATED: bool = true;
     const WIDENS: bool = false;
 
@@ -51,6 +52,9 @@ impl Statement for Independent {
     /// Remarks on the theorem of Euler and Jacobi: with an invariant density, n - 2 independent
     /// integrals on an n-dimensional level integrate the system by quadratures.
     fn remark(&self, model: &Model) -> Option<String> {
+        if model.system.is_map() {
+            return None;
+        }
         let functions: usize = self.0.iter().map(|f| f.value_type().size()).sum();
         let level = model.dimension().checked_sub(model.level.len())?;
         let needed = level.checked_sub(2)?;

@@ -1,17 +1,19 @@
-//! First integrals: L_vF = 0, for scalars, vectors and matrices.
+//! First integrals: L_vF = 0, or F∘Φ = F for a map; for scalars, vectors and matrices.
 
-use super::{Context, Novelty, Reader, Statement};
+use super::{Context, Novelty, Reader, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
+use crate::mechanics::Phase;
 use crate::mechanics::calculus::{Jet, dot, rejection};
 use crate::scalar::Scalar;
 
-/// The claim that F is a first integral: L_vF = 0.
+/// F is a first integral: L_vF = 0, or F∘Φ = F.
 #[derive(Clone, Debug)]
 pub struct Integral(pub Formula);
 
 impl Statement for Integral {
     const NAME: &'static str = "integral";
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         from.required(Self::NAME, None).map(Self)
@@ -25,13 +27,23 @@ impl Statement for Integral {
         Some(Self(formula))
     }
 
-    /// Computes L_vF.
+    /// L_vF, or F∘Φ - F.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        if jet.phase.model().system.is_map() {
+            let value = |at: &Phase<'_, T>| at.evaluate(&self.0).components();
+            return difference(value(&jet.image()), value(&jet.phase));
+        }
         jet.rates(&self.0)
     }
 
-    /// Returns the square of the scale |∇F||v|.
+    /// The scale |∇F||v|, or |F|.
     fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        if jet.phase.model().system.is_map() {
+            let [value, there] =
+                [&jet.phase, &jet.image()].map(|at| at.evaluate(&self.0).components());
+            let scale = Some(dot(&value, &value) + dot(&there, &there));
+            return Context { scale, value, ..Context::default() };
+        }
         let field = jet.phase.field();
         let steepness: Expr = self.slopes(jet).iter().map(|slope| dot(slope, slope)).sum();
         Context {

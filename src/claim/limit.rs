@@ -35,6 +35,7 @@ pub struct Limit {
 
 impl Statement for Limit {
     const NAME: &'static str = "limit";
+    const OF_MAPS: bool = true;
     const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
     const UNDEFINED: &'static str = ": the parameter is set to 0, so the formula must be written without dividing by it, \
          and with a slope have a second derivative there";

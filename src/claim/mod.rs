@@ -11,13 +11,16 @@ mod condition;
 mod criterion;
 mod density;
 mod fixed_point;
+mod form;
 mod hamiltonian;
 mod identity;
 mod independence;
 mod integral;
 mod lax;
 mod limit;
+mod lyapunov;
 pub mod motion;
+mod no_density;
 mod place;
 mod point;
 mod reader;
@@ -38,15 +41,18 @@ pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
 pub use density::Density;
 pub use fixed_point::FixedPoint;
+pub use form::Form;
 pub use hamiltonian::{Casimir, DensityInVariables, Hamiltonian, JacobiIdentity};
 pub use identity::{Identity, Rate, Relation};
 pub use independence::Independent;
 pub use integral::Integral;
 pub use lax::Lax;
 pub use limit::Limit;
+pub use lyapunov::Lyapunov;
+pub use no_density::NoDensity;
 pub use place::Place;
 
-pub use reader::Reader;
+pub use reader::{Complex, Reader};
 pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
@@ -110,6 +116,16 @@ macro_rules! kinds {
                 match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
             }
 
+            /// Is it an inequality, which states that are looked at do not make likely?
+            pub fn is_inequality(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::IS_INEQUALITY,)* }
+            }
+
+            /// Can it be claimed of a map in the place of a flow?
+            fn is_of_maps(&self) -> bool {
+                match self { $(Kind::$kind(_) => $kind::OF_MAPS,)* }
+            }
+
             /// Suggests a reason for a residual that is defined nowhere.
             pub fn hint_when_undefined(&self) -> &'static str {
                 match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }
@@ -146,6 +162,9 @@ kinds! {
     Map,
     Independent,
     FixedPoint,
+    NoDensity,
+    Lyapunov,
+    Form,
     Limit,
     Hamiltonian,
     Casimir,
@@ -217,6 +236,16 @@ impl Kind {
 
     /// Returns the reason why this kind of claim does not apply to `model`, if any.
     pub fn objection(&self, model: &Model) -> Option<Objection> {
+        if model.system.is_map() && !self.is_of_maps() {
+            let message = format!("`{}` speaks of a flow, and the case is a map", self.name());
+            let remedy = "of a map, claim integral, density, symmetry, reversor, fixed-point, \
+                          no-density-near, lyapunov, form, invariant-relation, identity, independent or limit";
+            return Some(Objection { message, remedy });
+        }
+        // Values at x and at Φ(x) are compared, and the constant of an ∫ is open.
+        if model.system.is_map() && self.formulas().iter().any(|f| model.has_antiderivative(f)) {
+            return Some(Objection::open_constant("a claim about a map"));
+        }
         of_each!(self, statement => statement.objection(model))
     }
 

@@ -3,6 +3,9 @@
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Vocabulary};
 
+/// A number by its real part, and a pair of conjugate ones by both parts.
+pub type Complex = (Formula, Option<Formula>);
+
 /// The entries of one claim, independent of the file format.
 pub trait Reader {
     /// A complaint with its place in the text.
@@ -70,6 +73,9 @@ pub trait Reader {
         message: String,
         remedy: &str,
     ) -> Self::Error;
+
+    /// The entries of a list of numbers that may be complex: a, or a and b for a ± b*i.
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Self::Error>;
 
     /// Makes a complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;

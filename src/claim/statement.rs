@@ -28,6 +28,14 @@ pub struct Objection {
     pub remedy: &'static str,
 }
 
+impl Objection {
+    /// What stands against an ∫ where its value matters.
+    pub fn open_constant(what: &str) -> Self {
+        let message = format!("{what} has no ∫ in it: its constant is open");
+        Self { message, remedy: "write the antiderivative out" }
+    }
+}
+
 /// A kind of claim: its syntax, and the scalars that vanish where it holds.
 pub trait Statement: Clone {
     /// Key in case files, and name in reports.
@@ -44,6 +52,12 @@ pub trait Statement: Clone {
 
     /// Whether the claim is about functions of new variables, and tested at the images of states.
     const AT_IMAGES: bool = false;
+
+    /// Is it an inequality, which states that are looked at do not make likely?
+    const IS_INEQUALITY: bool = false;
+
+    /// Can it be claimed of a map in the place of a flow?
+    const OF_MAPS: bool = false;
 
     /// Possible reason for a residual that is defined nowhere.
     const UNDEFINED: &'static str = "";

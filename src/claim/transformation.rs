@@ -16,15 +16,15 @@ struct Transformation {
     parameters: Vec<(usize, Formula)>,
 }
 
-/// The claim that σ maps solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t →
-/// λt.
+/// σ takes solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t → λt; of a map,
+/// Φ∘σ = σ∘Φ.
 #[derive(Clone, Debug)]
 pub struct Symmetry {
     map: Transformation,
     time: Option<Formula>,
 }
 
-/// The claim that σ reverses time and maps the level to itself: dσ·v = -v∘σ, and σ∘σ = id.
+/// σ reverses time and takes the level to itself: dσ·v = -v∘σ, and σ∘σ = id; of a map, Φ∘σ∘Φ = σ.
 #[derive(Clone, Debug)]
 pub struct Reversor(Transformation);
 
@@ -90,6 +90,19 @@ impl Transformation {
         at.with(&parameters, &self.image(at))
     }
 
+    /// Zero where the parameters that σ gives do not change along the motion, as parameters must not.
+    fn parameters_move<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+        let images = self.parameters.iter().map(|(_, image)| image);
+        if !jet.phase.model().system.is_map() {
+            return images.flat_map(|image| jet.rates(image)).collect();
+        }
+        let there = jet.image();
+        let values = |at: &Phase<'_, T>, image| at.evaluate(image).components();
+        images
+            .flat_map(|image| difference(values(&there, image), values(&jet.phase, image)))
+            .collect()
+    }
+
     /// Computes dσ·v.
     fn pushed<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
         self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
@@ -117,10 +130,15 @@ impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
     const JETS: Jets = Jets::TwoPoints;
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let map = Transformation::read(from, Self::NAME)?;
         let time = from.formula("time", Some(Type::Scalar))?;
+        if time.is_some() && from.model().system.is_map() {
+            let message = "a map has no time to scale".to_string();
+            return Err(from.complaint("time", message, "remove `time`"));
+        }
         let moves = |time: &Formula| {
             let names = &from.model().vocabulary;
             names.with_abbreviations(time, &from.model().abbreviations).iter().any(|formula| {
@@ -163,11 +181,17 @@ impl Statement for Symmetry {
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
-        let time = self.time.as_ref().map_or_else(T::one, |time| jet.phase.scalar(time));
         let there = self.map.point(&jet.phase);
-        let rates = there.field().iter().map(|rate| time * *rate).collect();
-        let mut residual = difference(self.map.pushed(jet), rates);
+        let mut residual = match jet.phase.model().system.is_map() {
+            true => difference(self.map.image(&jet.image()), there.field().to_vec()),
+            false => {
+                let time = self.time.as_ref().map_or_else(T::one, |time| jet.phase.scalar(time));
+                let rates = there.field().iter().map(|rate| time * *rate).collect();
+                difference(self.map.pushed(jet), rates)
+            }
+        };
         residual.extend(jet.level_at(&there, kept));
+        residual.extend(self.map.parameters_move(jet));
         residual
     }
 }
@@ -175,6 +199,7 @@ impl Statement for Symmetry {
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
     const JETS: Jets = Jets::TwoPoints;
+    const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         Transformation::read(from, Self::NAME).map(Self)
@@ -190,11 +215,20 @@ impl Statement for Reversor {
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let there = self.0.point(&jet.phase);
-        let rates = there.field().iter().map(|rate| -*rate).collect();
         let twice = self.0.point(&there);
-        let mut residual = difference(self.0.pushed(jet), rates);
+        let mut residual = match jet.phase.model().system.is_map() {
+            true => {
+                let beyond = self.0.point(&jet.image());
+                difference(beyond.field().to_vec(), there.state())
+            }
+            false => {
+                let rates = there.field().iter().map(|rate| -*rate).collect();
+                difference(self.0.pushed(jet), rates)
+            }
+        };
         residual.extend(difference(twice.state(), jet.phase.state()));
         residual.extend(jet.level_at(&there, kept));
+        residual.extend(self.0.parameters_move(jet));
         for (index, _) in &self.0.parameters {
             let value = |at: &Phase<'_, T>| at.configuration.parameter(*index).components();
             residual.extend(difference(value(&twice), value(&jet.phase)));

@@ -29,6 +29,9 @@ pub enum FlowError {
     /// The system has an arbitrary function, so that no single motion is determined.
     #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
     Arbitrary,
+    /// A system that has no motions in time.
+    #[error("the case is a map, and motions are followed of flows")]
+    Discrete,
     /// The point does not lie on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
     OffSphere {
@@ -141,6 +144,9 @@ impl FlowError {
             FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
             FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::Arbitrary => "give a shape and a potential by formulas",
+            FlowError::Discrete => {
+                "give a case with a field; what holds of a map is claimed, and judged by `check`"
+            }
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => {

@@ -56,6 +56,9 @@ pub(super) fn extended_program(
     more: usize,
     build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
 ) -> Result<Program, FlowError> {
+    if model.system.is_map() {
+        return Err(FlowError::Discrete);
+    }
     let dimension = model.dimension();
     let (graph, (rates, outputs)) = record(dimension + more, |inputs| {
         let (state, more) = inputs.split_at(dimension);

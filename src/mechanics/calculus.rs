@@ -182,9 +182,14 @@ pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
     if vectors.first().is_some_and(|vector| vector.len() < n) {
         return T::zero();
     }
-    let matrix = gram(vectors);
+    determinant(&gram(vectors))
+}
+
+/// The determinant of a square matrix, without pivots.
+pub fn determinant<T: Scalar>(matrix: &[Vec<T>]) -> T {
+    let n = matrix.len();
     if n > MOST_BY_MINORS {
-        let last = characteristic_polynomial(&matrix).pop().unwrap_or_else(T::one);
+        let last = characteristic_polynomial(matrix).pop().unwrap_or_else(T::one);
         return if n.is_multiple_of(2) { last } else { -last };
     }
     // minors[columns]: the determinant of the first rows with these columns

@@ -9,6 +9,7 @@ mod configuration;
 mod draws;
 mod flat_base;
 mod hamiltonian;
+pub mod iterate;
 mod lagrangian;
 mod linear;
 mod memo;
@@ -73,6 +74,8 @@ pub enum System {
     Hamiltonian(Box<Hamiltonian>),
     /// A vector field of the user: the rate of each state variable.
     Field(Vec<Formula>),
+    /// A map of the user's own: the image of each state variable.
+    Map(Vec<Formula>),
 }
 
 impl System {
@@ -107,7 +110,7 @@ impl System {
                 energies.chain(&lagrangian.constraints).chain(forces).chain(carried).collect()
             }
             System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
-            System::Field(rates) => rates.iter().collect(),
+            System::Field(rates) | System::Map(rates) => rates.iter().collect(),
         }
     }
 
@@ -125,11 +128,12 @@ impl System {
             System::FlatBase(_)
             | System::Lagrangian(_)
             | System::Hamiltonian(_)
-            | System::Field(_) => false,
+            | System::Field(_)
+            | System::Map(_) => false,
         }
     }
 
-    /// Returns the time derivatives of the state's components, in order.
+    /// The time derivatives of the state's components, in order; of a map their images.
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         match self {
             System::Rubber(body) => body.field(phase),
@@ -137,7 +141,7 @@ impl System {
             System::Ball(ball) => ball.field(phase),
             System::Lagrangian(lagrangian) => lagrangian.field(phase),
             System::Hamiltonian(hamiltonian) => hamiltonian.field(phase),
-            System::Field(rates) => {
+            System::Field(rates) | System::Map(rates) => {
                 rates.iter().flat_map(|rate| phase.evaluate(rate).components()).collect()
             }
         }
@@ -151,7 +155,7 @@ impl System {
             System::Ball(ball) => Some(ball.energy(phase)),
             System::Lagrangian(lagrangian) => Some(lagrangian.energy(&phase.configuration)),
             System::Hamiltonian(hamiltonian) => Some(hamiltonian.energy(&phase.configuration)),
-            System::Field(_) => None,
+            System::Field(_) | System::Map(_) => None,
         }
     }
 
@@ -178,7 +182,12 @@ impl System {
 
     /// Whether the system has an energy.
     pub fn has_energy(&self) -> bool {
-        !matches!(self, System::Field(_))
+        !matches!(self, System::Field(_) | System::Map(_))
+    }
+
+    /// Is it a map, whose field is the image of the state?
+    pub fn is_map(&self) -> bool {
+        matches!(self, System::Map(_))
     }
 
     /// Whether the rates of velocities are more than quadratic forms of the velocities, because of
@@ -190,7 +199,9 @@ impl System {
             }
             System::FlatBase(body) => body.gyrostat.is_some(),
             System::Ball(ball) => ball.potential.is_some() || ball.rotation.is_some(),
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => true,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+                true
+            }
         }
     }
 
@@ -212,7 +223,9 @@ impl System {
                 }
                 ball.potential = None;
             }
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => return None,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+                return None;
+            }
         }
         Some(free)
     }
@@ -317,7 +330,7 @@ impl System {
             System::Hamiltonian(hamiltonian) => {
                 Value::Scalar(hamiltonian.energy(&phase.configuration))
             }
-            System::Field(_) => Value::Scalar(T::undefined()),
+            System::Field(_) | System::Map(_) => Value::Scalar(T::undefined()),
         }
     }
 

@@ -57,9 +57,14 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
     root.insert("parameters".into(), named(&report.parameters));
     root.insert("state".into(), named(&report.state));
     root.insert("level".into(), Value::Object(level));
-    root.insert("field".into(), list(&report.field));
-    root.insert("divergence".into(), number(&report.divergence));
-    root.insert("level_divergence".into(), number(&report.level_divergence));
+    if let Some(determinant) = &report.determinant {
+        root.insert("image".into(), list(&report.field));
+        root.insert("determinant".into(), number(determinant));
+    } else {
+        root.insert("field".into(), list(&report.field));
+        root.insert("divergence".into(), number(&report.divergence));
+        root.insert("level_divergence".into(), number(&report.level_divergence));
+    }
     if let Some(chi) = &report.chi {
         root.insert("chi".into(), list(chi));
     }
@@ -87,9 +92,15 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
         line(equation, format!("off by {}", shown(value)));
     }
     let rates: Vec<String> = report.field.iter().map(|rate| shown(rate)).collect();
-    line("field", rates.join("\n                   "));
-    line("divergence", shown(&report.divergence));
-    line("  on the level", shown(&report.level_divergence));
+    let rates = rates.join("\n                   ");
+    if let Some(determinant) = &report.determinant {
+        line("image", rates);
+        line("det DΦ", shown(determinant));
+    } else {
+        line("field", rates);
+        line("divergence", shown(&report.divergence));
+        line("  on the level", shown(&report.level_divergence));
+    }
     if let Some(chi) = &report.chi {
         line(
             "χ",

@@ -157,7 +157,7 @@ fn pieces(model: &Model) -> Pieces {
                 }
             }
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => {
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
             for variable in &model.state {
                 match variable.kind {
                     Type::VECTOR => pieces.linear.push(variable.name.clone()),
@@ -184,7 +184,10 @@ pub fn integrals(model: &Model) -> Texts {
     if let Some(normal) = pieces.normal {
         forms.extend(pieces.linear.iter().map(|vector| format!("({vector},{normal})")));
     }
-    if matches!(model.system, System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)) {
+    if matches!(
+        model.system,
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
+    ) {
         for vector in &pieces.linear {
             forms.extend((1..=3).map(|k| format!("{vector}[{k}]")));
         }
@@ -271,7 +274,7 @@ pub fn factors(model: &Model) -> Texts {
                 factors.push("(γ,B*γ)".to_string());
             }
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => {}
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
     }
     factors
 }

@@ -74,6 +74,9 @@ pub enum SearchError {
     /// The count did not become stable.
     #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
     Unsettled(u32),
+    /// The system is a map.
+    #[error("the case is a map, and invariants are searched for of flows")]
+    Discrete,
     /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
     Stopped,
@@ -108,6 +111,7 @@ impl SearchError {
             SearchError::NoChart => "give [level.chart], or level equations that can be solved",
             SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
+            SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
             _ => "see docs/writing-a-case.md",
         }
     }
@@ -293,6 +297,9 @@ pub fn search(
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Report, SearchError> {
+    if case.model.system.is_map() {
+        return Err(SearchError::Discrete);
+    }
     let mut report = Report::default();
     let case = &abbreviated(case)?;
     report.claimed = ask::claimed(case, effort)?;

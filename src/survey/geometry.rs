@@ -145,7 +145,9 @@ impl Geometry {
                 }
                 (ball.potential.is_some(), false)
             }
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => return,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+                return;
+            }
         };
         match forces {
             true => note("potential", "there are forces"),
@@ -275,7 +277,7 @@ fn bindings(case: &Case) -> Vec<Definition> {
                 found.push(("F", function.text()));
             }
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => {}
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
     }
     found.retain(|(name, text)| name != text);
     found.into_iter().map(|(name, text)| define(name, text)).collect()

@@ -99,7 +99,9 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                 Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set }
             })
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) => sign_changes(case),
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+            sign_changes(case)
+        }
     }
 }
 

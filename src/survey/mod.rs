@@ -112,6 +112,9 @@ pub fn survey(
     options: &Options,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Survey, JudgeError> {
+    if case.model.system.is_map() {
+        return Err(JudgeError::Discrete);
+    }
     progress("what the case claims");
     let own = crate::verdict::judge(case, options)?;
     let claimed: Vec<Finding> = own

@@ -41,7 +41,7 @@ impl Unknown {
         // The families contain the symmetry fields of bodies.
         let is_body = !matches!(
             case.model.system,
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
         );
         let is_new = |one: &Found| !one.trivial && (!is_body || one.kind != "symmetry-field");
         match search(case, &effort, progress) {

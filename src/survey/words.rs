@@ -70,6 +70,7 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
             "Hamilton's equations with a function of the author's own.".to_string()
         }
         System::Field(_) => "A vector field of the author's own.".to_string(),
+        System::Map(_) => "A map of the author's own.".to_string(),
     }
 }
 

@@ -81,7 +81,10 @@ impl Bench<'_> {
             let rate = values.output(index);
             if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
-                return Err(JudgeError::NotInvariant { equation, rate });
+                return Err(match model.system.is_map() {
+                    true => JudgeError::NotMapped { equation, by: rate },
+                    false => JudgeError::NotInvariant { equation, rate },
+                });
             }
         }
         sampler.check_coverage(self.case)?;

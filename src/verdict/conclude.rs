@@ -30,6 +30,13 @@ pub fn report(
         }
         evidence.holds.clear();
     }
+    if claim.kind.is_inequality() && verdict == Verdict::Confirmed {
+        verdict = Verdict::Undecided;
+        let reason = "it holds at all states that were tried, and bounds over the ranges do not show more: \
+                      give the rate by equals, as a formula whose sign is seen";
+        evidence.reason = Some(reason.to_string());
+        evidence.holds.clear();
+    }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
         evidence.remark = evidence.remark.or_else(|| claim.kind.remark(&case.model));

@@ -21,12 +21,14 @@ impl Bench<'_> {
         sampler: &Sampler,
         holding: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        if sampler.is_numerical() {
-            return Ok(());
-        }
         for (item, finding) in holding.iter_mut() {
             for condition in &item.conditions {
-                let Some(failure) = self.failure(sampler, condition)? else { continue };
+                let failure = match (&condition.need, sampler.is_numerical()) {
+                    (Need::NotZero { .. }, true) => Some(condition.otherwise.clone()),
+                    (_, true) => None,
+                    (_, false) => self.failure(sampler, condition)?,
+                };
+                let Some(failure) = failure else { continue };
                 if !condition.is_essential {
                     finding.evidence.remark = Some(failure);
                 } else if !self.holds_of_all_values(item)? {
@@ -55,11 +57,27 @@ impl Bench<'_> {
                         .then(|| format!("it is not known whether {otherwise}")),
                 })
             }
+            Need::NotZero { value } => {
+                Ok((!self.is_never_zero(sampler, *value)?).then(|| otherwise.clone()))
+            }
             Need::ValueOnZeros { function, factor, inverse } => {
                 let is_met = self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
                 Ok((!is_met).then(|| otherwise.clone()))
             }
         }
+    }
+
+    /// Whether it is known that a value is 0 at no state.
+    fn is_never_zero(&self, sampler: &Sampler, value: Expr) -> Result<bool, Fault> {
+        let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
+        let extents = sampler.extents();
+        for fixed in combinations {
+            let (graph, groups) = sampler.compose(self.graph, &[vec![value]], &fixed)?;
+            if !is_nowhere_zero(&graph, &extents, &[], &groups.concat()) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Whether a claim about new variables is proved for all their values, related or not.

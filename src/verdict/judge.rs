@@ -103,6 +103,17 @@ pub enum JudgeError {
     /// The field is defined nowhere.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
+    /// A report on a map.
+    #[error("the case is a map, and reports are made on flows")]
+    Discrete,
+    /// The level set is left by a map.
+    #[error("the level set is not invariant: at the image of a state `{equation}` is off by {by}")]
+    NotMapped {
+        /// Equation that is not invariant.
+        equation: String,
+        /// Left minus right, at the image.
+        by: String,
+    },
     /// The motion leaves the level set.
     #[error("the level set is not invariant: along the motion `{equation}` changes at rate {rate}")]
     NotInvariant {
@@ -138,6 +149,13 @@ impl JudgeError {
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, or a singular inertia \
                  tensor in [parameters]"
+            }
+            JudgeError::Discrete => {
+                "claim the invariants of a map, and let `liouville check` judge them"
+            }
+            JudgeError::NotMapped { .. } => {
+                "a claim on a level set has a meaning only if the map keeps it: correct the \
+                 equation, or the map"
             }
             JudgeError::NotInvariant { .. } => {
                 "a claim on a level set has a meaning only if the motion stays on it: correct the \

@@ -5,7 +5,7 @@ use super::{JudgeError, antiderivative_value};
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::{Jet, determinant};
 use crate::mechanics::{Model, Phase, components};
 use crate::number::Domain;
 use crate::number::precise::{Approximation, Precise};
@@ -29,8 +29,10 @@ pub struct PointReport<N = Enclosed> {
     pub state: Vec<Named>,
     /// Level equations with the difference of their sides.
     pub level: Vec<(String, N)>,
-    /// Time derivatives of the state's components.
+    /// The time derivatives of the state's components; of a map their images.
     pub field: Vec<N>,
+    /// det DΦ, for a map; it has no divergence.
+    pub determinant: Option<N>,
     /// Divergence Σ ∂v_i/∂x_i over all components.
     pub divergence: N,
     /// Divergence minus the cofactors of the level functions.
@@ -145,8 +147,13 @@ impl<'c> Scene<'c> {
                 model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
                 phase.field().to_vec(),
             ];
-            let divergence = jet.divergence();
-            groups.push(vec![divergence, divergence - jet.level_cofactor(&level.kept)]);
+            if model.system.is_map() {
+                groups.extend([Vec::new(), vec![determinant(&jet.derivative())]]);
+            } else {
+                let divergence = jet.divergence();
+                let cofactor = jet.level_cofactor(&level.kept);
+                groups.extend([vec![divergence, divergence - cofactor], Vec::new()]);
+            }
             groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
             groups.push(model.system.criterion(phase).into_iter().collect());
             groups.push(model.system.energy(phase).into_iter().collect());
@@ -185,7 +192,7 @@ impl<'c> Scene<'c> {
         let mut next = || groups.next().unwrap_or_default();
         let level = model.level.iter().map(|e| e.text.clone()).zip(next()).collect();
         let field = next();
-        let divergences = next();
+        let (divergences, determinant) = (next(), next().first().cloned());
         let chi = next();
         let (criterion, energy) = (next().first().cloned(), next().first().cloned());
         let claims =
@@ -200,6 +207,7 @@ impl<'c> Scene<'c> {
             state,
             level,
             field,
+            determinant,
             divergence: divergences.first().cloned().unwrap_or_default(),
             level_divergence: divergences.get(1).cloned().unwrap_or_default(),
             chi: <[N; 3]>::try_from(chi).ok(),

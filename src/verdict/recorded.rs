@@ -90,7 +90,7 @@ pub struct Common {
     level_requirement: Vec<Vec<Expr>>,
     /// Level functions, zero on the level.
     pub level: Vec<Expr>,
-    /// Rates of the level functions along the motion.
+    /// Their rates along the motion, or their values at the image of a map.
     pub level_rates: Vec<Expr>,
     pub physics: Vec<Expr>,
     /// P + Pᵀ for the bracket of Hamilton's equations, zero where it is skew.
@@ -105,11 +105,15 @@ pub struct Common {
 impl Common {
     /// Records these expressions.
     pub fn of(jet: &Jet<'_, Expr>) -> Self {
-        let rate = |function| jet.lie_derivative(|at| at.level_function(function));
         let phase = &jet.phase;
+        let image = phase.model().system.is_map().then(|| jet.image());
+        let rate = |function| match &image {
+            Some(image) => image.level_function(function),
+            None => jet.lie_derivative(|at| at.level_function(function)),
+        };
         let own = matches!(
             phase.model().system,
-            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_)
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
         );
         let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {

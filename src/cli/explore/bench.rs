@@ -93,6 +93,10 @@ fn item(path: &Path) -> Result<Item, Vec<Failure>> {
     let shown = path.display().to_string();
     let (text, case) = Case::read(path, &[]);
     match case {
+        Ok(case) if case.model.system.is_map() => {
+            let message = "the case is a map, and derivatives are timed along flows";
+            Err(vec![files::plain(path, message, "give a case with a field")])
+        }
         Ok(case) => Ok(Item::new(shown, case)),
         Err(error) => Err(diagnostic::of_case(&shown, &text, &error, files::coloured())),
     }

@@ -29,7 +29,11 @@ pub struct Subject {
 
 impl Subject {
     pub fn open(&self) -> Result<Case, String> {
-        open(&self.case, &self.settings)
+        let case = open(&self.case, &self.settings)?;
+        match case.model.system.is_map() {
+            true => Err(self.told(&FlowError::Discrete)),
+            false => Ok(case),
+        }
     }
 
     /// Message about a failed motion, with its file.

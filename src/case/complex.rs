@@ -1,0 +1,51 @@
+//! Complex numbers in lists: `a ± b*i` is a pair of conjugate ones.
+
+use super::error::{Mistake, Problem};
+use super::formulas::formula;
+use super::section::Text;
+use crate::claim::Complex;
+use crate::formula::{Formula, Type};
+use crate::mechanics::{Reach, Vocabulary};
+
+/// What stands between the two parts.
+const SIGNS: [&str; 2] = ["±", "+/-"];
+
+/// Reads `a`, or `a ± b*i`, where a may be left out.
+pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
+    let written = text.value.as_str();
+    let sign = SIGNS.iter().find_map(|sign| Some((written.find(sign)?, sign.len())));
+    let Some((place, length)) = sign else { return Ok((scalar(text, names)?, None)) };
+    let behind = place + length;
+    let (real, imaginary) = (written[..place].trim(), written[behind..].trim());
+    let Some(factor) = factor_of_i(imaginary) else {
+        let message = "what stands behind ± is no multiple of i".to_string();
+        let remedy = "write a ± b*i for two conjugate numbers, and two real ones apart".to_string();
+        let span = text.locate(behind..written.len());
+        return Err(Mistake::at(span, Problem::Other { message, remedy }));
+    };
+    let part = |written: &str, range| {
+        let written = if written.is_empty() { "0" } else { written };
+        scalar(&Text::made(written.to_string(), text.locate(range)), names)
+    };
+    Ok((part(real, 0..place)?, Some(part(factor, behind..text.value.len())?)))
+}
+
+/// b of b*i, with 1 for i itself.
+fn factor_of_i(text: &str) -> Option<&str> {
+    if text == "i" {
+        return Some("1");
+    }
+    let times = ['*', '·'];
+    let before = |text: &'_ str| text.trim_end().strip_suffix(times).map(|b| b.trim_end().len());
+    let behind =
+        |text: &'_ str| text.trim_start().strip_prefix(times).map(|b| b.trim_start().len());
+    match (text.strip_suffix('i').and_then(before), text.strip_prefix('i').and_then(behind)) {
+        (Some(length), _) => Some(&text[..length]),
+        (None, Some(length)) => Some(&text[text.len() - length..]),
+        (None, None) => None,
+    }
+}
+
+fn scalar(text: &Text, names: &Vocabulary) -> Result<Formula, Mistake> {
+    formula(text, names, "an entry", Some(Type::Scalar), Reach::Phase)
+}

@@ -1,0 +1,73 @@
+//! Lyapunov functions: L_vF ≤ 0, or F∘Φ ≤ F for a map, at all states of the declared ranges.
+//!
+//! x ≤ 0 is the equation x + |x| = 0: where the modulus is x, intervals have to show that there are no
+//! states, and a state at which x is positive refutes.
+
+use super::{Context, Objection, Reader, Statement};
+use crate::formula::{Formula, Type};
+use crate::graph::Expr;
+use crate::mechanics::Model;
+use crate::mechanics::calculus::Jet;
+use crate::scalar::Scalar;
+
+/// F does not grow; its rate is the formula that is given, if one is.
+#[derive(Clone, Debug)]
+pub struct Lyapunov {
+    function: Formula,
+    rate: Option<Formula>,
+}
+
+impl Lyapunov {
+    /// L_vF, or F∘Φ - F.
+    fn growth<T: Scalar>(&self, jet: &Jet<'_, T>) -> T {
+        match jet.phase.model().system.is_map() {
+            true => jet.image().scalar(&self.function) - jet.phase.scalar(&self.function),
+            false => jet.lie_derivative(|at| at.scalar(&self.function)),
+        }
+    }
+}
+
+impl Statement for Lyapunov {
+    const NAME: &'static str = "lyapunov";
+    const COMPANIONS: &'static [&'static str] = &["equals"];
+    const OF_MAPS: bool = true;
+    const IS_INEQUALITY: bool = true;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let function = from.required(Self::NAME, Some(Type::Scalar))?;
+        Ok(Self { function, rate: from.formula("equals", Some(Type::Scalar))? })
+    }
+
+    fn formulas(&self) -> Vec<&Formula> {
+        [&self.function].into_iter().chain(&self.rate).collect()
+    }
+
+    fn text(&self) -> Option<String> {
+        let function = self.function.text().trim();
+        Some(match &self.rate {
+            Some(rate) => format!("({function})' = {} ≤ 0", rate.text().trim()),
+            None => format!("({function})' ≤ 0"),
+        })
+    }
+
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        let is_open = self.rate.as_ref().is_some_and(|rate| model.has_antiderivative(rate));
+        is_open.then(|| Objection::open_constant("a rate with a sign"))
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let growth = self.growth(jet);
+        let excess = |x: T| x + x.modulus();
+        match &self.rate {
+            None => vec![excess(growth)],
+            Some(rate) => {
+                let rate = jet.phase.scalar(rate);
+                vec![growth - rate, excess(rate)]
+            }
+        }
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        Context { value: vec![jet.phase.scalar(&self.function)], ..Context::default() }
+    }
+}

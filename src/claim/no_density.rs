@@ -1,0 +1,81 @@
+//! Fixed points near which no density exists: the volume about them does not stay.
+//!
+//! Where v(x₀) = 0 the flow's derivative there is exp(tA), and det exp(tA) = exp(t div v). A measure
+//! with a continuous density ρ is kept only if ρ(x₀) = ρ(x₀) exp(t div v). So div v(x₀) ≠ 0 excludes
+//! each that is positive there; on a level the divergence is that of the level's volume. For a map the
+//! factor is det DΦ, and has to be ±1.
+
+use super::components::Components;
+use super::point::read_point;
+use super::{Condition, Context, Need, Reader, Statement, difference};
+use crate::graph::Expr;
+use crate::mechanics::Model;
+use crate::mechanics::calculus::Jet;
+use crate::scalar::Scalar;
+
+/// No measure with a density that is continuous, and positive at a fixed point, is kept near it.
+#[derive(Clone, Debug)]
+pub struct NoDensity(Components);
+
+impl NoDensity {
+    fn jet<'m, T: Scalar>(&self, jet: &Jet<'m, T>) -> Jet<'m, T> {
+        Jet::new(jet.phase.with(&[], &self.0.at(&jet.phase)))
+    }
+
+    /// The divergence at the point, or (det DΦ)² - 1.
+    fn growth(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Expr {
+        let at = self.jet(jet);
+        if jet.phase.model().system.is_map() {
+            let factor = at.expansion(kept);
+            return factor * factor - Expr::from(1.0);
+        }
+        at.divergence() - at.level_cofactor(kept)
+    }
+}
+
+impl Statement for NoDensity {
+    const NAME: &'static str = "no-density-near";
+    const WIDENS: bool = false;
+    const OF_MAPS: bool = true;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        read_point(from, Self::NAME)?.map(Self).ok_or_else(|| from.missing(Self::NAME))
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(format!("no density near ({})", self.0.text))
+    }
+
+    /// The point is a fixed one, on the level.
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+        let at = self.jet(jet);
+        let mut residual = match at.phase.model().system.is_map() {
+            true => difference(at.phase.field().to_vec(), at.phase.state()),
+            false => at.phase.field().to_vec(),
+        };
+        residual.extend(jet.level_at(&at.phase, kept));
+        residual
+    }
+
+    fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
+        Context { value: vec![self.growth(jet, kept)], ..Context::default() }
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+        let otherwise = match jet.phase.model().system.is_map() {
+            true => "it is not known that |det DΦ| differs from 1 at the point for all parameters",
+            false => {
+                "it is not known that the divergence differs from 0 at the point for all parameters"
+            }
+        };
+        vec![Condition {
+            need: Need::NotZero { value: self.growth(jet, kept) },
+            otherwise: otherwise.to_string(),
+            is_essential: true,
+        }]
+    }
+
+    fn remark(&self, _: &Model) -> Option<String> {
+        Some("excluded are densities that are continuous, and positive at the point".to_string())
+    }
+}
