@@ -63,36 +63,12 @@
 //! # Ok::<(), liouville::graph::Fault>(())
 //! ```
 
-#![cfg_attr(
-    not(all(feature = "cli", feature = "explore")),
-    allow(dead_code, unused_imports, reason = "some of the core is there for what builds on it")
-)]
+pub use liouville_graph::{engine, graph, number, proof, scalar};
 
-#[cfg(feature = "explore")]
-pub mod bench;
 pub mod case;
 pub mod claim;
-pub mod engine;
-#[cfg(feature = "explore")]
-pub mod flow;
 pub mod formula;
-pub mod graph;
 pub mod level;
 pub mod mechanics;
-pub mod number;
-#[cfg(feature = "explore")]
-pub mod observe;
-pub mod proof;
-#[cfg(feature = "cli")]
-pub mod report;
-pub mod scalar;
-#[cfg(feature = "explore")]
-pub mod search;
-#[cfg(feature = "explore")]
-pub mod stress;
-#[cfg(feature = "explore")]
-pub mod survey;
 pub mod sweep;
-#[cfg(feature = "testing")]
-pub mod testing;
 pub mod verdict;

@@ -10,8 +10,8 @@ use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use liouville::case::Case;
-use liouville::search::judge;
 use liouville::verdict::{CaseReport, JudgeError, Options};
+use liouville_search::judge;
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();

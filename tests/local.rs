@@ -63,7 +63,8 @@ fn on_a_level_the_divergence_is_that_of_the_level() {
     assert_eq!(verdicts(falling, sphere, &at[..2]), [Proved, Refuted]);
     // −1 − 1 along the level, and 2 across it
     let plane = "[level]\nequations = ['z = 0']";
-    let at = ["no-density-near = { x = '0' }", "no-density-near = { x = '0' }\nwhere = 'everywhere'"];
+    let at =
+        ["no-density-near = { x = '0' }", "no-density-near = { x = '0' }\nwhere = 'everywhere'"];
     assert_eq!(verdicts(["−x", "−y", "2*z"], plane, &at), [Proved, Undecided]);
     // a point off the level is none
     assert_eq!(

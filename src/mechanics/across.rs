@@ -18,9 +18,23 @@ use crate::scalar::Scalar;
 /// The operator Γ, prepared for inversion across γ.
 pub enum AcrossNormal<T> {
     /// Γ for symmetric ∂r/∂γ: A, tr A and D_T.
-    Symmetric { matrix: Matrix3<T>, trace: T, determinant: T },
+    Symmetric {
+        /// A
+        matrix: Matrix3<T>,
+        /// tr A
+        trace: T,
+        /// D_T
+        determinant: T,
+    },
     /// Γ for any r(γ): its adjugate, det Γ and D_T.
-    General { adjugate: Matrix3<T>, determinant: T, across: T },
+    General {
+        /// The adjugate of Γ.
+        adjugate: Matrix3<T>,
+        /// det Γ
+        determinant: T,
+        /// D_T
+        across: T,
+    },
 }
 
 impl<T: Scalar> AcrossNormal<T> {

@@ -82,8 +82,7 @@ impl Chart {
 }
 
 /// Maps (u, v, a) to (ω, γ) with γ² = 1 and (ω,γ) = 0 by the chart of the rubber systems.
-#[cfg(feature = "testing")]
-pub(crate) fn rolling_point<T: Scalar>(draws: [T; 5]) -> [T; 6] {
+pub fn rolling_point<T: Scalar>(draws: [T; 5]) -> [T; 6] {
     let state = on_sphere(&Chart::Rolling, &[true, true], &draws);
     std::array::from_fn(|k| state[k])
 }

@@ -45,16 +45,11 @@ pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use variables::{Block, Variables};
 pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
 
-#[cfg(feature = "testing")]
-pub(crate) use across::AcrossNormal;
-#[cfg(feature = "testing")]
-pub(crate) use body::contact_of;
-#[cfg(feature = "testing")]
-pub(crate) use chart::rolling_point;
-#[cfg(feature = "testing")]
-pub(crate) use linear::point_mass;
-#[cfg(feature = "testing")]
-pub(crate) use rolling::{Motion, Pose};
+pub use across::AcrossNormal;
+pub use body::contact_of;
+pub use chart::rolling_point;
+pub use linear::point_mass;
+pub use rolling::{Motion, Pose};
 
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;

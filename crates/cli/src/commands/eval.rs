@@ -1,0 +1,71 @@
+//! The command `liouville eval`.
+
+use std::io::IsTerminal;
+use std::path::Path;
+
+use liouville::case::{Case, Setting};
+use liouville::formula::canonical_name;
+use liouville::verdict;
+use liouville_cli::report::diagnostic;
+use liouville_cli::report::point;
+
+use super::{Answer, Eval, colour};
+
+pub fn run(options: &Eval) -> Result<Answer, String> {
+    let case = open(&options.case, &options.settings)?;
+    let shown = options.case.display().to_string();
+    let coloured = colour(std::io::stderr().is_terminal());
+    let state = match &options.state {
+        None => None,
+        Some(text) => Some(
+            verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
+        ),
+    };
+    let told = |error: verdict::JudgeError| {
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
+    };
+    let (seed, index, state) = (options.seed, options.index, state.as_deref());
+    let text = match options.digits {
+        None => written(&verdict::evaluate(&case, state, seed, index).map_err(told)?, options.json),
+        Some(digits) => written(
+            &verdict::evaluate_digits(&case, state, seed, index, digits).map_err(told)?,
+            options.json,
+        ),
+    }?;
+    Ok(Answer { text, code: 0 })
+}
+
+/// Reads a case with the values given by `--set`.
+pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
+    let settings =
+        settings.iter().map(|text| setting(text)).collect::<Result<Vec<Setting>, String>>()?;
+    for (index, setting) in settings.iter().enumerate() {
+        if settings[..index].iter().any(|earlier| earlier.name == setting.name) {
+            return Err(format!("error: --set: `{}` is given twice", setting.name));
+        }
+    }
+    let shown = path.display().to_string();
+    let coloured = colour(std::io::stderr().is_terminal());
+    let (text, case) = Case::read(path, &settings);
+    case.map_err(|error| {
+        diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
+    })
+}
+
+fn written<N: point::Written>(
+    report: &verdict::PointReport<N>,
+    json: bool,
+) -> Result<String, String> {
+    match json {
+        true => Ok(point::json(report).map_err(|error| format!("error: {error}"))? + "\n"),
+        false => Ok(point::text(report)),
+    }
+}
+
+fn setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = text.split_once('=').ok_or_else(|| {
+        format!("error: --set: `{text}` is not of the form name=value, such as m=5/4")
+    })?;
+    let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
+    Ok(Setting { name, value: value.to_string() })
+}

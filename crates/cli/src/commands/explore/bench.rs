@@ -1,0 +1,109 @@
+//! The command `liouville bench`.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use liouville::case::Case;
+use liouville::verdict::LANES;
+use liouville_cli::report::bench::{self, BenchRun};
+use liouville_cli::report::{Failure, diagnostic, diagram, terminal};
+use liouville_lab::bench::{Item, Measured, Options, measure_item, work_items};
+
+use super::{Answer, colour, files, width};
+
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// Case files, or folders of them; by default three work items, W1 to W3
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Write the work-precision diagram to this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Seed of the states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Number of states at which errors are measured (rounded up to blocks of 64)
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=65536))]
+    pub states: u64,
+    /// Number of interleaved rounds, of which the median time is taken
+    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub rounds: u32,
+}
+
+pub fn run(options: &Bench) -> Result<Answer, String> {
+    let amount = Options {
+        seed: options.seed,
+        blocks: options.states.div_ceil(LANES as u64),
+        rounds: options.rounds as usize,
+    };
+    let mut run = BenchRun::new(amount);
+    let found = items(options)?;
+    let (started, bar) = (Instant::now(), files::bar(found.len() as u64));
+    for (path, item) in found {
+        // One thread, one item at a time: candidates do not compete for the machine.
+        let measured = item.and_then(|item| measured(&item, &amount));
+        match measured {
+            Ok(measured) => run.measured.extend(measured),
+            Err(failures) => {
+                run.errors.extend(failures.into_iter().map(|failure| (path.clone(), failure)));
+            }
+        }
+        files::advance(&bar, started);
+    }
+    bar.finish_and_clear();
+    for (_, failure) in &run.errors {
+        anstream::eprintln!("{}", failure.rendered);
+    }
+    if let Some(path) = &options.svg
+        && !run.measured.is_empty()
+    {
+        super::write(path, "--svg", diagram::svg(&run.measured))?;
+    }
+    let text = if options.json {
+        bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"
+    } else {
+        let colour = colour(std::io::stdout().is_terminal());
+        bench::text(&run, terminal::Style { verbose: false, colour, width: width() })
+    };
+    Ok(Answer { text, code: if run.errors.is_empty() { 0 } else { 2 } })
+}
+
+type Named = (String, Result<Item, Vec<Failure>>);
+
+/// Collects the work items, or the cases under the paths.
+fn items(options: &Bench) -> Result<Vec<Named>, String> {
+    if options.paths.is_empty() {
+        let items = work_items().map_err(|error| format!("error: {error}"))?;
+        return Ok(items.into_iter().map(|item| (item.name.clone(), Ok(item))).collect());
+    }
+    let found = files::collect(&options.paths).into_iter();
+    Ok(found
+        .map(|file| match file {
+            Ok(path) => (path.display().to_string(), item(&path)),
+            Err((path, failure)) => (path.display().to_string(), Err(vec![failure])),
+        })
+        .collect())
+}
+
+fn item(path: &Path) -> Result<Item, Vec<Failure>> {
+    let shown = path.display().to_string();
+    let (text, case) = Case::read(path, &[]);
+    match case {
+        Ok(case) if case.model.system.is_map() => {
+            let message = "the case is a map, and derivatives are timed along flows";
+            Err(vec![files::plain(path, message, "give a case with a field")])
+        }
+        Ok(case) => Ok(Item::new(shown, case)),
+        Err(error) => Err(diagnostic::of_case(&shown, &text, &error, files::coloured())),
+    }
+}
+
+fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Vec<Failure>> {
+    measure_item(item, amount).map_err(|error| {
+        vec![files::plain(Path::new(&item.name), &error.to_string(), error.help())]
+    })
+}

@@ -1,0 +1,157 @@
+//! Options shared by the commands about motions: case, section, threads, pictures, errors.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use liouville::case::{Angle, Case};
+use liouville::number::rational::Rational;
+use liouville_cli::report::picture::Paper;
+use liouville_flow::FlowError;
+
+use super::eval::open;
+use super::files::plain;
+
+/// Case whose motion is followed, and format of the output.
+#[derive(Debug, Args)]
+pub struct Subject {
+    /// Case file
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Seed of the random draws
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Subject {
+    pub fn open(&self) -> Result<Case, String> {
+        let case = open(&self.case, &self.settings)?;
+        match case.model.system.is_map() {
+            true => Err(self.told(&FlowError::Discrete)),
+            false => Ok(case),
+        }
+    }
+
+    /// Message about a failed motion, with its file.
+    pub fn told(&self, error: &FlowError) -> String {
+        plain(&self.case, &error.to_string(), error.help()).rendered
+    }
+}
+
+/// Poincaré section: that of the case, unless options override it.
+#[derive(Debug, Args)]
+pub struct Plane {
+    /// Energy; by default that of the case's [section]
+    #[arg(long)]
+    pub energy: Option<Rational>,
+    /// Angle of the section: 0, pi/2, pi, 3pi/2, or radians; by default that of the case
+    #[arg(long)]
+    pub g0: Option<Angle>,
+}
+
+impl Plane {
+    /// Angle and energy of the section.
+    pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
+        let plan = case.section.as_ref();
+        let missing = |what: &str, key: &str| {
+            format!(
+                "error: the case has no [section], so that its {what} is not known\n\
+                 help: give --{key}, or add a [section] to the case: docs/writing-a-case.md"
+            )
+        };
+        let g0 = self.g0.clone().or(plan.map(|plan| plan.g0.clone()));
+        let energy = self.energy.clone().or(plan.map(|plan| plan.energy.clone()));
+        Ok((
+            g0.ok_or_else(|| missing("angle", "g0"))?,
+            energy.ok_or_else(|| missing("energy", "energy"))?,
+        ))
+    }
+}
+
+/// Number of threads.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Threads {
+    /// Number of threads; all cores by default. Results do not depend on it
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+impl Threads {
+    pub fn count(self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        self.threads.unwrap_or_else(cores)
+    }
+}
+
+/// Reads a point of a section.
+pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
+    let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
+    pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
+}
+
+/// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
+pub fn number_with_pi(text: &str) -> Option<Rational> {
+    let plain: String = text.split_whitespace().collect();
+    let plain = plain.replace("pi", "π").replace('*', "");
+    let Some((before, behind)) = plain.split_once('π') else { return plain.parse().ok() };
+    let factor: Rational = match before {
+        "" => Rational::from(1),
+        "-" | "−" => Rational::from(-1),
+        number => number.parse().ok()?,
+    };
+    let divisor: Rational = match behind.strip_prefix('/') {
+        Some(number) => number.parse().ok()?,
+        None if behind.is_empty() => Rational::from(1),
+        None => return None,
+    };
+    let pi = Rational::from_f64(std::f64::consts::PI)?;
+    Some(&(&pi * &factor) * &divisor.recip()?)
+}
+
+/// File and style of a picture.
+#[derive(Debug, Args)]
+pub struct Ink {
+    /// Draw to this file, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Width of the picture in pixels
+    #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
+    pub width: u32,
+    /// Draw a PNG on dark paper; an SVG is light or dark by its reader's setting
+    #[arg(long)]
+    dark: bool,
+}
+
+impl Ink {
+    /// Returns the file with its format, so that errors are found before any long computation.
+    pub fn out(&self) -> Result<Option<(&Path, Drawing)>, String> {
+        self.out.as_deref().map(|path| Ok((path, drawing(path)?))).transpose()
+    }
+
+    pub fn paper(&self) -> Paper {
+        if self.dark { Paper::Dark } else { Paper::Light }
+    }
+}
+
+/// Format of a picture, chosen by the ending of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    Svg,
+    Png,
+}
+
+fn drawing(path: &Path) -> Result<Drawing, String> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("svg") => Ok(Drawing::Svg),
+        Some("png") => Ok(Drawing::Png),
+        _ => Err(format!(
+            "error: {} is neither .svg nor .png\nhelp: the ending says how to draw",
+            path.display()
+        )),
+    }
+}

@@ -1,0 +1,114 @@
+//! The command `liouville report`.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use liouville::case::Case;
+use liouville_cli::report::{diagnostic, survey as written};
+use liouville_search::survey::{self, Survey};
+
+use super::eval::open;
+use super::motion::Threads;
+use super::progress::telling;
+use super::{Answer, Sampling, colour, width};
+
+#[derive(Debug, Args)]
+pub struct Report {
+    /// Case file; claims are not needed
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Output format; text for a terminal, unless --out implies another
+    #[arg(long, value_enum)]
+    pub format: Option<ReportFormat>,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Show evidence and witnesses in text
+    #[arg(short, long)]
+    pub verbose: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+/// Format of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReportFormat {
+    /// Text for a terminal
+    Text,
+    /// Markdown, with formulas as LaTeX between dollars
+    Markdown,
+    /// LaTeX, as a complete document
+    Latex,
+    /// One self-contained page
+    Html,
+}
+
+pub fn run(options: &Report) -> Result<Answer, String> {
+    let case = open(&options.case, &options.settings)?;
+    let found = telling(|progress| survey::survey(&case, &options.sampling.options(), progress));
+    let found = found.map_err(|error| {
+        let shown = options.case.display().to_string();
+        let coloured = colour(std::io::stderr().is_terminal());
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
+    })?;
+    let text = match form(options) {
+        Form::Json => written::json(&found).map_err(|error| format!("error: {error}"))? + "\n",
+        Form::Readable(format) => readable(&case, &found, format, options),
+    };
+    match &options.out {
+        None => Ok(Answer { text, code: 0 }),
+        Some(path) => {
+            super::write(path, "--out", &text)?;
+            Ok(Answer { text: format!("{}\n", path.display()), code: 0 })
+        }
+    }
+}
+
+/// Form of the output.
+enum Form {
+    Json,
+    Readable(ReportFormat),
+}
+
+/// Form requested, or implied by the name of the file.
+fn form(options: &Report) -> Form {
+    let extension = options.out.as_deref().and_then(|path| path.extension()?.to_str());
+    match (options.json, options.format, extension) {
+        (true, ..) => Form::Json,
+        (_, Some(format), _) => Form::Readable(format),
+        (_, None, Some("json")) => Form::Json,
+        (_, None, Some("html" | "htm")) => Form::Readable(ReportFormat::Html),
+        (_, None, Some("md" | "markdown")) => Form::Readable(ReportFormat::Markdown),
+        (_, None, Some("tex")) => Form::Readable(ReportFormat::Latex),
+        (_, None, _) => Form::Readable(ReportFormat::Text),
+    }
+}
+
+fn readable(case: &Case, found: &Survey, format: ReportFormat, options: &Report) -> String {
+    match format {
+        ReportFormat::Text => {
+            let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
+            written::text(
+                found,
+                written::Style { verbose: options.verbose, colour, width: width() },
+            )
+        }
+        ReportFormat::Markdown => written::markdown(found),
+        ReportFormat::Latex => written::latex(found),
+        ReportFormat::Html => {
+            let sampling = &options.sampling;
+            let motion = liouville_flow::portrait(
+                case,
+                sampling.seed,
+                Threads { threads: sampling.threads }.count(),
+            );
+            written::html(found, motion.as_ref())
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The command `liouville search`.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use clap::Args;
+use liouville_cli::report::{diagnostic, search as written};
+use liouville_search::{Effort, Halt, Wanted};
+use signal_hook::consts::SIGINT;
+use signal_hook::flag;
+
+use super::eval::open;
+use super::progress::telling;
+use super::{Answer, colour};
+
+/// Exit code of a search that was stopped.
+const STOPPED: u8 = 3;
+
+/// Exit code of a program ended by Ctrl-C.
+const INTERRUPTED: i32 = 130;
+
+#[derive(Debug, Args)]
+pub struct Search {
+    /// Case file; claims are not needed
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Count integrals polynomial in the velocities up to this degree
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10))]
+    pub degree: u32,
+    /// Skip the comparison of results with the claims of the case
+    #[arg(long)]
+    pub blind: bool,
+    /// Further term that integrals may contain; may be given several times
+    #[arg(long = "term", value_name = "FORMULA")]
+    pub terms: Vec<String>,
+    /// Find the parameters for which a density or more integrals exist, or for which a claim holds
+    /// that fails in general: --conditions, --conditions=NAME
+    #[arg(long, value_name = "CLAIM", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub conditions: Option<String>,
+    /// Search for integrals that are polynomials of at most this degree in the positions, over
+    /// denominators of the geometry, where the counts leave some: --ansatz, --ansatz=12
+    #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
+        value_parser = clap::value_parser!(u32).range(0..=40))]
+    pub ansatz: Option<u32>,
+    /// Find the potentials under which the known integrals survive
+    #[arg(long)]
+    pub potentials: bool,
+    /// Find the rotors under which the known integrals survive
+    #[arg(long)]
+    pub gyrostats: bool,
+    /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian,
+    /// or for a given one: --poisson, --poisson=H
+    #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub poisson: Option<String>,
+    /// Skip an ansatz whose matrix needs more memory than this, in megabytes
+    #[arg(long, default_value_t = 500)]
+    pub megabytes: u64,
+    /// Skip a count or an ansatz that may take longer than this, in seconds
+    #[arg(long, default_value_t = 60.0)]
+    pub seconds: f64,
+    /// Stop after SECONDS and report partial results (also on Ctrl-C). The exit code is then 3
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub within: Option<Duration>,
+    /// Seed of primes, points and states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or("write a number of seconds".to_string())
+}
+
+pub fn run(options: &Search) -> Result<Answer, String> {
+    let case = open(&options.case, &options.settings)?;
+    let effort = Effort {
+        degree: options.degree,
+        blind: options.blind,
+        terms: options.terms.clone(),
+        conditions: options.conditions.as_ref().map(|name| match name.as_str() {
+            "" => Wanted::Existence,
+            name => Wanted::Claim(name.to_string()),
+        }),
+        seconds: options.seconds,
+        ansatz: liouville_search::Ansatz {
+            wanted: options.ansatz.is_some(),
+            positions: options.ansatz.unwrap_or(liouville_search::Ansatz::default().positions),
+            potentials: options.potentials,
+            gyrostats: options.gyrostats,
+            megabytes: options.megabytes,
+        },
+        poisson: options.poisson.as_ref().map(|formula| match formula.as_str() {
+            "" => liouville_search::Hamiltonians::Known,
+            formula => liouville_search::Hamiltonians::Given(formula.to_string()),
+        }),
+        halt: options.within.map_or_else(Halt::default, Halt::within),
+        options: liouville::verdict::Options {
+            seed: options.seed,
+            ..liouville::verdict::Options::default()
+        },
+    };
+    if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
+        let liouville_search::Plan { unknowns, seconds, megabytes } = plan;
+        eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
+    }
+    // A second Ctrl-C exits immediately.
+    let switch = effort.halt.switch();
+    flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
+        .and_then(|_| flag::register(SIGINT, switch))
+        .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;
+    let report = telling(|progress| liouville_search::search(&case, &effort, progress));
+    let report = report.map_err(|error| {
+        let shown = options.case.display().to_string();
+        let coloured = colour(std::io::stderr().is_terminal());
+        diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
+    })?;
+    let text = match options.json {
+        true => written::json(&case.title, &report).map_err(|error| format!("error: {error}"))?,
+        false => written::text(&case.title, &report),
+    };
+    let code = if report.unreached.is_empty() { 0 } else { STOPPED };
+    Ok(Answer { text: text + "\n", code })
+}

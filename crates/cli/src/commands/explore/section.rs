@@ -1,0 +1,223 @@
+//! The command `liouville section`.
+
+use clap::Args;
+use liouville::case::{Case, Direction, Line};
+use liouville_cli::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
+use liouville_cli::report::{exponents, picture};
+use liouville_flow::{FlowError, SectionOrbit, SectionRequest};
+
+use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_start};
+use super::progress::progress;
+use super::{Answer, write};
+
+/// Default numbers of orbits and of crossings.
+const ORBITS: usize = 40;
+const CROSSINGS: usize = 500;
+/// Number of points of a line whose images are drawn, and default number of images.
+const POINTS: usize = 800;
+const IMAGES: usize = 10;
+
+#[derive(Debug, Args)]
+pub struct Section {
+    #[command(flatten)]
+    pub subject: Subject,
+    #[command(flatten)]
+    pub plane: Plane,
+    /// Number of orbits to start, spread over the sphere
+    #[arg(long)]
+    pub orbits: Option<usize>,
+    /// Number of crossings of each orbit to draw
+    #[arg(long)]
+    pub crossings: Option<usize>,
+    /// Number of crossings to leave out at the beginning of each orbit
+    #[arg(long)]
+    pub skip: Option<usize>,
+    /// Start l,L/G in place of those of the case; may be repeated
+    #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
+    pub start: Vec<[f64; 2]>,
+    /// Crossings to draw: up (g grows), down, both
+    #[arg(long)]
+    pub direction: Option<Direction>,
+    /// Follow the motion backwards in time
+    #[arg(long)]
+    pub backwards: bool,
+    /// Colour the orbits by the value of this claim's formula, instead of one by one
+    #[arg(long, value_name = "CLAIM")]
+    pub colour: Option<String>,
+    /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and
+    /// 3π/2)
+    #[arg(long, value_delimiter = ',')]
+    pub lines: Vec<Line>,
+    /// Number of images of the lines, forwards and backwards
+    #[arg(long)]
+    pub images: Option<usize>,
+    /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
+    /// may be repeated
+    #[arg(long, value_name = "L,Z[,N]", value_parser = parse_point, allow_hyphen_values = true)]
+    pub separatrices: Vec<([f64; 2], usize)>,
+    /// Classify each orbit by its exponents over this time and back: --classes, --classes=5000
+    #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000")]
+    pub classes: Option<f64>,
+    #[command(flatten)]
+    pub ink: Ink,
+    #[command(flatten)]
+    pub threads: Threads,
+}
+
+/// Reads a point of a section with its period.
+fn parse_point(text: &str) -> Result<([f64; 2], usize), String> {
+    match text.match_indices(',').nth(1) {
+        None => Ok((parse_start(text)?, 1)),
+        Some((comma, _)) => {
+            let period = text[comma + 1..].trim().parse().ok().filter(|n| (1..=1000).contains(n));
+            let period = period.ok_or("the period is a number from 1 to 1000".to_string())?;
+            Ok((parse_start(&text[..comma])?, period))
+        }
+    }
+}
+
+pub fn run(options: &Section) -> Result<Answer, String> {
+    let subject = &options.subject;
+    let case = subject.open()?;
+    let told = |error: FlowError| subject.told(&error);
+    let request = request(&case, options)?;
+    let out = options.ink.out()?;
+    let bar = progress(request.starts.len() as u64, "orbits");
+    let threads = options.threads.count();
+    let orbits = liouville_flow::section(&case, &request, threads, &|| bar.inc(1)).map_err(told)?;
+    bar.finish_and_clear();
+    let colour =
+        options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
+    let shades = match &colour {
+        None => None,
+        Some(name) => Some(liouville_flow::values_at_starts(&case, &request, name).map_err(told)?),
+    };
+    if let Some((path, drawing)) = out {
+        let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.ink.width);
+        draw_lines(&mut drawn, &images(&case, &request, options, threads).map_err(told)?);
+        let near = options.separatrices.iter();
+        let curves: Result<Vec<_>, FlowError> = near
+            .map(|(near, period)| {
+                liouville_flow::separatrices(&case, &request, *near, *period, threads)
+            })
+            .collect();
+        draw_separatrices(&mut drawn, &curves.map_err(told)?);
+        let bytes = match drawing {
+            Drawing::Svg => picture::svg(&drawn).into_bytes(),
+            Drawing::Png => picture::png(&drawn, options.ink.paper())
+                .map_err(|error| format!("error: {error}"))?,
+        };
+        write(path, "--out", bytes)?;
+    }
+    let areas = liouville_flow::area_forms(&case, &request).map_err(told)?;
+    let classes = match options.classes {
+        None => None,
+        Some(time) => Some(classes(&case, &request, time, threads).map_err(told)?),
+    };
+    let report = SectionReport {
+        case: &case,
+        request: &request,
+        orbits: &orbits,
+        areas: &areas,
+        classes: classes.as_deref(),
+    };
+    let text = match subject.json {
+        true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
+        false => report.text(),
+    };
+    // A picture without any crossing is a failure; single orbits may fail.
+    let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
+    // Of several starts below the potential, the lowest potential shows how much energy is missing.
+    let missing = |problem: &&FlowError| match problem {
+        FlowError::BelowPotential { potential, .. } => *potential,
+        _ => f64::NEG_INFINITY,
+    };
+    let problems = orbits.iter().filter_map(|orbit| orbit.problem.as_ref());
+    match problems.min_by(|a, b| missing(a).total_cmp(&missing(b))) {
+        Some(problem) if empty => Err(subject.told(problem)),
+        _ => Ok(Answer { text, code: 0 }),
+    }
+}
+
+/// Classifies the orbits by their exponents, followed in both directions of time.
+fn classes(
+    case: &Case,
+    request: &SectionRequest,
+    time: f64,
+    threads: usize,
+) -> Result<Vec<exponents::Row>, FlowError> {
+    let starts = liouville_flow::section_starts(
+        case,
+        &request.g0,
+        &request.energy,
+        &request.starts,
+        request.seed,
+    )?;
+    let parameters = starts.iter().flatten().next().map(|start| start.parameters.clone());
+    let parameters = parameters.unwrap_or_default();
+    let motions = liouville_flow::Variational::all(&case.model, &parameters, &starts)?;
+    let time = if request.backwards { -time } else { time };
+    let bar = progress(2 * starts.len() as u64, "motions");
+    let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
+    let (forward, backward) = (follow(time), follow(-time));
+    bar.finish_and_clear();
+    let names = request.starts.iter().map(|[l, z]| format!("({l}, {z})")).collect();
+    Ok(exponents::rows(names, forward, Some(backward)))
+}
+
+/// Computes the images of the requested lines, forwards and backwards.
+fn images(
+    case: &Case,
+    request: &SectionRequest,
+    options: &Section,
+    threads: usize,
+) -> Result<Vec<Vec<SectionOrbit>>, FlowError> {
+    let plan = case.section.as_ref();
+    let lines = match &options.lines[..] {
+        [] => plan.map(|plan| plan.lines.clone()).unwrap_or_default(),
+        given => given.to_vec(),
+    };
+    let crossings = options.images.or(plan.map(|plan| plan.images)).unwrap_or(IMAGES);
+    let image = |line: &Line| {
+        let mut both = Vec::new();
+        for backwards in [false, true] {
+            let starts = line.points(POINTS);
+            let (skip, direction) = (0, Direction::Both);
+            let request =
+                SectionRequest { starts, crossings, skip, direction, backwards, ..request.clone() };
+            both.extend(liouville_flow::section(case, &request, threads, &|| ())?);
+        }
+        Ok(both)
+    };
+    lines.iter().map(image).collect()
+}
+
+/// Request of the command line, completed from the case.
+fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
+    let plan = case.section.as_ref();
+    let (g0, energy) = options.plane.of(case)?;
+    let spread = match (options.orbits, plan) {
+        (Some(count), _) => count,
+        (None, _) if !options.start.is_empty() => 0,
+        (None, Some(plan)) => {
+            plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 })
+        }
+        (None, None) => ORBITS,
+    };
+    let mut starts = match plan {
+        Some(plan) if options.start.is_empty() => plan.starts.clone(),
+        _ => options.start.clone(),
+    };
+    starts.extend(liouville_flow::spread(spread));
+    Ok(SectionRequest {
+        g0,
+        energy,
+        direction: options.direction.or(plan.map(|plan| plan.direction)).unwrap_or_default(),
+        crossings: options.crossings.or(plan.and_then(|plan| plan.crossings)).unwrap_or(CROSSINGS),
+        skip: options.skip.or(plan.map(|plan| plan.skip)).unwrap_or(0),
+        starts,
+        backwards: options.backwards || plan.is_some_and(|plan| plan.backwards),
+        seed: options.subject.seed,
+        index: 0,
+    })
+}

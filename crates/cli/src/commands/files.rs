@@ -1,0 +1,151 @@
+//! Judging of many files: collected, read, judged in parallel, reported in order.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use liouville::case::Case;
+use liouville::verdict::{CaseReport, JudgeError, Options};
+use liouville_cli::report::{Failure, Heading, Outcome, RunReport, diagnostic};
+use rayon::prelude::*;
+
+/// Delay before a progress bar appears.
+const BLINK: Duration = Duration::from_millis(300);
+
+/// Function that judges a case.
+pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
+
+/// Judges every case under `paths`.
+pub fn judge(
+    paths: &[PathBuf],
+    options: &Options,
+    judge: Judge,
+    threads: Option<usize>,
+) -> Result<RunReport, String> {
+    let started = Instant::now();
+    let files = collect(paths);
+    let threads = threads.unwrap_or(0).min(files.len().max(1));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let bar = bar(files.len() as u64);
+    let outcomes = pool.install(|| {
+        files
+            .par_iter()
+            .map(|file| {
+                let outcome = match file {
+                    Ok(path) => judge_file(path, options, judge),
+                    Err((path, problem)) => failed(path, vec![problem.clone()]),
+                };
+                advance(&bar, started);
+                outcome
+            })
+            .collect()
+    });
+    bar.finish_and_clear();
+    Ok(RunReport { seed: options.seed, outcomes, elapsed: started.elapsed() })
+}
+
+/// Advances the bar by one file; the bar appears after a delay.
+pub(super) fn advance(bar: &ProgressBar, started: Instant) {
+    if bar.is_hidden() && std::io::stderr().is_terminal() && started.elapsed() > BLINK {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+    }
+    bar.inc(1);
+}
+
+pub(super) fn bar(length: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
+    match ProgressStyle::with_template("{bar:40} {pos}/{len} cases") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+pub(super) type Found = Result<PathBuf, (PathBuf, Failure)>;
+
+/// Collects all case files under the paths, sorted within each folder; unreadable entries are kept
+/// as failures.
+pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
+    let mut files = Vec::new();
+    for path in paths {
+        match std::fs::metadata(path) {
+            Ok(metadata) if metadata.is_dir() => {
+                let before = files.len();
+                folder(path, &mut files);
+                if files.len() == before {
+                    let help = "a case file ends in .toml";
+                    files.push(Err((
+                        path.clone(),
+                        plain(path, "no case file in this folder", help),
+                    )));
+                }
+            }
+            Ok(_) => files.push(Ok(path.clone())),
+            Err(error) => {
+                let message = format!("cannot read {}: {error}", path.display());
+                let help = "give case files or folders of them; without any, ./cases is read";
+                files.push(Err((path.clone(), plain(path, &message, help))));
+            }
+        }
+    }
+    files
+}
+
+fn folder(path: &Path, files: &mut Vec<Found>) {
+    let entries = match std::fs::read_dir(path) {
+        Ok(entries) => entries,
+        Err(error) => {
+            let message = format!("cannot read the folder: {error}");
+            files.push(Err((path.to_path_buf(), plain(path, &message, "check its permissions"))));
+            return;
+        }
+    };
+    let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    inside.sort();
+    for entry in inside {
+        // Links are not followed: a folder may contain itself.
+        let kind = std::fs::symlink_metadata(&entry).map(|metadata| metadata.file_type());
+        if kind.as_ref().is_ok_and(|kind| kind.is_dir()) {
+            folder(&entry, files);
+        } else if entry.extension().is_some_and(|extension| extension == "toml") {
+            files.push(Ok(entry));
+        }
+    }
+}
+
+pub(super) fn plain(path: &Path, message: &str, help: &str) -> Failure {
+    diagnostic::of_file(&path.display().to_string(), message, help, coloured())
+}
+
+pub(super) fn coloured() -> bool {
+    super::colour(std::io::stderr().is_terminal())
+}
+
+fn failed(path: &Path, problems: Vec<Failure>) -> Outcome {
+    let path = path.display().to_string();
+    Outcome { path, heading: Heading::default(), result: Err(problems) }
+}
+
+fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
+    let shown = path.display().to_string();
+    let (text, case) = Case::read(path, &[]);
+    let case = match case {
+        Ok(case) => case,
+        Err(error) => {
+            return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
+        }
+    };
+    let result = judge(&case, options)
+        .map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())]);
+    let heading = Heading {
+        title: case.title,
+        source: case.source,
+        system: case.system,
+        column: case.column,
+        notes: case.notes,
+    };
+    Outcome { path: shown, heading, result }
+}

@@ -1,0 +1,192 @@
+//! Commands and their options.
+
+pub mod check;
+pub mod eval;
+pub mod explore;
+mod files;
+pub mod table;
+
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Decides which tensor invariants a mechanical system has.
+#[derive(Debug, Parser)]
+#[command(name = "liouville", version, about, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Check the claims of case files; all of cases/ by default
+    Check(Check),
+    /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
+    Eval(Eval),
+    #[command(flatten)]
+    Explore(Box<explore::Command>),
+    /// Print a hierarchy table of the paper, filled from verdicts
+    Table(Table),
+}
+
+/// Options of the sampling.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Sampling {
+    /// Seed of all random states
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Number of states a claim must survive (rounded up to blocks of 64)
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub states: u64,
+    /// Evidence required for a claim to hold: a proof, or states in floating point alone (faster).
+    /// By default a proof is tried, and a confirmation accepted where there is none
+    #[arg(long, value_enum)]
+    pub trust: Option<Trust>,
+    /// Number of threads; all cores by default. Results do not depend on it
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// Required strength of evidence.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Trust {
+    Proof,
+    Float,
+}
+
+impl Sampling {
+    pub fn options(&self) -> liouville::verdict::Options {
+        use liouville::verdict::{Options, Trust as Asked};
+        let trust = match self.trust {
+            Some(Trust::Proof) => Asked::Proof,
+            Some(Trust::Float) => Asked::Float,
+            None => Asked::Best,
+        };
+        Options { seed: self.seed, states: self.states, trust, mutants: false }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Case files, or folders of them
+    #[arg(default_value = "cases")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Perturb every true formula, and refute each mutant that is not equivalent
+    #[arg(long)]
+    pub mutants: bool,
+    /// Also check claims about motion (slow: minutes for cases/figures)
+    #[arg(long)]
+    pub motion: bool,
+    /// Show witnesses and the evidence for each verdict
+    #[arg(short, long)]
+    pub verbose: bool,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+fn parse_digits(text: &str) -> Result<usize, String> {
+    let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
+    (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
+}
+
+#[derive(Debug, Args)]
+pub struct Eval {
+    /// Case file
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// State by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
+    #[arg(long, value_name = "STATE")]
+    pub state: Option<String>,
+    /// Number of the state that is drawn
+    #[arg(long, default_value_t = 0)]
+    pub index: u64,
+    /// Number of significant digits to print, all of them right (up to 2000); without it, numbers
+    /// are rounded to f64 and come with a bound on their error
+    #[arg(long, value_parser = parse_digits)]
+    pub digits: Option<usize>,
+    /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Table {
+    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=3))]
+    pub number: u32,
+    /// Case files, or folders of them
+    #[arg(default_value = "cases")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+/// Format of a table.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum TableFormat {
+    /// Text for a terminal
+    Text,
+    /// Markdown
+    Markdown,
+    /// LaTeX, for XeLaTeX or LuaLaTeX
+    Latex,
+}
+
+/// Result of a command: text for standard output, and the exit code.
+pub struct Answer {
+    pub text: String,
+    pub code: u8,
+}
+
+/// Prints the answer, or the problem; invalid input exits with 2.
+pub fn finish(answer: Result<Answer, String>) -> ExitCode {
+    match answer {
+        Ok(answer) => {
+            let mut out = anstream::stdout().lock();
+            match out.write_all(answer.text.as_bytes()).and_then(|()| out.flush()) {
+                // A reader that closes the pipe has read enough.
+                Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                    anstream::eprintln!("error: cannot write the answer: {error}");
+                    return ExitCode::from(2);
+                }
+                _ => {}
+            }
+            ExitCode::from(answer.code)
+        }
+        Err(problem) => {
+            anstream::eprintln!("{problem}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether to use colours on this stream.
+pub fn colour(terminal: bool) -> bool {
+    terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Width to lay tables out for: that of the terminal, or a fixed one for files and pipes.
+pub fn width() -> u16 {
+    const WIDE: u16 = 160;
+    if !std::io::stdout().is_terminal() {
+        return WIDE;
+    }
+    std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok()).unwrap_or(WIDE).clamp(60, 240)
+}

@@ -1,0 +1,120 @@
+//! Report of `exponents`: the class of a motion, with the exponents behind it.
+
+use serde_json::{Value, json};
+
+use liouville_flow::{Alignment, Character, Estimate, Exponents, FlowError};
+
+/// A motion that was followed.
+pub struct Row {
+    /// Name of its start.
+    pub name: String,
+    /// Exponents in the direction requested.
+    pub forward: Result<Exponents, FlowError>,
+    /// Exponents in the other direction, if the motion was followed that way too.
+    pub backward: Option<Result<Exponents, FlowError>>,
+}
+
+impl Row {
+    /// Class of the motion, by both directions where both are known.
+    pub fn class(&self) -> Option<Character> {
+        let forward = self.forward.as_ref().ok()?;
+        Some(match &self.backward {
+            Some(Ok(backward)) => forward.class(backward),
+            _ => forward.character,
+        })
+    }
+}
+
+/// Combines motions with their names; `backward` is in the same order.
+pub fn rows(
+    names: Vec<String>,
+    forward: Vec<Result<Exponents, FlowError>>,
+    backward: Option<Vec<Result<Exponents, FlowError>>>,
+) -> Vec<Row> {
+    let mut backward = backward.into_iter().flatten();
+    let named = names.into_iter().zip(forward);
+    named.map(|(name, forward)| Row { name, forward, backward: backward.next() }).collect()
+}
+
+/// Counts of the motions in each class, and the class furthest from order among them.
+pub fn classes(rows: &[Row]) -> String {
+    let Some(furthest) = rows.iter().filter_map(Row::class).max() else {
+        return "no orbit has a class\n".to_string();
+    };
+    let counts = Character::ALL.iter().filter_map(|character| {
+        let count = rows.iter().filter(|row| row.class() == Some(*character)).count();
+        (count > 0).then(|| format!("{count} {}", character.name()))
+    });
+    let counts: Vec<String> = counts.collect();
+    format!("class: {} ({})\n", furthest.name(), counts.join(", "))
+}
+
+/// Renders a few lines for each start.
+pub fn text(title: &str, rows: &[Row]) -> String {
+    let mut out = format!("{title}\n");
+    for row in rows {
+        out.push_str(&format!("{}: ", row.name));
+        out.push_str(row.class().map_or("no class", Character::name));
+        out.push('\n');
+        for found in [Some(&row.forward), row.backward.as_ref()].into_iter().flatten() {
+            match found {
+                Ok(found) => out.push_str(&lines(found)),
+                Err(problem) => out.push_str(&format!("  {problem}\n")),
+            }
+        }
+    }
+    out
+}
+
+fn lines(found: &Exponents) -> String {
+    let shown = |estimate: Estimate| format!("{:+.5} ± {:.5}", estimate.mean, estimate.error);
+    let mut out = format!(
+        "  t = {}: {}\n  largest exponent {} (later half {:+.5})\n  \
+         mean divergence  {} (later half {:+.5})\n",
+        found.time,
+        found.character.name(),
+        shown(found.largest),
+        found.largest.later,
+        shown(found.divergence),
+        found.divergence.later,
+    );
+    if let Some(alignment) = found.alignment {
+        out.push_str(&format!("  alignment index  {:.1e}", alignment.index));
+        if let Some(since) = alignment.since {
+            out.push_str(&format!(", parallel from t = {since:.0} on"));
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// Renders the motions as JSON.
+pub fn json(title: &str, rows: &[Row]) -> Result<String, serde_json::Error> {
+    let told = |found: &Result<Exponents, FlowError>| match found {
+        Ok(found) => numbers(found),
+        Err(problem) => json!({ "problem": problem.to_string() }),
+    };
+    let rows: Vec<Value> = rows
+        .iter()
+        .map(|row| {
+            let mut entry = told(&row.forward);
+            entry["start"] = json!(row.name);
+            entry["class"] = json!(row.class().map(Character::name));
+            entry["backward"] = row.backward.as_ref().map_or(Value::Null, told);
+            entry
+        })
+        .collect();
+    serde_json::to_string_pretty(&json!({ "title": title, "motions": rows }))
+}
+
+fn numbers(found: &Exponents) -> Value {
+    let estimate = |estimate: Estimate| json!({ "mean": estimate.mean, "error": estimate.error, "later": estimate.later });
+    let alignment = |found: Alignment| json!({ "index": found.index, "since": found.since });
+    json!({
+        "time": found.time,
+        "character": found.character.name(),
+        "largest": estimate(found.largest),
+        "divergence": estimate(found.divergence),
+        "alignment": found.alignment.map(alignment),
+    })
+}

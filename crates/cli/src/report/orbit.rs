@@ -1,0 +1,148 @@
+//! Report of `orbit`: a single motion, as text or JSON.
+
+use serde_json::{Map, Value, json};
+
+use liouville::case::Case;
+use liouville::mechanics::Variable;
+use liouville::number::pair::Pair;
+use liouville::number::precise::Approximation;
+use liouville_flow::{Contact, Orbit, Precision, Role};
+
+/// Number of digits printed of a double-double.
+const PAIR_DIGITS: usize = 31;
+
+/// Formats a number with all digits of its precision.
+pub(super) fn written(value: Pair, precision: Precision) -> String {
+    let long = || Approximation::from_twofold(value.hi, value.lo, 0.0)?.decimal(PAIR_DIGITS);
+    match precision {
+        Precision::Float => format!("{:?}", value.hi),
+        Precision::Pair => long().unwrap_or_else(|| format!("{:?}", value.hi)),
+    }
+}
+
+fn role(role: Role) -> &'static str {
+    match role {
+        Role::Level => "level",
+        Role::Energy => "energy",
+        Role::Integral => "integral",
+        Role::Decoy => "decoy",
+    }
+}
+
+fn contact(kind: Contact) -> &'static str {
+    match kind {
+        Contact::Arrives => "contact",
+        Contact::Leaves => "leaves",
+        Contact::Grazes => "grazes",
+    }
+}
+
+fn precision_name(precision: Precision) -> &'static str {
+    match precision {
+        Precision::Float => "f64",
+        Precision::Pair => "double-double",
+    }
+}
+
+/// Components of a state with the names of its variables.
+fn named<'s>(
+    variables: &'s [Variable],
+    state: &'s [Pair],
+    precision: Precision,
+) -> impl Iterator<Item = (&'s str, Vec<String>)> {
+    let mut rest = state;
+    variables.iter().map(move |variable| {
+        let (own, others) = rest.split_at(variable.len());
+        rest = others;
+        (variable.name.as_str(), own.iter().map(|x| written(*x, precision)).collect())
+    })
+}
+
+/// Renders the motion as text.
+pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
+    let mut out = String::new();
+    let mut line = |text: String| {
+        out.push_str(text.trim_end());
+        out.push('\n');
+    };
+    line(case.title.clone());
+    line(format!(
+        "Taylor series of order {} in {}, {} steps",
+        orbit.order,
+        precision_name(precision),
+        orbit.steps
+    ));
+    for (time, state) in
+        [("0".to_string(), &orbit.start.state), (written(orbit.time, precision), &orbit.end)]
+    {
+        line(format!("at t = {time}"));
+        for (name, values) in named(&case.model.state, state, precision) {
+            line(format!("  {name:<16} {}", values.join(", ")));
+        }
+    }
+    if orbit.start.moved > 0.0 {
+        line(format!("the start was moved to the level set, by {:.1e}", orbit.start.moved));
+    }
+    for event in &orbit.events {
+        let time = written(event.time, precision);
+        let values: Vec<String> = event.state.iter().map(|x| written(*x, precision)).collect();
+        line(format!("{:<8} at t = {time}", contact(event.kind)));
+        line(format!("  {:<16} {}", "state", values.join(", ")));
+    }
+    line(format!("{:<44} {:<9} {:>10} {:>10}", "drift", "", "largest", "at the end"));
+    for followed in &orbit.followed {
+        line(format!(
+            "  {:<42} {:<9} {:>10.1e} {:>10.1e}",
+            followed.name,
+            role(followed.role),
+            followed.drift,
+            followed.drift_at_end
+        ));
+    }
+    out
+}
+
+/// Renders the motion as JSON; states are decimal strings.
+pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, serde_json::Error> {
+    let state = |state: &[Pair]| {
+        let entries = named(&case.model.state, state, precision);
+        Value::Object(entries.map(|(name, values)| (name.to_string(), json!(values))).collect())
+    };
+    let followed: Vec<Value> = orbit
+        .followed
+        .iter()
+        .map(|followed| {
+            let values: Vec<String> =
+                followed.value.iter().map(|x| written(*x, precision)).collect();
+            json!({
+                "name": followed.name,
+                "role": role(followed.role),
+                "value": values,
+                "drift": followed.drift,
+                "drift_at_end": followed.drift_at_end,
+            })
+        })
+        .collect();
+    let events: Vec<Value> = orbit
+        .events
+        .iter()
+        .map(|event| {
+            let time = written(event.time, precision);
+            json!({ "event": contact(event.kind), "time": time, "state": state(&event.state) })
+        })
+        .collect();
+    let mut root = Map::new();
+    root.insert("title".into(), case.title.clone().into());
+    root.insert("precision".into(), precision_name(precision).into());
+    root.insert("order".into(), orbit.order.into());
+    root.insert("steps".into(), orbit.steps.into());
+    root.insert("time".into(), written(orbit.time, precision).into());
+    root.insert("moved".into(), orbit.start.moved.into());
+    root.insert("start".into(), state(&orbit.start.state));
+    root.insert("end".into(), state(&orbit.end));
+    if !events.is_empty() {
+        root.insert("events".into(), events.into());
+    }
+    root.insert("followed".into(), followed.into());
+    serde_json::to_string_pretty(&Value::Object(root))
+}

@@ -1,0 +1,130 @@
+//! Report of `search`: what was counted, found and excluded, as text and as JSON.
+
+use serde_json::json;
+
+use liouville_search::{MultiplierReport, Report};
+
+/// Renders the report as JSON.
+pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(&json!({
+        "title": title,
+        "counts": report.counts,
+        "multipliers": report.multipliers,
+        "found": report.found,
+        "excluded": report.excluded,
+        "second_opinions": report.opinions,
+        "conditions": report.conditions,
+        "remarks": report.remarks,
+        "unreached": report.unreached,
+    }))
+}
+
+/// Renders the report as text.
+pub fn text(title: &str, report: &Report) -> String {
+    let mut out = format!("{title}\n");
+    if !report.counts.is_empty() {
+        out.push_str("\nintegrals polynomial in the velocities, with any smooth coefficients:\n");
+    }
+    for count in &report.counts {
+        let degree = match count.mixed {
+            true => format!("up to degree {}", count.degree),
+            false => format!("of degree {}", count.degree),
+        };
+        let known = match (count.dimension.saturating_sub(count.known), count.free) {
+            (0, _) if count.dimension == 0 => "none".to_string(),
+            (0, false) => "all known".to_string(),
+            (0, true) => "powers of the energy".to_string(),
+            (new, false) => format!("{new} of them not known"),
+            (new, true) => format!("{new} of them no power of the energy"),
+        };
+        let motion = if count.free { "free motion, " } else { "" };
+        out.push_str(&format!(
+            "  {motion}{degree:<16} {:>3}   {known}   ({} unknowns, {} equations)\n",
+            count.dimension, count.unknowns, count.equations
+        ));
+    }
+    out.push_str(&multipliers(&report.multipliers));
+    for found in &report.found {
+        out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
+        for (what, text) in &found.with {
+            out.push_str(&format!("  with the {what} {text}\n"));
+        }
+        for (name, text) in &found.abbreviations {
+            out.push_str(&format!("    {name} = {text}\n"));
+        }
+        if let Some(proof) = &found.evidence.proof {
+            out.push_str(&format!("  {proof}\n"));
+        }
+        if let Some(known) = &found.known {
+            out.push_str(&format!("  a function of what the case claims: {known}\n"));
+        }
+    }
+    if report.found.is_empty() && report.unreached.is_empty() {
+        out.push_str("\nnothing was found among the terms that were tried\n");
+    }
+    for excluded in &report.excluded {
+        out.push_str(&format!("\ntheorem\n  {}\n", excluded.theorem));
+    }
+    for opinion in &report.opinions {
+        let Some(zero) = opinion.largest_zero else { continue };
+        let verdict = if opinion.agrees() { "agree" } else { "DO NOT AGREE" };
+        out.push_str(&format!(
+            "\nsecond opinion, terms over {}: the singular values of {} terms at {} states in f64 {verdict} \
+             with {} relations: {:.1e}, then {zero:.1e}\n",
+            opinion.denominator, opinion.terms, opinion.states, opinion.relations, opinion.smallest
+        ));
+    }
+    for condition in &report.conditions {
+        out.push_str(&format!("\ncondition for: {}\n", condition.of));
+        for equation in &condition.equations {
+            out.push_str(&format!("  {equation}\n"));
+        }
+        out.push_str(&format!("  ({})\n", condition.grounds));
+    }
+    for remark in &report.remarks {
+        out.push_str(&format!("\nnote: {remark}\n"));
+    }
+    if !report.unreached.is_empty() {
+        out.push_str("\nthe search was stopped; it did not reach:\n");
+        report.unreached.iter().for_each(|part| out.push_str(&format!("  {part}\n")));
+    }
+    out.trim_end().to_string()
+}
+
+/// Lists the counts of densities P^(1/α): nonzero ones singly, the others together.
+fn multipliers(counts: &[MultiplierReport]) -> String {
+    let mut out = String::new();
+    if !counts.is_empty() {
+        out.push_str(
+            "\ndensities P^(1/α), P polynomial in the velocities, with any smooth coefficients:\n",
+        );
+    }
+    for free in [true, false] {
+        let own = || counts.iter().filter(move |count| count.free == free);
+        let motion = if free { "free motion, " } else { "" };
+        // The count ends with the first degree at which a density is not excluded.
+        let excess = own().find(|count| count.dimension > 0).map(|count| count.degree);
+        let last = own().map(|count| count.degree).max();
+        let empty = match excess {
+            Some(degree) => degree.checked_sub(1),
+            None => last,
+        };
+        out.push_str(&match empty {
+            None => String::new(),
+            Some(0) => format!("  {motion}of the configuration: none\n"),
+            Some(degree) => {
+                format!("  {motion}of degree at most {degree}, α = ±1, ±2, ±3, ±4: none\n")
+            }
+        });
+        for count in own().filter(|count| count.dimension > 0) {
+            out.push_str(&match count.alpha {
+                None => format!("  {motion}of the configuration: at most {}\n", count.dimension),
+                Some(alpha) => format!(
+                    "  {motion}of degree {}, α = {alpha}: at most {}\n",
+                    count.degree, count.dimension
+                ),
+            });
+        }
+    }
+    out
+}

@@ -1,0 +1,50 @@
+//! Reports of surveys: on a terminal, as Markdown, LaTeX and one HTML page.
+//!
+//! ```text
+//! Survey ─ compose ─▶ Document ─▶ terminal, markdown, latex, html
+//! ```
+//!
+//! The content is made once, in `compose`; a format only typesets it.
+
+mod compose;
+mod document;
+mod entry;
+mod html;
+mod latex;
+mod markdown;
+mod motion;
+mod picture;
+mod terminal;
+
+use liouville_flow::{FlowError, Portrait};
+use liouville_search::survey::Survey;
+
+pub use terminal::Style;
+
+/// Renders the survey as JSON.
+pub fn json(survey: &Survey) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(survey)
+}
+
+/// Renders the survey for a terminal.
+pub fn text(survey: &Survey, style: Style) -> String {
+    terminal::render(&compose::document(survey), style)
+}
+
+/// Renders the survey as Markdown, with formulas as LaTeX between dollars.
+pub fn markdown(survey: &Survey) -> String {
+    markdown::render(&compose::document(survey))
+}
+
+/// Renders the survey as a LaTeX document, for XeLaTeX or LuaLaTeX.
+pub fn latex(survey: &Survey) -> String {
+    latex::render(&compose::document(survey))
+}
+
+/// Renders the survey as one self-contained HTML page, with a section of the body's motion, or the
+/// reason why there is none.
+pub fn html(survey: &Survey, motion: Result<&Portrait, &FlowError>) -> String {
+    let mut document = compose::document(survey);
+    document.insert_motion(motion);
+    html::render(&document)
+}

@@ -1,0 +1,311 @@
+//! A Taylor program bound to memory, as an expansion runs it.
+//!
+//! Each row is stored forwards. The second factor of a product is stored times the coefficient of
+//! the product, and backwards where numbers are added along the order, with zeros behind order 1: a
+//! Cauchy product is then a plain dot product. Order n ≥ 1 of an operation is linear in order n of
+//! the rows before it,
+//!
+//! ```text
+//! z_n = scale · Σ c x_k y_{n-k} + Σ slope · x_n      (Σ over k from 1 to n - 1)
+//! ```
+//!
+//! and its slopes are the same at all orders: they are computed once, from the values.
+
+use super::form::Row;
+use super::number::Number;
+use super::program::{Instruction, Program, Rule};
+use liouville::number::rational::Rational;
+
+/// Bytes of a cache line; order 1 of each row is aligned to it.
+pub(super) const LINE: usize = 64;
+
+/// Index of order 0 of a row in memory.
+pub(super) type Place = u32;
+/// Range of a list: first index, and one past the last.
+pub(super) type Part = (u32, u32);
+
+/// Returns the entries of a list in a range.
+#[inline(always)]
+pub(super) fn part<X>(list: &[X], part: Part) -> &[X] {
+    &list[part.0 as usize..part.1 as usize]
+}
+
+/// Returns the entries of a list in a range, to be changed.
+#[inline(always)]
+pub(super) fn part_mut<X>(list: &mut [X], part: Part) -> &mut [X] {
+    &mut list[part.0 as usize..part.1 as usize]
+}
+
+/// Splits off the first `count` entries of a list.
+#[inline(always)]
+pub(super) fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
+    let (first, others) = list.split_at(count as usize);
+    *list = others;
+    first
+}
+
+/// A Taylor program bound to memory.
+pub(super) struct Code<T> {
+    pub(super) operations: Vec<Operation<T>>,
+    /// One entry for each operation.
+    pub(super) finishes: Vec<Finish<T>>,
+    /// Number of products of each operation that has any.
+    pub(super) counts: Vec<u32>,
+    pub(super) products: Vec<Product>,
+    pub(super) factors: Vec<Factor<T>>,
+    pub(super) terms: Vec<Term<T>>,
+    /// Indices of the terms n x_n, whose slope is the order n.
+    pub(super) thetas: Vec<u32>,
+    pub(super) copies: Vec<Copied<T>>,
+    /// Number of copies of the state, which precede those of the operations.
+    pub(super) of_state: usize,
+    pub(super) state: Vec<Component>,
+    /// Places of the further functions.
+    pub(super) outputs: Vec<Place>,
+}
+
+/// Product x · (c y).
+pub(super) struct Product {
+    pub(super) x: Place,
+    pub(super) cy: Place,
+}
+
+/// Contribution of a product c x y to the slopes of x_n and y_n; `x` and `y` are indices of terms.
+pub(super) struct Factor<T> {
+    pub(super) x: u32,
+    pub(super) y: u32,
+    pub(super) weight: T,
+}
+
+/// Product slope · x.
+pub(super) struct Term<T> {
+    pub(super) x: Place,
+    pub(super) slope: T,
+    /// Part of the slope that does not depend on the values.
+    pub(super) fixed: T,
+}
+
+/// A further copy of a row, times a weight.
+pub(super) struct Copied<T> {
+    pub(super) place: Place,
+    pub(super) weight: T,
+}
+
+/// A component of the state.
+pub(super) struct Component {
+    pub(super) place: Place,
+    pub(super) rate: Place,
+    /// Number of copies kept of the component.
+    pub(super) copies: u32,
+}
+
+/// Computation of order 0 of a row.
+pub(super) struct Operation<T> {
+    pub(super) rule: Bound<T>,
+    pub(super) constant: T,
+    pub(super) factors: Part,
+    pub(super) terms: Part,
+}
+
+/// Computation of the orders above 0 of a row.
+pub(super) struct Finish<T> {
+    pub(super) scale: T,
+    pub(super) order: Order,
+    /// Index of the operation's inner sum; without products, of one that is 0.
+    pub(super) inner: u32,
+    /// Number of terms of the operation.
+    pub(super) terms: u32,
+    pub(super) place: Place,
+    /// Number of copies kept of the row.
+    pub(super) copies: u32,
+}
+
+/// Effect of the order n on an operation.
+#[derive(Clone, Copy)]
+pub(super) enum Order {
+    /// No effect.
+    Free,
+    /// Division of the inner sum by n.
+    Divides,
+}
+
+/// A rule with rows replaced by their places in memory.
+pub(super) enum Bound<T> {
+    Sum,
+    Theta,
+    Recip(Place),
+    Sqrt(Place),
+    Exp(Place),
+    Ln(Place),
+    Sin { x: Place, cosine: Place },
+    Cos { x: Place, sine: Place },
+    Atan { x: Place, square: Place },
+    Power { x: Place, exponent: Rational, factor: T },
+}
+
+/// Placement of rows and their copies in memory.
+struct Layout {
+    base: usize,
+    copy_base: usize,
+    stride: usize,
+    backwards: bool,
+    /// Row and weight of each copy.
+    copies: Vec<(Row, Rational)>,
+}
+
+impl Layout {
+    fn row(&self, row: Row) -> Place {
+        (self.base + row * self.stride) as Place
+    }
+
+    fn copy(&self, index: usize) -> Place {
+        (self.copy_base + index * self.stride) as Place
+    }
+
+    /// Place of weight · row as a second factor, if it is stored.
+    fn factor(&self, row: Row, weight: &Rational) -> Option<Place> {
+        if !self.backwards && weight.is_one() {
+            return Some(self.row(row));
+        }
+        let index = self.copies.iter().position(|(own, by)| *own == row && by == weight)?;
+        Some(self.copy(index))
+    }
+
+    /// Writes c x y as one factor and c times the other, chosen so that few copies are needed.
+    fn product(&mut self, weight: &Rational, x: Row, y: Row) -> Product {
+        let (x, y) = if self.factor(x, weight).is_some() { (y, x) } else { (x, y) };
+        let cy = self.factor(y, weight).unwrap_or_else(|| {
+            self.copies.push((y, weight.clone()));
+            self.copy(self.copies.len() - 1)
+        });
+        Product { x: self.row(x), cy }
+    }
+}
+
+impl<T: Number> Code<T> {
+    /// Binds a program to memory that begins `aligned` numbers before the border of a cache line;
+    /// also returns the length of memory needed.
+    pub(super) fn new(program: &Program, order: usize, aligned: usize) -> (Self, usize) {
+        let width = T::WIDTH;
+        let stride = width + order.next_multiple_of(width);
+        let copy_base = aligned + program.rows * stride;
+        let backwards = width > 1;
+        let mut layout =
+            Layout { base: aligned + width - 1, copy_base, stride, backwards, copies: Vec::new() };
+        let mut products = Vec::new();
+        for instruction in &program.instructions {
+            let own = instruction.form.products.iter();
+            products.extend(own.map(|(weight, x, y)| layout.product(weight, *x, *y)));
+        }
+        let mut code = Self {
+            operations: Vec::new(),
+            finishes: Vec::new(),
+            counts: Vec::new(),
+            products,
+            factors: Vec::new(),
+            terms: Vec::new(),
+            thetas: Vec::new(),
+            copies: Vec::new(),
+            of_state: 0,
+            state: Vec::new(),
+            outputs: program.outputs.iter().map(|row| layout.row(*row)).collect(),
+        };
+        for (row, rate) in program.rates.iter().enumerate() {
+            let copies = code.copies_of(&layout, row);
+            code.state.push(Component { place: layout.row(row), rate: layout.row(*rate), copies });
+        }
+        code.of_state = code.copies.len();
+        for instruction in &program.instructions {
+            code.bind(&layout, instruction);
+        }
+        // Operations without products share an inner sum that stays 0.
+        let none = code.counts.len() as u32;
+        for (finish, instruction) in code.finishes.iter_mut().zip(&program.instructions) {
+            if instruction.form.products.is_empty() {
+                finish.inner = none;
+            }
+        }
+        (code, copy_base + layout.copies.len() * stride)
+    }
+
+    fn copies_of(&mut self, layout: &Layout, row: Row) -> u32 {
+        let before = self.copies.len();
+        for (index, (own, weight)) in layout.copies.iter().enumerate() {
+            if *own == row {
+                let weight = T::rational(weight);
+                self.copies.push(Copied { place: layout.copy(index), weight });
+            }
+        }
+        (self.copies.len() - before) as u32
+    }
+
+    fn bind(&mut self, layout: &Layout, instruction: &Instruction) {
+        let at = |row: &Row| layout.row(*row);
+        let (order, rule) = match &instruction.rule {
+            Rule::Sum => (Order::Free, Bound::Sum),
+            Rule::Theta(_) => {
+                self.thetas.push(self.terms.len() as u32);
+                (Order::Free, Bound::Theta)
+            }
+            Rule::Recip(x) => (Order::Free, Bound::Recip(at(x))),
+            Rule::Sqrt(x) => (Order::Free, Bound::Sqrt(at(x))),
+            Rule::Exp(x) => (Order::Divides, Bound::Exp(at(x))),
+            Rule::Ln(x) => (Order::Divides, Bound::Ln(at(x))),
+            Rule::Sin { x, cosine } => {
+                (Order::Divides, Bound::Sin { x: at(x), cosine: at(cosine) })
+            }
+            Rule::Cos { x, sine } => (Order::Divides, Bound::Cos { x: at(x), sine: at(sine) }),
+            Rule::Atan { x, square } => {
+                (Order::Divides, Bound::Atan { x: at(x), square: at(square) })
+            }
+            Rule::Power { x, exponent } => {
+                let factor = T::rational(exponent);
+                (Order::Divides, Bound::Power { x: at(x), exponent: exponent.clone(), factor })
+            }
+        };
+        let (terms, factors) = match instruction.rule.argument() {
+            None => self.bind_sum(layout, instruction),
+            Some(x) => {
+                self.terms.push(Term { x: at(&x), slope: T::ZERO, fixed: T::ONE });
+                ((self.terms.len() as u32 - 1, self.terms.len() as u32), (0, 0))
+            }
+        };
+        let inner = self.counts.len() as u32;
+        if !instruction.form.products.is_empty() {
+            self.counts.push(instruction.form.products.len() as u32);
+        }
+        let constant = instruction.form.constant.as_ref().map_or(T::ZERO, T::rational);
+        self.operations.push(Operation { rule, constant, factors, terms });
+        let copies = self.copies_of(layout, instruction.out);
+        self.finishes.push(Finish {
+            scale: T::ONE,
+            order,
+            inner,
+            terms: terms.1 - terms.0,
+            place: layout.row(instruction.out),
+            copies,
+        });
+    }
+
+    /// Binds the rows of a sum, the latest made at the end: they are waited for.
+    fn bind_sum(&mut self, layout: &Layout, instruction: &Instruction) -> (Part, Part) {
+        let form = &instruction.form;
+        let factors = form.products.iter().flat_map(|(_, x, y)| [*x, *y]);
+        let mut rows: Vec<Row> = form.linear.iter().map(|(_, row)| *row).chain(factors).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let (first, first_factor) = (self.terms.len() as u32, self.factors.len() as u32);
+        for row in &rows {
+            let own = form.linear.iter().find(|(_, x)| x == row);
+            let fixed = own.map_or(T::ZERO, |(weight, _)| T::rational(weight));
+            self.terms.push(Term { x: layout.row(*row), slope: fixed, fixed });
+        }
+        let term = |row: &Row| first + rows.partition_point(|other| other < row) as u32;
+        self.factors.extend(form.products.iter().map(|(weight, x, y)| Factor {
+            x: term(x),
+            y: term(y),
+            weight: T::rational(weight),
+        }));
+        ((first, self.terms.len() as u32), (first_factor, self.factors.len() as u32))
+    }
+}

@@ -1,0 +1,177 @@
+//! Reasons why a motion cannot be computed.
+
+use liouville::graph::Fault;
+use liouville::number::Function;
+
+/// Reason why a motion cannot be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlowError {
+    /// The field contains a function that has no Taylor series.
+    #[error("the field contains {0}, which has no Taylor series where it changes its sign")]
+    NotAnalytic(&'static str),
+    /// The field contains an antiderivative, whose value is not known.
+    #[error("the field contains ∫, whose value is not determined")]
+    Antiderivative,
+    /// The steps become too small, or values are no longer finite.
+    #[error("{}", singular(*time, state))]
+    Singular {
+        /// Time of the last state.
+        time: f64,
+        /// Last state.
+        state: Vec<f64>,
+    },
+    /// The section uses variables that this system does not have.
+    #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
+    NoAndoyer,
+    /// The case has no section.
+    #[error("the case has no [section]")]
+    NoSection,
+    /// The system has an arbitrary function, so that no single motion is determined.
+    #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
+    Arbitrary,
+    /// A system that has no motions in time.
+    #[error("the case is a map, and motions are followed of flows")]
+    Discrete,
+    /// The point does not lie on the sphere.
+    #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
+    OffSphere {
+        /// Coordinate l.
+        l: f64,
+        /// Coordinate L/G.
+        z: f64,
+    },
+    /// The energy is not above the potential at the start.
+    #[error(
+        "over (l, L/G) = ({l:.6}, {z:.6}) the potential is {potential:.6}, at or above the energy {energy}"
+    )]
+    BelowPotential {
+        /// Coordinate l.
+        l: f64,
+        /// Coordinate L/G.
+        z: f64,
+        /// Potential at the start.
+        potential: f64,
+        /// Energy of the section.
+        energy: f64,
+    },
+    /// The motion does not return to the section.
+    #[error("{}", never_crossed(*time, *crossings, *others))]
+    NeverCrossed {
+        /// Time up to which the motion was followed.
+        time: f64,
+        /// Number of crossings found.
+        crossings: usize,
+        /// Number of crossings in the direction that does not count.
+        others: usize,
+    },
+    /// The case has no such claim, or it is not about a formula.
+    #[error("the case has no claim `{0}` about a formula")]
+    NoSuchClaim(String),
+    /// A motion under a one-sided constraint does not determine its past.
+    #[error("a motion with a one-sided constraint cannot be followed backwards")]
+    OneSidedBackwards,
+    /// The start violates the one-sided constraint.
+    #[error("the start violates the one-sided constraint: its function is {by:e} there")]
+    BehindConstraint {
+        /// Value of r, which must not be negative.
+        by: f64,
+    },
+    /// Contact and free motion alternate without end.
+    #[error("contact and free motion alternate without end near t = {time}")]
+    TooManyPhases {
+        /// Time near which the phases accumulate.
+        time: f64,
+    },
+    /// Newton's method does not converge.
+    #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
+    NoPeriodicPoint {
+        /// Coordinate l.
+        l: f64,
+        /// Coordinate L/G.
+        z: f64,
+        /// Period, in crossings of the section.
+        period: usize,
+    },
+    /// The point has no separatrices.
+    #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
+    NotHyperbolic {
+        /// Coordinate l.
+        l: f64,
+        /// Coordinate L/G.
+        z: f64,
+        /// Kind of the periodic point.
+        kind: &'static str,
+    },
+    /// No state on the level set was found.
+    #[error("no state on the level set was found near the one that was asked for")]
+    NoStart,
+    /// The equations cannot be recorded.
+    #[error("{0}")]
+    Recording(#[from] Fault),
+}
+
+fn singular(time: f64, state: &[f64]) -> String {
+    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
+    let state = state.join(", ");
+    match time == 0.0 {
+        true => format!("the equations of motion are singular at the start, the state [{state}]"),
+        false => {
+            format!("the motion runs into a singularity at t = {time}, near the state [{state}]")
+        }
+    }
+}
+
+fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
+    let others = match others {
+        0 => String::new(),
+        count => format!("; it is crossed {count} times in the direction that does not count"),
+    };
+    format!(
+        "the section is not met again after {crossings} crossings, up to t = {time:.4e}{others}"
+    )
+}
+
+impl FlowError {
+    /// Advice on how to avoid the error.
+    pub fn help(&self) -> &'static str {
+        match self {
+            FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
+            FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
+            FlowError::Singular { time: 0.0, .. } => {
+                "choose another start; if all are singular, the parameters are"
+            }
+            FlowError::Singular { .. } => "choose another start, or a shorter time",
+            FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::NoSection => "add [section] with g0 and energy",
+            FlowError::Arbitrary => "give a shape and a potential by formulas",
+            FlowError::Discrete => {
+                "give a case with a field; what holds of a map is claimed, and judged by `check`"
+            }
+            FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
+            FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
+            FlowError::NeverCrossed { .. } => {
+                "choose another start, another g0, or another direction"
+            }
+            FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
+            FlowError::OneSidedBackwards => "give a positive --time",
+            FlowError::BehindConstraint { .. } => {
+                "choose a start where the function is not negative"
+            }
+            FlowError::TooManyPhases { .. } => "choose a shorter time",
+            FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
+            FlowError::NotHyperbolic { .. } => {
+                "`liouville periodic` tells what kind a point is; start near a hyperbolic one"
+            }
+            FlowError::NoStart => "give a state by --state, or another --seed or --index",
+            FlowError::Recording(_) => "use operations that hold for every number",
+        }
+    }
+
+    /// The error for a function without a Taylor rule.
+    pub(super) fn of_function(function: Function) -> Self {
+        match function {
+            Function::Abs => FlowError::NotAnalytic("|x|"),
+            _ => FlowError::NotAnalytic("a function"),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Vectors of f64, one lane for each orbit.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::number::{BLOCK, Number, applied, powered};
+use liouville::number::Function;
+use liouville::number::pair::{Pair, two_sum};
+use liouville::number::rational::Rational;
+
+/// A vector of `N` f64, one lane for each orbit.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Lanes<const N: usize>(pub [f64; N]);
+
+macro_rules! lanewise {
+    ($($trait:ident $method:ident $operator:tt;)*) => {$(
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for lane in 0..N {
+                    self.0[lane] $operator other.0[lane];
+                }
+                self
+            }
+        }
+    )*};
+}
+
+lanewise! { Add add +=; Sub sub -=; Mul mul *=; }
+
+impl<const N: usize> Neg for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+impl<const N: usize> Number for Lanes<N> {
+    type One = f64;
+    const ZERO: Self = Self([0.0; N]);
+    const ONE: Self = Self([1.0; N]);
+    const LANES: usize = N;
+    const EPSILON: f64 = f64::EPSILON;
+    const WIDTH: usize = 1;
+    type Partial = Self;
+
+    fn rational(value: &Rational) -> Self {
+        Self([value.to_f64().0; N])
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        Self([value; N])
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self.0[0]
+    }
+    fn pair(self) -> Pair {
+        Pair::from_f64(self.0[0])
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (Self([value.hi; N]), Self([value.lo; N]))
+    }
+    #[inline(always)]
+    fn fused(mut self, x: Self, y: Self) -> Self {
+        for lane in 0..N {
+            self.0[lane] = x.0[lane].mul_add(y.0[lane], self.0[lane]);
+        }
+        self
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self(self.0.map(|x| 1.0 / x))
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        Self(self.0.map(|x| applied(function, x)))
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        Self(self.0.map(|x| powered(x, exponent)))
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
+        for lane in 0..N {
+            (hi.0[lane], lo.0[lane]) = two_sum(hi.0[lane], lo.0[lane] + increment.0[lane]);
+        }
+    }
+    #[inline(always)]
+    fn nothing() -> Self {
+        Self([0.0; N])
+    }
+    #[inline(always)]
+    fn dot(mut sum: Self, x: &[Self], y: &[Self]) -> Self {
+        for (x, y) in x.iter().zip(y.iter().rev()) {
+            sum = sum.fused(*x, *y);
+        }
+        sum
+    }
+    #[inline(always)]
+    fn totals(sums: &[Self; BLOCK], totals: &mut [Self; BLOCK]) {
+        *totals = *sums;
+    }
+}

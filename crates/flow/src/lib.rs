@@ -1,0 +1,57 @@
+//! Motion: trajectories by Taylor series, to rounding, on the recorded field of any case.
+//!
+//! ```text
+//! case, start ─ record ─▶ graph of the field ─ compile ─▶ Program ─ expand at a state ─▶ Series ─ step ─▶ trajectory
+//! ```
+//!
+//! A program gives the coefficients of order n of every intermediate result from those of lower
+//! orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or over
+//! double-double.
+
+mod andoyer;
+mod area;
+mod closed;
+mod code;
+mod compile;
+mod error;
+mod event;
+mod expand;
+mod form;
+mod lanes;
+mod lyapunov;
+mod machine;
+mod merge;
+mod motion;
+mod number;
+pub mod observe;
+mod one_sided;
+mod orbit;
+mod periodic;
+mod plane;
+mod portrait;
+mod program;
+mod section;
+mod separatrix;
+mod series;
+mod shadow;
+mod start;
+mod stepper;
+mod swarm;
+mod variational;
+
+pub use andoyer::spread;
+pub use area::{AreaForm, area_forms};
+pub use closed::{ClosedOrbit, Measured};
+pub use error::FlowError;
+pub use lyapunov::{Alignment, Character, Estimate, Exponents};
+pub use one_sided::{Contact, ContactEvent};
+pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
+pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
+pub use plane::{Axis, Coordinate, Launch, PlaneRequest, plane};
+pub use portrait::{Portrait, portrait};
+pub use section::{
+    Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
+};
+pub use separatrix::{Separatrices, separatrices};
+pub use start::{Start, fixed_parameters};
+pub use variational::Variational;

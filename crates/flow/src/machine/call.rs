@@ -1,0 +1,69 @@
+//! Calls of machine code.
+
+#![allow(
+    unsafe_code,
+    reason = "generated instructions are called; measured in docs/performance.md"
+)]
+
+use memmap2::Mmap;
+
+use super::encode::Assembler;
+use liouville::engine::executable;
+
+/// Signature of the code: rows, copies, constants, sums.
+#[cfg(target_arch = "x86_64")]
+type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *mut f64, *mut f64);
+
+/// Placeholder, never called: there is no code for other processors.
+#[cfg(not(target_arch = "x86_64"))]
+type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64);
+
+/// A callable function in executable memory.
+pub(super) struct Executable {
+    memory: Mmap,
+    touched: [(i32, i32); 4],
+}
+
+/// Memory passed to a function.
+pub(super) struct Given<'m> {
+    /// Rows and copies; the next two fields are the offsets of their bases in it.
+    pub(super) memory: &'m mut [f64],
+    pub(super) rows: usize,
+    pub(super) copies: usize,
+    pub(super) constants: &'m mut [f64],
+    pub(super) sums: &'m mut [f64],
+}
+
+impl Executable {
+    /// Maps the code. `None` where the system refuses the memory. The processor must have the
+    /// instructions.
+    pub(super) fn new(assembler: &Assembler) -> Option<Self> {
+        if cfg!(not(target_arch = "x86_64")) {
+            return None;
+        }
+        Some(Self { memory: executable(&assembler.bytes)?, touched: assembler.touched })
+    }
+
+    /// Calls the function. Panics where it would touch memory outside of what is passed.
+    pub(super) fn call(&self, given: Given<'_>) {
+        let Given { memory, rows, copies, constants, sums } = given;
+        let within = |(least, most): (i32, i32), base: usize, length: usize| {
+            let (base, length) = (base as i64, length as i64);
+            base <= length && base + i64::from(least) >= 0 && base + i64::from(most) <= length
+        };
+        let [of_rows, of_copies, of_constants, of_sums] = self.touched;
+        let enough = within(of_rows, rows, memory.len())
+            && within(of_copies, copies, memory.len())
+            && within(of_constants, 0, constants.len())
+            && within(of_sums, 0, sums.len());
+        assert!(enough, "machine code needs {:?}", self.touched);
+        // SAFETY: the bytes come from the assembler alone, as a function of this type that has no
+        // jumps and touches no more than it records, which lies within what is passed. It is made
+        // only where the processor has its instructions.
+        unsafe {
+            let entry: Entry = std::mem::transmute(self.memory.as_ptr());
+            let all = memory.as_mut_ptr();
+            entry(all.add(rows), all.add(copies), constants.as_mut_ptr(), sums.as_mut_ptr());
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Machine code for the expansions of a program over f64.
+//!
+//! An interpreter of programs spends most of its time on addresses. Here addresses are part of the
+//! instructions, and recent results stay in registers. The same sums are made in the same order, so
+//! that the bits are those of the interpreter.
+
+mod call;
+mod constants;
+mod emit;
+mod encode;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+use super::code::Code;
+use super::number::{BLOCK, Number};
+use call::{Executable, Given};
+use constants::Constants;
+use encode::Width;
+use liouville::graph::{Vectors, widest};
+
+/// Functions of a program, and the data they need besides its memory.
+pub(super) struct Machine {
+    order: usize,
+    orders: usize,
+    /// Inner sums, indexed by the number of vectors along the order, less one.
+    inner_sums: Vec<Executable>,
+    finish: Executable,
+    /// Order 0, if all functions in it are instructions.
+    values: Option<Executable>,
+    constants: Constants,
+    /// Values of the inner sums.
+    inner: Vec<f64>,
+}
+
+impl Machine {
+    /// Generates machine code for a program. `None` where the processor or the system allows none.
+    pub(super) fn new(code: &Code<f64>, order: usize) -> Option<Self> {
+        match widest() {
+            Vectors::Avx512 => Self::with_width(code, order, Width::Eight),
+            Vectors::Avx2 => Self::with_width(code, order, Width::Four),
+            Vectors::Baseline => None,
+        }
+    }
+
+    /// Generates code with instructions of this width, which the processor must have.
+    fn with_width(code: &Code<f64>, order: usize, width: Width) -> Option<Self> {
+        let constants = Constants::new(code);
+        let lengths = 1..=order.div_ceil(BLOCK);
+        let inner_sums = lengths.map(|n| Executable::new(&emit::inner_sums(code, width, n)));
+        let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
+        Some(Self {
+            order,
+            orders: order.next_multiple_of(BLOCK),
+            inner_sums: inner_sums.collect::<Option<_>>()?,
+            finish: Executable::new(&emit::finish(code, &constants))?,
+            values: match values::values(code, &constants) {
+                Some(values) => Some(Executable::new(&values)?),
+                None => None,
+            },
+            constants,
+            inner: vec![0.0; sums],
+        })
+    }
+
+    /// Computes order 0 of all rows and order 1 of the state, with the slopes. Returns `false` if
+    /// there is no code for that.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, inverses: &[f64], memory: &mut [f64]) -> bool {
+        let Some(values) = &self.values else { return false };
+        self.constants.at_order(0, inverses);
+        values.call(Given {
+            memory,
+            rows: 0,
+            copies: self.orders,
+            constants: &mut self.constants.list,
+            sums: &mut [],
+        });
+        true
+    }
+
+    /// Copies the slopes computed elsewhere.
+    #[inline(always)]
+    pub(super) fn take(&mut self, code: &Code<f64>) {
+        self.constants.take(code);
+    }
+
+    /// Computes orders 1 to `order` - 1 of all rows, and up to `order` of the state, from what
+    /// `begin` made.
+    #[inline(always)]
+    pub(super) fn run(&mut self, code: &Code<f64>, inverses: &[f64], memory: &mut [f64]) {
+        self.inner.fill(0.0);
+        for n in 1..self.order {
+            let copies = |n: usize| f64::copied(self.orders, n);
+            if n >= 2 {
+                self.inner_sums[(n - 2) / BLOCK].call(Given {
+                    memory,
+                    rows: 0,
+                    copies: copies(n - 1),
+                    constants: &mut [],
+                    sums: &mut self.inner,
+                });
+            }
+            self.constants.at_order(n, inverses);
+            self.constants.thetas(code, n);
+            self.finish.call(Given {
+                memory,
+                rows: n,
+                copies: copies(n),
+                constants: &mut self.constants.list,
+                sums: &mut self.inner,
+            });
+        }
+    }
+}

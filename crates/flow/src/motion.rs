@@ -1,0 +1,78 @@
+//! The motion of a case with fixed parameters: its field as a Taylor program.
+
+use super::error::FlowError;
+use super::merge::merged;
+use super::program::Program;
+use liouville::graph::{Expr, record};
+use liouville::mechanics::{Model, Phase};
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+
+/// Point over recorded scalars whose parameters are exact constants.
+pub(super) fn point<'m>(
+    model: &'m Model,
+    parameters: &[Rational],
+    state: &[Expr],
+) -> Phase<'m, Expr> {
+    Phase::new(model, &filled(parameters, &[], &[]), state)
+}
+
+/// Component of the free parameters that differs from motion to motion: centre + half x, with x
+/// between -1 and 1.
+#[derive(Clone, Debug)]
+pub(super) struct Loose {
+    /// Index of the component.
+    pub component: usize,
+    /// Midpoint of its range.
+    pub centre: Rational,
+    /// Half the length of its range.
+    pub half: Rational,
+}
+
+/// Returns the parameters, with loose ones replaced by functions of their inputs x.
+pub(super) fn filled(parameters: &[Rational], loose: &[Loose], inputs: &[Expr]) -> Vec<Expr> {
+    let mut filled: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
+    for (one, x) in loose.iter().zip(inputs) {
+        filled[one.component] = Expr::rational(&one.centre) + Expr::rational(&one.half) * *x;
+    }
+    filled
+}
+
+/// Compiles a case's field with these values of its free parameters, and further functions of the
+/// state.
+pub fn program(
+    model: &Model,
+    parameters: &[Rational],
+    further: impl FnOnce(&Phase<'_, Expr>) -> Vec<Expr>,
+) -> Result<Program, FlowError> {
+    extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
+}
+
+/// Compiles a field in the state and `more` further variables. `build` receives a point and those
+/// variables, and returns the rates of all, and further functions.
+pub(super) fn extended_program(
+    model: &Model,
+    parameters: &[Rational],
+    more: usize,
+    build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
+) -> Result<Program, FlowError> {
+    if model.system.is_map() {
+        return Err(FlowError::Discrete);
+    }
+    let dimension = model.dimension();
+    let (graph, (rates, outputs)) = record(dimension + more, |inputs| {
+        let (state, more) = inputs.split_at(dimension);
+        build(&point(model, parameters, state), more)
+    })?;
+    if graph.inputs() > dimension + more {
+        return Err(FlowError::Antiderivative);
+    }
+    if !model.system.conserves_level() {
+        return Program::compile(&graph, &rates, &outputs);
+    }
+    let count = rates.len();
+    let wanted = [rates, outputs].concat();
+    let (simpler, mut values) = merged(model, &graph, &wanted)?;
+    let outputs = values.split_off(count);
+    Program::compile(&simpler, &values, &outputs)
+}

@@ -1,0 +1,301 @@
+//! Numbers of Taylor coefficients: f64, vectors of f64, or double-double.
+
+use std::fmt::Debug;
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::lanes::Lanes;
+use super::series::Series;
+use liouville::number::float::Float;
+use liouville::number::pair::{Pair, two_product, two_sum};
+use liouville::number::rational::Rational;
+use liouville::number::{Domain, Function};
+
+/// A number that series are made of; undefined ones are not finite.
+pub trait Number:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Type of one lane.
+    type One: Number<One = Self::One>;
+    /// The number 0.
+    const ZERO: Self;
+    /// The number 1.
+    const ONE: Self;
+    /// Number of orbits carried in one number.
+    const LANES: usize;
+    /// Number of coefficients that a dot product takes at once; rows are padded to multiples of it.
+    const WIDTH: usize;
+    /// Spacing of numbers at 1.
+    const EPSILON: f64;
+    /// Dot product before its parts are added up.
+    type Partial: Copy;
+
+    /// Rounds an exact constant once.
+    fn rational(value: &Rational) -> Self;
+    /// Builds a number lane by lane.
+    fn from_lanes(value: impl Fn(usize) -> Self::One) -> Self;
+    /// Returns one lane.
+    fn lane(self, lane: usize) -> Self::One;
+    /// Copies an f64 to all lanes.
+    fn float(value: f64) -> Self;
+    /// Leading part of the first lane.
+    fn leading(self) -> f64;
+    /// First lane as a pair.
+    fn pair(self) -> Pair;
+    /// Splits a pair into a number in all lanes and the rounding remainder.
+    fn split(value: Pair) -> (Self, Self);
+    /// Returns self + x y, to be settled after the last term.
+    fn fused(self, x: Self, y: Self) -> Self;
+    /// Normalises a sum after its last term.
+    #[inline(always)]
+    fn settled(self) -> Self {
+        self
+    }
+    /// Returns 1/x.
+    fn recip(self) -> Self;
+    /// Returns f(x).
+    fn apply(self, function: Function) -> Self;
+    /// Returns x^q.
+    fn power(self, exponent: &Rational) -> Self;
+    /// Adds an increment to a compensated sum hi + lo.
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
+
+    /// Computes all orders of an expansion by machine code. Returns `false` where there is none for
+    /// such numbers.
+    #[inline(always)]
+    fn by_machine(_: &mut Series<Self>) -> bool {
+        false
+    }
+
+    /// An empty sum of products.
+    fn nothing() -> Self::Partial;
+    /// Offset of order n of a copy from its place.
+    #[inline(always)]
+    fn copied(orders: usize, n: usize) -> usize {
+        if Self::WIDTH > 1 { orders - n } else { n }
+    }
+    /// Returns sum + Σ x_k y_k. Both have the same length, a multiple of `WIDTH`; y is in the
+    /// opposite order where `WIDTH` is 1.
+    fn dot(sum: Self::Partial, x: &[Self], y: &[Self]) -> Self::Partial;
+    /// Adds the parts of several dot products at once.
+    fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
+}
+
+/// Applies a function to an f64, by the platform-independent implementation that tapes use.
+#[inline(always)]
+pub(super) fn applied(function: Function, x: f64) -> f64 {
+    let mut out = [0.0];
+    Float::<1>.unary(function, &[x], &mut out);
+    out[0]
+}
+
+pub(super) fn powered(x: f64, exponent: &Rational) -> f64 {
+    let mut out = [0.0];
+    Float::<1>.power(&[x], exponent, &mut out);
+    out[0]
+}
+
+/// Number of lanes of a dot product along the order.
+const WIDTH: usize = 8;
+/// Number of dot products finished at once.
+pub(super) const BLOCK: usize = 8;
+
+impl Number for f64 {
+    type One = f64;
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+    const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON;
+    const WIDTH: usize = WIDTH;
+    type Partial = Lanes<WIDTH>;
+
+    fn rational(value: &Rational) -> Self {
+        value.to_f64().0
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> f64) -> Self {
+        value(0)
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self
+    }
+    fn pair(self) -> Pair {
+        Pair::from_f64(self)
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (value.hi, value.lo)
+    }
+    #[inline(always)]
+    fn fused(self, x: f64, y: f64) -> f64 {
+        x.mul_add(y, self)
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        applied(function, self)
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        powered(self, exponent)
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
+        (*hi, *lo) = two_sum(*hi, *lo + increment);
+    }
+    #[inline(always)]
+    fn by_machine(series: &mut Series<f64>) -> bool {
+        series.by_machine()
+    }
+    #[inline(always)]
+    fn nothing() -> Lanes<WIDTH> {
+        Lanes::ZERO
+    }
+    #[inline(always)]
+    fn dot(mut sum: Lanes<WIDTH>, x: &[f64], y: &[f64]) -> Lanes<WIDTH> {
+        let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
+        for (x, y) in x.iter().zip(y) {
+            sum = sum.fused(Lanes(*x), Lanes(*y));
+        }
+        sum
+    }
+    #[inline(always)]
+    fn totals(sums: &[Lanes<WIDTH>; BLOCK], totals: &mut [f64; BLOCK]) {
+        // Halves of two sums, quarters of four, and so on, are added side by side:
+        // ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)) for each.
+        let [a, b, c, d] = std::array::from_fn(|k| folded::<4>(&sums[k].0, &sums[k + 4].0));
+        let [a, b] = [folded::<2>(&a, &c), folded::<2>(&b, &d)];
+        *totals = folded::<1>(&a, &b);
+    }
+}
+
+/// Folds each run of 2H numbers in the middle: those of a, then those of b.
+#[inline(always)]
+fn folded<const H: usize>(a: &[f64; WIDTH], b: &[f64; WIDTH]) -> [f64; WIDTH] {
+    let (mut near, mut far) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for k in 0..WIDTH {
+        let (run, place) = (k / (2 * H), k % (2 * H));
+        let from = if place < H { a } else { b };
+        near[k] = from[run * 2 * H + place % H];
+        far[k] = from[run * 2 * H + place % H + H];
+    }
+    std::array::from_fn(|k| near[k] + far[k])
+}
+
+impl Number for Pair {
+    type One = Pair;
+    const ZERO: Pair = Pair { hi: 0.0, lo: 0.0 };
+    const ONE: Pair = Pair { hi: 1.0, lo: 0.0 };
+    const LANES: usize = 1;
+    const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
+    const WIDTH: usize = WIDTH;
+    type Partial = PairLanes;
+
+    fn rational(value: &Rational) -> Self {
+        Pair::from_rational(value)
+    }
+    #[inline(always)]
+    fn from_lanes(value: impl Fn(usize) -> Pair) -> Self {
+        value(0)
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> Pair {
+        self
+    }
+    #[inline(always)]
+    fn float(value: f64) -> Self {
+        Pair::from_f64(value)
+    }
+    #[inline(always)]
+    fn leading(self) -> f64 {
+        self.hi
+    }
+    fn pair(self) -> Pair {
+        self
+    }
+    fn split(value: Pair) -> (Self, Self) {
+        (value, Self::ZERO)
+    }
+    #[inline(always)]
+    fn fused(self, x: Pair, y: Pair) -> Pair {
+        // The rounding errors of products and sums are added up in the low part (Ogita, Rump, Oishi
+        // 2005).
+        let (product, error) = two_product(x.hi, y.hi);
+        let (hi, rest) = two_sum(self.hi, product);
+        let cross = x.hi.mul_add(y.lo, x.lo.mul_add(y.hi, error));
+        Pair { hi, lo: self.lo + (rest + cross) }
+    }
+    #[inline(always)]
+    fn settled(self) -> Pair {
+        let (hi, lo) = two_sum(self.hi, self.lo);
+        Pair { hi, lo }
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Pair::recip(self)
+    }
+    #[inline(always)]
+    fn apply(self, function: Function) -> Self {
+        match function {
+            Function::Sqrt => self.sqrt(),
+            _ => Pair::apply(self, function),
+        }
+    }
+    fn power(self, exponent: &Rational) -> Self {
+        Pair::power(self, exponent)
+    }
+    #[inline(always)]
+    fn advance(hi: &mut Self, _: &mut Self, increment: Self) {
+        *hi = *hi + increment;
+    }
+    #[inline(always)]
+    fn nothing() -> PairLanes {
+        PairLanes { hi: [0.0; WIDTH], lo: [0.0; WIDTH] }
+    }
+    #[inline(always)]
+    fn dot(mut sum: PairLanes, x: &[Pair], y: &[Pair]) -> PairLanes {
+        let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
+        for (x, y) in x.iter().zip(y) {
+            for k in 0..WIDTH {
+                let next = Pair { hi: sum.hi[k], lo: sum.lo[k] }.fused(x[k], y[k]);
+                (sum.hi[k], sum.lo[k]) = (next.hi, next.lo);
+            }
+        }
+        sum
+    }
+    #[inline(always)]
+    fn totals(sums: &[PairLanes; BLOCK], totals: &mut [Pair; BLOCK]) {
+        let (mut hi, mut lo) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for lane in 0..WIDTH {
+            for (k, sum) in sums.iter().enumerate() {
+                let (s, rest) = two_sum(hi[k], sum.hi[lane]);
+                (hi[k], lo[k]) = (s, lo[k] + (rest + sum.lo[lane]));
+            }
+        }
+        *totals = std::array::from_fn(|k| Pair { hi: hi[k], lo: lo[k] }.settled());
+    }
+}
+
+/// Sums in double-double, one in each lane, not normalised.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub struct PairLanes {
+    hi: [f64; WIDTH],
+    lo: [f64; WIDTH],
+}

@@ -1,0 +1,45 @@
+//! Times at which a motion meets a one-sided constraint, in f64 and in double-double.
+
+use super::finding::Finding;
+use super::scene::Scene;
+use crate::{Contact, FlowError, Measured, Precision, orbit};
+use liouville::claim::motion::{Contacts, Touch};
+use liouville::number::pair::Pair;
+
+/// Compares the events at the constraint with the claim; grazing does not count.
+pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let start = scene.start(&claim.beginning)?;
+    let events = |precision| {
+        let found = orbit(scene.case, start.clone(), Pair::from_f64(claim.time), precision)?;
+        let touches = found.events.into_iter().filter_map(|event| match event.kind {
+            Contact::Arrives => Some((Touch::Arrives, event.time.hi)),
+            Contact::Leaves => Some((Touch::Leaves, event.time.hi)),
+            Contact::Grazes => None,
+        });
+        Ok::<Vec<(Touch, f64)>, FlowError>(touches.collect())
+    };
+    let (float, pair) = (events(Precision::Float)?, events(Precision::Pair)?);
+    let mut finding = Finding::default();
+    let kinds =
+        |events: &[(Touch, f64)]| events.iter().map(|(touch, _)| *touch).collect::<Vec<_>>();
+    if kinds(&float) != kinds(&pair) {
+        finding.leave_open("f64 and double-double see other events".to_string());
+        return Ok(finding);
+    }
+    let stated: Vec<Touch> = claim.events.iter().map(|(touch, _)| *touch).collect();
+    if kinds(&pair) != stated {
+        finding.refute("other events happen".to_string());
+    }
+    for (index, ((touch, time), (_, rough))) in pair.iter().zip(&float).enumerate() {
+        let quantity = match touch {
+            Touch::Arrives => "time of arrival",
+            Touch::Leaves => "time of leaving",
+        };
+        let found = Measured::twice(*rough, *time);
+        match claim.events.get(index) {
+            Some((claimed, when)) if claimed == touch => finding.compare(quantity, found, when),
+            _ => finding.show(quantity, found),
+        }
+    }
+    Ok(finding)
+}

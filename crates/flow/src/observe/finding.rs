@@ -1,0 +1,127 @@
+//! Findings on claims about motion: numbers, each compared with the one stated.
+
+use crate::Measured;
+use liouville::claim::motion::Stated;
+use liouville::verdict::{Evidence, Measurement, Verdict};
+
+/// Number of standard errors within which means agree.
+pub const ERRORS: f64 = 3.0;
+
+/// Finding on a claim about motion.
+#[derive(Default)]
+pub struct Finding {
+    measured: Vec<Measurement>,
+    /// Reasons against the claim.
+    against: Vec<String>,
+    /// Reasons to leave the claim open.
+    open: Vec<String>,
+    /// Further consequence.
+    pub remark: Option<String>,
+}
+
+impl Finding {
+    /// Notes a number.
+    pub fn show(&mut self, quantity: &str, found: Measured) {
+        self.note(quantity, found, None);
+    }
+
+    fn note(&mut self, quantity: &str, found: Measured, stated: Option<&Stated>) {
+        self.measured.push(Measurement {
+            quantity: quantity.to_string(),
+            value: found.value,
+            error: found.error,
+            stated: stated.map(|stated| stated.text.clone()),
+        });
+    }
+
+    /// Compares a number with the one stated: they agree within one unit of the last stated digit
+    /// and the number's error. An error beyond that unit leaves the claim open.
+    pub fn compare(&mut self, quantity: &str, found: Measured, stated: &Stated) {
+        self.within(quantity, found, stated, stated.unit + found.error);
+        if stated.unit > 0.0 && found.error > stated.unit {
+            self.leave_open(format!("the error of the {quantity} is above the stated digits"));
+        }
+    }
+
+    /// Compares a mean with the one stated: they agree within three standard errors of both.
+    pub fn compare_mean(&mut self, quantity: &str, found: Measured, stated: &Stated) {
+        let errors = libm::hypot(found.error, stated.error);
+        self.within(quantity, found, stated, stated.unit + ERRORS * errors);
+    }
+
+    fn within(&mut self, quantity: &str, found: Measured, stated: &Stated, tolerance: f64) {
+        self.note(quantity, found, Some(stated));
+        let difference = (found.value - stated.value).abs();
+        if difference.is_nan() {
+            self.leave_open(format!("the {quantity} is not known"));
+        } else if difference > tolerance {
+            self.refute(format!("the {quantity} is not {}", stated.text));
+        }
+    }
+
+    /// Notes a reason against the claim.
+    pub fn refute(&mut self, reason: String) {
+        self.against.push(reason);
+    }
+
+    /// Notes a reason to leave the claim open.
+    pub fn leave_open(&mut self, reason: String) {
+        self.open.push(reason);
+    }
+
+    /// Compares one of several possibilities with the one claimed; `None` where it is not decided.
+    pub fn expect<T: PartialEq>(&mut self, seen: Option<T>, claimed: T, what: &str) {
+        match seen {
+            Some(seen) if seen == claimed => {}
+            Some(_) => self.refute(format!("the {what} is another")),
+            None => self.leave_open(format!("the {what} is not decided by these numbers")),
+        }
+    }
+
+    /// Returns the verdict and its grounds.
+    pub fn conclude(self) -> (Verdict, Evidence) {
+        let verdict = match (self.against.is_empty(), self.open.is_empty()) {
+            (false, _) => Verdict::Refuted,
+            (true, false) => Verdict::Undecided,
+            (true, true) => Verdict::Confirmed,
+        };
+        let reasons = if verdict == Verdict::Refuted { self.against } else { self.open };
+        let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
+        let (measured, remark) = (self.measured, self.remark);
+        (verdict, Evidence { measured, reason, remark, ..Evidence::default() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(stated: &str, value: f64, error: f64) -> Verdict {
+        let stated = Stated::parse(stated).expect("a number");
+        let mut finding = Finding::default();
+        finding.compare("number", Measured { value, error }, &stated);
+        finding.conclude().0
+    }
+
+    #[test]
+    fn digits_that_are_typed_are_claimed() {
+        assert_eq!(verdict("0.25", 0.2549, 1e-9), Verdict::Confirmed, "to one unit");
+        assert_eq!(verdict("0.2500", 0.2549, 1e-9), Verdict::Refuted, "two digits more");
+        assert_eq!(verdict("0.25", 0.2549, 0.02), Verdict::Undecided, "the error hides digits");
+        assert_eq!(verdict("1", 1.0 + 1e-15, 2e-15), Verdict::Confirmed, "exact, to its error");
+        assert_eq!(verdict("1", 1.0 + 1e-12, 2e-15), Verdict::Refuted, "exact, beyond its error");
+        assert_eq!(verdict("1", f64::NAN, 1e-9), Verdict::Undecided, "no number at all");
+    }
+
+    #[test]
+    fn means_agree_within_three_errors_of_both() {
+        let with = |value, error| {
+            let mut finding = Finding::default();
+            let stated = Stated::parse("0.035 ± 0.003").expect("a number");
+            finding.compare_mean("mean", Measured { value, error }, &stated);
+            finding.conclude().0
+        };
+        assert_eq!(with(0.044, 0.001), Verdict::Confirmed, "within three errors");
+        assert_eq!(with(0.047, 0.001), Verdict::Refuted, "beyond them and the last digit");
+    }
+}

@@ -1,0 +1,61 @@
+//! Limits of motions for a vanishing parameter, compared with the motion at 0.
+
+use super::finding::Finding;
+use super::scene::Scene;
+use crate::{FlowError, Measured, Precision, orbit, value_at};
+use liouville::claim::motion::{Beginning, LimitOfMotion};
+use liouville::number::pair::Pair;
+use liouville::number::rational::Rational;
+
+/// Number of values of the parameter, each a tenth of the previous one.
+const VALUES: i64 = 5;
+
+/// Tests whether |F(ε) - F(0)|/ε^order tends to a constant.
+///
+/// With an error C ε^order (1 + O(ε)) the quotients converge; their last difference is the error of
+/// C. If they grow, the order is lower than claimed; if C is not above its error, higher.
+pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
+    let mut finding = Finding::default();
+    let Some(component) = claim.component else {
+        finding.leave_open("the parameter has a fixed value: give it a range".to_string());
+        return Ok(finding);
+    };
+    let model = &scene.case.model;
+    let drawn = scene.parameters()?;
+    let at = |value: Rational| {
+        let mut parameters = drawn.clone();
+        parameters[component] = value;
+        let start = scene.state(point, parameters)?;
+        let time = Pair::from_f64(claim.time);
+        let found = orbit(scene.case, start, time, Precision::Pair)?;
+        value_at(model, &claim.function, &found.start.parameters, &found.end)
+    };
+    let limit = at(Rational::from(0))?;
+    let mut quotients = Vec::new();
+    let mut divisor = 1;
+    for _ in 0..VALUES {
+        let value = &drawn[component] * &Rational::new(1, divisor);
+        let size = libm::pow(value.to_f64().0.abs(), claim.order as f64);
+        let squares = at(value)?;
+        let squares = squares.iter().zip(&limit).map(|(x, y)| (*x - *y).hi * (*x - *y).hi);
+        quotients.push(squares.sum::<f64>().sqrt() / size);
+        divisor *= 10;
+    }
+    let differences: Vec<f64> =
+        quotients.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let last = quotients.len() - 1;
+    let found = Measured { value: quotients[last], error: differences[last - 1] };
+    match &claim.constant {
+        Some(stated) => finding.compare("constant", found, stated),
+        None => finding.show("constant", found),
+    }
+    if differences[last - 1] >= differences[0] {
+        finding.refute("the quotients do not tend to a constant".to_string());
+    } else if found.value <= found.error {
+        finding.refute("the quotients tend to 0: the order is higher".to_string());
+    } else if differences.windows(2).any(|pair| pair[1] >= pair[0]) {
+        finding.leave_open("the quotients do not settle steadily".to_string());
+    }
+    Ok(finding)
+}

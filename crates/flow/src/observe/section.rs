@@ -1,0 +1,115 @@
+//! Behaviour of the crossings of one orbit: convergence to a cycle, confinement to a part of the
+//! section.
+
+use std::f64::consts::PI;
+
+use super::finding::Finding;
+use super::scene::Scene;
+use crate::{Crossing, FlowError, Measured};
+use liouville::claim::motion::{Axis, Confined, LimitCycle};
+
+fn distance(a: &Crossing, b: &Crossing) -> f64 {
+    let turn = (a.at[0] - b.at[0]) / (2.0 * PI);
+    libm::hypot(2.0 * PI * (turn - turn.round()), a.at[1] - b.at[1])
+}
+
+/// Tests whether the crossings tend to a cycle.
+///
+/// The displacement |x_(k+n) - x_k| has to fall to half in each quarter of the run, or to the
+/// difference between f64 and double-double after a turn. Its decline gives the remaining distance
+/// to the cycle.
+pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let crossings = scene.crossings(&claim.beginning, 0, claim.crossings)?.crossings;
+    let period = claim.period;
+    let last = crossings.len() - 1;
+    // The largest displacement over one turn of the cycle, the last of them ending at `end`.
+    let displacement = |end: usize, step: usize| {
+        let of = |k: usize| distance(&crossings[end - k], &crossings[end - k - step]);
+        (0..period).map(of).fold(0.0, f64::max)
+    };
+    let quarter = last / 4;
+    let falls = [2 * quarter, 3 * quarter, last].map(|end| displacement(end, period));
+    let blur = scene.map()?.blur(crossings[last].at, period)?;
+    let mut finding = Finding::default();
+    let shown = |value: f64| Measured { value, error: blur };
+    finding.show("displacement halfway", shown(falls[0]));
+    finding.show("displacement at the end", shown(falls[2]));
+    // Accumulated rounding moves a cycle that is about to vanish by its square root.
+    let floor = libm::sqrt(blur * (last / period) as f64);
+    if falls[2] > blur && falls.windows(2).any(|pair| pair[1] > pair[0] / 2.0) {
+        match falls[2] >= falls[0] && falls[2] > floor {
+            true => finding.refute("the crossings do not come to rest".to_string()),
+            false if falls[2] > floor => finding.leave_open("they come to rest slowly".to_string()),
+            false => finding.leave_open("they rest up to rounding: follow fewer".to_string()),
+        }
+        return Ok(finding);
+    }
+    let left = remaining(falls, (quarter / period).max(1), blur);
+    for divisor in (1..period).filter(|n| period.is_multiple_of(*n)) {
+        if displacement(last, divisor) <= falls[2] + left {
+            finding.refute(format!("the period is {divisor}"));
+        }
+    }
+    if let Some(point) = &claim.point {
+        let stated = Crossing { at: [point[0].value, point[1].value], ..crossings[last] };
+        let nearest = (0..period)
+            .map(|k| &crossings[last - k])
+            .min_by(|a, b| distance(a, &stated).total_cmp(&distance(b, &stated)));
+        for (axis, quantity) in ["l", "L/G"].into_iter().enumerate() {
+            let value = nearest.map_or(f64::NAN, |crossing| crossing.at[axis]);
+            finding.compare(quantity, Measured { value, error: left }, &point[axis]);
+        }
+    }
+    Ok(finding)
+}
+
+/// Remaining sum of a geometric decline: d r/(1 - r), where d is the last displacement, and r the
+/// factor from one turn to the next, over `turns` turns between the given displacements.
+fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
+    let factor = libm::pow(last / before, 1.0 / turns as f64);
+    match factor < 1.0 {
+        true => (last * factor / (1.0 - factor)).max(blur),
+        false => blur.max(last),
+    }
+}
+
+/// Tests whether the crossings stay in a part of the section, or the stated number of them does.
+pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+    let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
+    let axis = match claim.axis {
+        Axis::L => 0,
+        Axis::Z => 1,
+    };
+    let values = orbit.crossings.iter().map(|crossing| crossing.at[axis]);
+    let [least, most] = &claim.between;
+    let is_beyond = |x: &f64| *x <= least.value || *x >= most.value;
+    let beyond = values.clone().filter(is_beyond).count();
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.fold(start, |(low, high), x| (low.min(x), high.max(x)));
+    let mut finding = Finding::default();
+    let rounded = |value: f64| Measured { value, error: f64::EPSILON * value.abs() };
+    finding.show("lowest", rounded(low));
+    finding.show("highest", rounded(high));
+    let all = orbit.crossings.len();
+    let told = format!("{beyond} of {all} crossings are beyond");
+    if beyond as f64 > (1.0 - claim.share) * all as f64 {
+        finding.refute(told);
+    } else if beyond > 0 {
+        finding.remark = Some(told);
+    }
+    Ok(finding)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_geometric_decline_tells_what_is_left() {
+        // d = 2^-k: after the displacement 2^-20 an equal distance remains.
+        let falls = [10, 15, 20].map(|k| libm::pow(2.0, -f64::from(k)));
+        let left = remaining(falls, 5, 1e-16);
+        assert!((left / falls[2] - 1.0).abs() < 1e-12, "left: {left:e}");
+        assert_eq!(remaining([1e-3, 1e-3, 2e-3], 5, 1e-16), 2e-3, "no decline");
+    }
+}

@@ -1,0 +1,109 @@
+//! Taylor coefficients of a motion at a state.
+
+use super::code::{Code, LINE};
+use super::expand::Expansion;
+use super::machine::Machine;
+use super::number::{BLOCK, Number};
+use super::program::Program;
+use liouville::graph::with_widest_vectors;
+use liouville::number::rational::Rational;
+
+/// A program over one type of number, with the memory to run it.
+pub struct Series<T: Number> {
+    pub(super) order: usize,
+    /// Order to which rows are padded.
+    pub(super) orders: usize,
+    pub(super) code: Code<T>,
+    /// Reciprocals 1/n.
+    pub(super) inverses: Vec<T>,
+    /// Inner sums of the operations that have any, at the current order, before and after their
+    /// parts are added.
+    pub(super) partial: Vec<T::Partial>,
+    pub(super) inner: Vec<T>,
+    pub(super) memory: Vec<T>,
+    /// Number of expansions so far, up to where machine code pays.
+    pub(super) expansions: u32,
+    pub(super) machine: Option<Box<Machine>>,
+}
+
+impl<T: Number> Series<T> {
+    /// Prepares the program for expansions to this order.
+    pub fn new(program: &Program, order: usize) -> Self {
+        let line = LINE / size_of::<T>().clamp(1, LINE);
+        let (_, length) = Code::<T>::new(program, order, line);
+        let memory = vec![T::ZERO; length + line];
+        let aligned = memory.as_ptr().align_offset(LINE).min(line);
+        let (code, _) = Code::new(program, order, aligned);
+        let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
+        Self {
+            order,
+            orders: order.next_multiple_of(T::WIDTH),
+            code,
+            inverses: (0..=order)
+                .map(|n| T::rational(&Rational::new(1, n.max(1) as i64)))
+                .collect(),
+            partial: vec![T::nothing(); sums],
+            inner: vec![T::ZERO; sums],
+            memory,
+            expansions: 0,
+            machine: None,
+        }
+    }
+
+    /// Highest order of the state's coefficients.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Computes all coefficients at `state`.
+    pub fn expand(&mut self, state: &[T]) {
+        for (component, value) in self.code.state.iter().zip(state) {
+            self.memory[component.place as usize] = *value;
+        }
+        with_widest_vectors(Expansion(self));
+    }
+
+    /// Clears the memory: values that are not finite must not meet the zeros behind a row.
+    pub fn clear(&mut self) {
+        self.memory.fill(T::ZERO);
+    }
+}
+
+/// Number of expansions that take as long as generating machine code.
+const MANY: u32 = 32;
+
+impl Series<f64> {
+    /// Computes all orders by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(super) fn by_machine(&mut self) -> bool {
+        if self.expansions < MANY {
+            self.expansions += 1;
+            if self.expansions == MANY {
+                self.machine = Machine::new(&self.code, self.order).map(Box::new);
+            }
+        }
+        let Some(mut machine) = self.machine.take() else { return false };
+        if !machine.begin(&self.inverses, &mut self.memory) {
+            self.begin();
+            machine.take(&self.code);
+        }
+        machine.run(&self.code, &self.inverses, &mut self.memory);
+        self.machine = Some(machine);
+        true
+    }
+}
+
+impl<T: Number> Series<T> {
+    /// Coefficients of a component of the state, orders 0 to `order`.
+    #[inline(always)]
+    pub fn component(&self, index: usize) -> &[T] {
+        let place = self.code.state[index].place as usize;
+        &self.memory[place..=place + self.order]
+    }
+
+    /// Coefficients of a further function, orders 0 to `order` - 1.
+    pub fn output(&self, index: usize) -> &[T] {
+        let place = self.code.outputs[index] as usize;
+        &self.memory[place..place + self.order]
+    }
+}

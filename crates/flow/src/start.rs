@@ -1,0 +1,207 @@
+//! Initial states, given or drawn, moved to the level set to working precision.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::FlowError;
+use super::motion::{Loose, filled, point};
+use super::number::Number;
+use liouville::case::Case;
+use liouville::claim::{Components, Place};
+use liouville::graph::{Evaluator, Tape, record};
+use liouville::mechanics::calculus::{Jet, rejection};
+use liouville::mechanics::{Model, Phase};
+use liouville::number::pair::{Pair, Pairs};
+use liouville::number::rational::Rational;
+use liouville::verdict::Sampler;
+
+/// Iteration limit; Newton's method converges in far fewer from a state near the level.
+const MAX_STEPS: usize = 60;
+
+/// State on the level set, with its parameters.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Components of the free parameters.
+    pub parameters: Vec<Rational>,
+    /// Components of the state.
+    pub state: Vec<Pair>,
+    /// Distance from the state requested.
+    pub moved: f64,
+}
+
+/// Components of the free parameters at an index of the seed, and the state drawn with them.
+fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
+    let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+    let mut values: Vec<Rational> = sampler
+        .printed(index, f64::MANTISSA_DIGITS)
+        .iter()
+        .map(|text| text.parse().map_err(|_| FlowError::NoStart))
+        .collect::<Result<_, _>>()?;
+    let state = values.split_off(case.model.free_components());
+    Ok((values, state))
+}
+
+/// Returns the components of the free parameters at an index of the seed.
+pub fn fixed_parameters(case: &Case, seed: u64, index: u64) -> Result<Vec<Rational>, FlowError> {
+    drawn(case, seed, index).map(|(parameters, _)| parameters)
+}
+
+impl Start {
+    /// Builds a start from the state given, or from the one drawn at `index`, with the parameters
+    /// of that index.
+    pub fn new(
+        case: &Case,
+        state: Option<&[Rational]>,
+        seed: u64,
+        index: u64,
+    ) -> Result<Self, FlowError> {
+        let (parameters, drawn) = drawn(case, seed, index)?;
+        let state = state.unwrap_or(&drawn).iter().map(Pair::from_rational).collect();
+        Self::near(&case.model, parameters, state)
+    }
+
+    /// Builds a start at a point of a claim, with these values of the free parameters.
+    pub fn at(
+        model: &Model,
+        parameters: Vec<Rational>,
+        claimed: &Components,
+    ) -> Result<Self, FlowError> {
+        let (graph, components) =
+            record(model.dimension(), |state| claimed.at(&point(model, &parameters, state)))?;
+        let tape = Tape::new(&graph, &components);
+        let mut evaluator = Evaluator::new(&tape, Pairs);
+        evaluator.run(&vec![Pair::default(); model.dimension()]);
+        let state = evaluator.outputs().copied().collect();
+        Self::near(model, parameters, state)
+    }
+
+    /// Moves a state to the level set along the gradients, by Newton's method.
+    pub fn near(
+        model: &Model,
+        parameters: Vec<Rational>,
+        mut state: Vec<Pair>,
+    ) -> Result<Self, FlowError> {
+        let moved = Level::new(model, &parameters, &[])?.correct(&mut state, &[])?;
+        Ok(Self { parameters, state, moved })
+    }
+}
+
+/// Level functions of a model and their gradients.
+pub(super) struct Level {
+    tape: Tape,
+    equations: usize,
+}
+
+impl Level {
+    /// Records the level functions of a model with these parameters, some of them loose.
+    pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
+        let kept = Place::level(model).kept;
+        let (graph, outputs) = record(model.dimension() + loose.len(), |inputs| {
+            let (state, more) = inputs.split_at(model.dimension());
+            let jet = Jet::new(Phase::new(model, &filled(parameters, loose, more), state));
+            let level = model.level.iter();
+            let mut outputs: Vec<_> =
+                level.map(|equation| jet.phase.level_function(&equation.function)).collect();
+            outputs.extend(jet.level_gradients(&kept).concat());
+            outputs
+        })?;
+        Ok(Self { tape: Tape::new(&graph, &outputs), equations: model.level.len() })
+    }
+
+    /// Evaluates the level functions, then their gradients one by one, at a state.
+    fn values(&self, state: &[Pair], loose: &[Pair]) -> Vec<f64> {
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        evaluator.run(&[state, loose].concat());
+        evaluator.outputs().map(|value| value.hi).collect()
+    }
+
+    /// Moves a state to the level. Returns the distance.
+    pub fn correct(&self, state: &mut [Pair], loose: &[Pair]) -> Result<f64, FlowError> {
+        if self.equations == 0 {
+            return Ok(0.0);
+        }
+        let begin = state.to_vec();
+        let norm = |state: &[Pair]| state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            let outputs = self.values(state, loose);
+            let (values, slopes) = outputs.split_at(self.equations);
+            let jacobian = DMatrix::from_row_slice(self.equations, state.len(), slopes);
+            let square = &jacobian * jacobian.transpose();
+            let weights = square.lu().solve(&DVector::from_column_slice(values));
+            let step = jacobian.transpose() * weights.ok_or(FlowError::NoStart)?;
+            let size = step.norm();
+            if !size.is_finite() {
+                break;
+            }
+            // Steps shrink until rounding stops them; components near 0 would shrink for ever.
+            let rounding = Pair::EPSILON * norm(state);
+            if size <= rounding || (size >= last && size < f64::EPSILON * norm(state)) {
+                let moved: Vec<Pair> = state.iter().zip(&begin).map(|(x, y)| *x - *y).collect();
+                return Ok(norm(&moved));
+            }
+            last = size;
+            for (x, dx) in state.iter_mut().zip(step.iter()) {
+                *x = *x - Pair::from_f64(*dx);
+            }
+        }
+        Err(FlowError::NoStart)
+    }
+
+    /// Returns a unit vector tangent to the level set at a state, in no special direction;
+    /// different for each index.
+    pub fn along(&self, state: &[Pair], loose: &[Pair], index: usize) -> Vec<f64> {
+        let outputs = self.values(state, loose);
+        let gradients: Vec<Vec<f64>> =
+            outputs[self.equations..].chunks(state.len()).map(<[f64]>::to_vec).collect();
+        // Irrational directions: multiples of the golden ratio, and of √2.
+        let ratio = if index == 0 { 0.618_033_988_75 } else { std::f64::consts::SQRT_2 };
+        let any: Vec<f64> = (1..=state.len()).map(|k| (k as f64 * ratio).fract() - 0.37).collect();
+        let along = rejection(&any, &gradients);
+        let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+        along.into_iter().map(|x| x / length).collect()
+    }
+}
+
+/// Orthonormal basis of the tangent space of the level set at a start, by the Gram–Schmidt method:
+/// the gradients first, then the axes, that with the longest remainder next.
+pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>, FlowError> {
+    let level = Level::new(model, &start.parameters, &[])?;
+    let mut evaluator = Evaluator::new(&level.tape, Pairs);
+    evaluator.run(&start.state);
+    let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+    let dimension = model.dimension();
+    let mut unit: Vec<Vec<Pair>> = Vec::new();
+    for gradient in outputs[level.equations..].chunks(dimension) {
+        unit.push(normalised(across(gradient, &unit)));
+    }
+    let axis = |k: usize| {
+        let mut axis = vec![Pair::default(); dimension];
+        axis[k] = Pair::from_f64(1.0);
+        axis
+    };
+    while unit.len() < dimension {
+        let rests = (0..dimension).map(|k| across(&axis(k), &unit));
+        let longest = rests.max_by(|a, b| dot(a, a).hi.total_cmp(&dot(b, b).hi));
+        unit.extend(longest.map(normalised));
+    }
+    Ok(unit.split_off(level.equations))
+}
+
+fn dot(a: &[Pair], b: &[Pair]) -> Pair {
+    a.iter().zip(b).fold(Pair::default(), |sum, (x, y)| sum + *x * *y)
+}
+
+fn normalised(vector: Vec<Pair>) -> Vec<Pair> {
+    let factor = dot(&vector, &vector).sqrt().recip();
+    vector.into_iter().map(|x| x * factor).collect()
+}
+
+/// Component of a vector orthogonal to unit vectors; two passes are enough against rounding.
+fn across(vector: &[Pair], unit: &[Vec<Pair>]) -> Vec<Pair> {
+    let mut rest = vector.to_vec();
+    for e in unit.iter().chain(unit) {
+        let along = dot(&rest, e);
+        rest.iter_mut().zip(e).for_each(|(x, e)| *x = *x - along * *e);
+    }
+    rest
+}

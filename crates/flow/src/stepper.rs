@@ -1,0 +1,282 @@
+//! Stepping along motions: step sizes from the series, compensated states, dense output.
+//!
+//! The step is ρ e^(-κ), ρ the least of (‖x₀‖/‖x_n‖)^(1/n) over the last two orders, with maximum
+//! norms (Jorba, Zou 2005, with κ in place of their 2 + 0.7/(n - 1)). The field does not depend on
+//! time, so that each lane takes its own step.
+
+use std::ops::Range;
+
+use super::error::FlowError;
+use super::number::Number;
+use super::program::Program;
+use super::series::Series;
+use liouville::graph::{Work, with_widest_vectors};
+use liouville::number::pair::Pair;
+
+/// Order of the series, and step size constant κ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Highest power of the step that is kept.
+    pub order: usize,
+    /// Constant κ of the step ρ e^(-κ); the first term left out is about e^(-κ(order + 1)) of the
+    /// state.
+    pub kappa: f64,
+}
+
+impl Accuracy {
+    /// Accuracy for f64: e^(-κ·21) is a tenth of a unit in the last place.
+    pub const FLOAT: Self = Self { order: 20, kappa: 1.85 };
+    /// Accuracy of seven digits: e^(-κ·13) is about 10⁻⁸.
+    pub const ROUGH: Self = Self { order: 12, kappa: 1.4 };
+    /// Accuracy for double-double.
+    pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
+}
+
+/// Motions in lockstep, one in each lane.
+pub struct Stepper<T: Number> {
+    series: Series<T>,
+    kappa: f64,
+    /// State, and its rounding remainder.
+    state: Vec<T>,
+    rest: Vec<T>,
+    lanes: Vec<Lane<T::One>>,
+}
+
+/// Time and step of one motion.
+#[derive(Clone, Copy)]
+struct Lane<One> {
+    time: Pair,
+    /// Final time; its sign relative to `time` is the direction.
+    until: Pair,
+    /// Step from the present expansion.
+    step: One,
+    steps: u64,
+}
+
+impl<T: Number> Stepper<T> {
+    /// Prepares motions of a program's field; each lane needs a start.
+    pub fn new(program: &Program, accuracy: Accuracy) -> Self {
+        let idle =
+            Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
+        let state = vec![T::ZERO; program.dimension()];
+        Self {
+            series: Series::new(program, accuracy.order),
+            kappa: accuracy.kappa,
+            rest: state.clone(),
+            state,
+            lanes: vec![idle; T::LANES],
+        }
+    }
+
+    /// Starts a motion at time 0 that ends at time `until`, which may be negative.
+    pub fn start(&mut self, lane: usize, state: &[Pair], until: Pair) {
+        if T::LANES == 1 {
+            self.series.clear();
+        }
+        self.place(lane, state);
+        self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
+    }
+
+    /// Moves a motion to another state, at the same time.
+    pub fn place(&mut self, lane: usize, state: &[Pair]) {
+        for (index, value) in state.iter().enumerate() {
+            let (value, rest) = T::One::split(*value);
+            set(&mut self.state[index], lane, value);
+            set(&mut self.rest[index], lane, rest);
+        }
+    }
+
+    /// Multiplies some components of a motion's state.
+    pub fn scale(&mut self, lane: usize, components: Range<usize>, factor: T::One) {
+        for row in components {
+            for part in [&mut self.state[row], &mut self.rest[row]] {
+                let scaled = part.lane(lane) * factor;
+                set(part, lane, scaled);
+            }
+        }
+    }
+
+    /// Changes the final time of a motion.
+    pub fn extend(&mut self, lane: usize, until: Pair) {
+        self.lanes[lane].until = until;
+    }
+
+    /// Expands all motions at their states and chooses their steps.
+    pub fn expand(&mut self) {
+        self.series.expand(&self.state);
+        for index in 0..T::LANES {
+            let size = self.step_size(index);
+            let lane = &mut self.lanes[index];
+            let left = lane.until - lane.time;
+            lane.step = if size < left.hi.abs() {
+                T::One::float(size.copysign(left.hi))
+            } else {
+                T::One::split(left).0
+            };
+        }
+    }
+
+    /// Makes neighbouring motions, in groups of `together`, take the same step.
+    pub fn keep_pace(&mut self, together: usize) {
+        for group in self.lanes.chunks_mut(together) {
+            let steps = group.iter().map(|lane| lane.step);
+            let shortest =
+                steps.reduce(|a, b| if a.leading().abs() <= b.leading().abs() { a } else { b });
+            if let Some(step) = shortest {
+                group.iter_mut().for_each(|lane| lane.step = step);
+            }
+        }
+    }
+
+    /// States of all motions after a fraction of their steps, without the rounding remainders.
+    pub fn within(&self, share: f64) -> Vec<T> {
+        let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
+        let rows = self.state.iter().enumerate();
+        rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
+    }
+
+    /// Present step of a motion.
+    pub fn step(&self, lane: usize) -> T::One {
+        self.lanes[lane].step
+    }
+
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity.
+    pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        let motion = &self.lanes[lane];
+        let step = motion.step.leading();
+        let finite = (0..self.state.len()).all(|row| {
+            let last = self.series.component(row)[self.series.order()];
+            last.lane(lane).leading().is_finite()
+        });
+        let at_end = (motion.until - motion.time).hi == 0.0;
+        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        match finite && advances && step.is_finite() {
+            true => Ok(()),
+            false => Err(FlowError::Singular {
+                time: motion.time.hi,
+                state: self.pairs(lane).iter().map(|x| x.hi).collect(),
+            }),
+        }
+    }
+
+    /// Takes the steps.
+    pub fn advance(&mut self) {
+        with_widest_vectors(Advance(self));
+        for lane in &mut self.lanes {
+            if lane.step.leading() != 0.0 {
+                lane.time = lane.time + lane.step.pair();
+                lane.steps += 1;
+            }
+        }
+    }
+
+    /// Whether a motion has reached its end.
+    pub fn is_done(&self, lane: usize) -> bool {
+        let motion = &self.lanes[lane];
+        let left = motion.until - motion.time;
+        left.hi.abs() <= f64::EPSILON * motion.step.leading().abs()
+    }
+
+    /// Time of a motion.
+    pub fn time(&self, lane: usize) -> Pair {
+        self.lanes[lane].time
+    }
+
+    /// Number of steps that a motion has taken.
+    pub fn steps(&self, lane: usize) -> u64 {
+        self.lanes[lane].steps
+    }
+
+    /// State of a motion.
+    pub fn pairs(&self, lane: usize) -> Vec<Pair> {
+        let parts = self.state.iter().zip(&self.rest);
+        parts.map(|(x, rest)| x.lane(lane).pair() + rest.lane(lane).pair()).collect()
+    }
+
+    /// Present piece of a motion.
+    pub fn piece(&self, lane: usize) -> Piece<'_, T> {
+        Piece { stepper: self, lane }
+    }
+
+    fn step_size(&self, lane: usize) -> f64 {
+        let order = self.series.order();
+        let norm = |n: usize| {
+            let entries = (0..self.state.len()).map(|row| self.series.component(row)[n]);
+            entries.map(|x| x.lane(lane).leading().abs()).fold(0.0, f64::max)
+        };
+        // A state that is exactly 0 has no size; its velocity has.
+        let first = if norm(0) > 0.0 { 0 } else { 1 };
+        let size = libm::log(norm(first));
+        let radius = |n: usize| (size - libm::log(norm(n))) / (n - first) as f64;
+        libm::exp(radius(order - 1).min(radius(order)) - self.kappa)
+    }
+}
+
+fn set<T: Number>(target: &mut T, lane: usize, value: T::One) {
+    let old = *target;
+    *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
+}
+
+/// Work of advancing all states to the ends of their steps.
+struct Advance<'s, T: Number>(&'s mut Stepper<T>);
+
+impl<T: Number> Work for Advance<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let stepper = self.0;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step);
+        for (row, (state, rest)) in stepper.state.iter_mut().zip(&mut stepper.rest).enumerate() {
+            let coefficients = stepper.series.component(row);
+            T::advance(state, rest, increment(coefficients, steps));
+        }
+    }
+}
+
+/// Returns Σ x_k h^k from k = 1 on.
+#[inline(always)]
+fn increment<T: Number>(coefficients: &[T], step: T) -> T {
+    let mut sum = T::ZERO;
+    for coefficient in coefficients[1..].iter().rev() {
+        sum = coefficient.fused(sum, step).settled();
+    }
+    sum * step
+}
+
+/// A motion between two steps, as polynomials in the time since the first.
+pub struct Piece<'s, T: Number> {
+    stepper: &'s Stepper<T>,
+    lane: usize,
+}
+
+impl<T: Number> Piece<'_, T> {
+    /// Time at which the piece begins.
+    pub fn begin(&self) -> Pair {
+        self.stepper.lanes[self.lane].time
+    }
+
+    /// Duration; negative backwards in time.
+    pub fn length(&self) -> T::One {
+        self.stepper.lanes[self.lane].step
+    }
+
+    /// Coefficients of a further function of the program.
+    pub fn output(&self, index: usize) -> Vec<T::One> {
+        self.stepper.series.output(index).iter().map(|x| x.lane(self.lane)).collect()
+    }
+
+    /// State at a time after the beginning.
+    pub fn state(&self, after: T::One) -> Vec<Pair> {
+        let stepper = self.stepper;
+        (0..stepper.state.len())
+            .map(|row| {
+                let coefficients = stepper.series.component(row);
+                let mut sum = T::One::ZERO;
+                for coefficient in coefficients[1..].iter().rev() {
+                    sum = (sum + coefficient.lane(self.lane)) * after;
+                }
+                let rest = stepper.rest[row].lane(self.lane) + sum;
+                stepper.state[row].lane(self.lane).pair() + rest.pair()
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,181 @@
+//! Claims about motion: those of the catalogue that take no long runs, wrong input, and reports.
+
+use std::path::Path;
+
+use liouville::case::{Case, Expect};
+use liouville::claim::motion::{MOTIONS, Motion};
+use liouville::verdict::{ClaimReport, Options, Verdict, judge};
+use liouville_flow::observe::{evidence_against_density, observe};
+
+fn catalogue(path: &str) -> Case {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("cases").join(path);
+    Case::read(&path, &[]).1.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Returns the reports on the claims of a case for which `wanted` holds.
+fn reports(mut case: Case, wanted: impl Fn(&Motion) -> bool) -> Vec<ClaimReport> {
+    case.motions.retain(|claim| wanted(&claim.kind));
+    assert!(!case.motions.is_empty(), "{}: nothing to look at", case.title);
+    observe(&case, &Options::default())
+}
+
+fn all_agree(path: &str, wanted: impl Fn(&Motion) -> bool) {
+    for claim in reports(catalogue(path), wanted) {
+        assert!(claim.agrees, "{path}: {} came out {:#?}", claim.name, claim.evidence);
+    }
+}
+
+#[test]
+fn fixed_points_that_are_soon_back() {
+    for figure in ["3", "7", "8", "10", "14", "A1-a", "A1-d", "A1-h"] {
+        let is_point = |claim: &Motion| matches!(claim, Motion::PeriodicPoint(_));
+        all_agree(&format!("figures/fig-{figure}.toml"), is_point);
+    }
+}
+
+#[test]
+fn short_runs_of_the_first_figure() {
+    let is_short = |claim: &Motion| !matches!(claim, Motion::PeriodicPoint(_));
+    all_agree("figures/fig-3.toml", is_short);
+}
+
+#[test]
+fn contacts_and_limits_of_motions() {
+    all_agree("one-sided/motion.toml", |_| true);
+    all_agree("one-sided/motion-examples.toml", |_| true);
+    all_agree("suslov/limit-example.toml", |_| true);
+}
+
+#[test]
+fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
+    let found = evidence_against_density(&catalogue("figures/fig-8.toml"), 1);
+    let found = found.expect("figure 8 has sinks");
+    assert!(found.contains("product 0.98"), "{found}");
+    let none = evidence_against_density(&catalogue("figures/fig-3.toml"), 1);
+    assert_eq!(none, None, "a measure is kept");
+}
+
+#[test]
+fn every_kind_is_used_and_fails_somewhere() {
+    let mut seen = Vec::new();
+    for folder in ["figures", "one-sided", "suslov"] {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases")).join(folder);
+        for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+            if entry.path().extension().is_some_and(|extension| extension == "toml") {
+                let case = Case::read(&entry.path(), &[]).1.expect("a case");
+                seen.extend(case.motions.iter().map(|claim| (claim.kind.name(), claim.expect)));
+            }
+        }
+    }
+    for kind in MOTIONS {
+        assert!(seen.contains(&(*kind, Expect::Holds)), "{kind} holds somewhere");
+        assert!(seen.contains(&(*kind, Expect::Fails)), "{kind} fails somewhere");
+    }
+}
+
+/// Reads a balanced ball, whose section map is integrable.
+fn ball(claim: &str) -> Result<Case, String> {
+    let text = format!(
+        "title = \"balanced ball\"\nsystem = \"rubber-plane\"\n[parameters]\nm = 1\nR = 3\n\
+         I = [1, 2, 3]\n[body]\nshape = \"ball\"\n[section]\ng0 = \"0\"\nenergy = 10\n\
+         [[claim]]\n{claim}\n"
+    );
+    Case::parse(&text, &[]).map_err(|error| error.to_string())
+}
+
+#[test]
+fn numbers_that_are_wrong_are_refuted() {
+    let wrong = [
+        "time = 4.442882939\nargument = 0.40007",
+        "argument = 0.40009",
+        "product = 0.99998",
+        "stability = \"hyperbolic\"",
+        "multiplier = 1.3",
+        "period = 2",
+    ];
+    for companions in wrong {
+        let case = ball(&format!("periodic-point = [\"π/2\", 0]\n{companions}"));
+        let found = reports(case.expect("a case"), |_| true);
+        let [claim] = &found[..] else { panic!("one claim") };
+        let refuted = claim.verdict == Verdict::Refuted;
+        // A return time with an error of one unit of the last digit agrees with the stated one.
+        assert_eq!(refuted, !companions.starts_with("time"), "{companions}: {:?}", claim.evidence);
+        assert!(!claim.evidence.measured.is_empty(), "a verdict shows its numbers");
+    }
+    let moved = ball("periodic-point = [1.59, 0]").expect("a case");
+    let found = reports(moved, |_| true);
+    assert_eq!(found[0].verdict, Verdict::Refuted, "the point is at π/2: {:?}", found[0].evidence);
+}
+
+#[test]
+fn a_share_of_the_crossings_may_go_beyond() {
+    // A curve around (π/2, 0) that is symmetric about l = π/2.
+    for (share, verdict) in
+        [("1", Verdict::Refuted), ("0.6", Verdict::Refuted), ("0.4", Verdict::Confirmed)]
+    {
+        let claim = format!(
+            "confined = \"0 < l < π/2\"\nstart = [1.2, 0.1]\ncrossings = 300\nshare = {share}"
+        );
+        let found = observe(&ball(&claim).expect("a case"), &Options::default());
+        assert_eq!(found[0].verdict, verdict, "{share}: {:?}", found[0].evidence);
+    }
+}
+
+#[test]
+fn nothing_is_proved_and_nothing_is_silent() {
+    let case = ball("periodic-point = [\"π/2\", 0]").expect("a case");
+    let report = judge(&case, &Options::default()).expect("it can be judged");
+    assert_eq!((report.claims.len(), report.motions_left), (0, 1), "left alone, and counted");
+    let strict = Options { trust: liouville::verdict::Trust::Proof, ..Options::default() };
+    let found = observe(&case, &strict);
+    assert_eq!(found[0].verdict, Verdict::Confirmed, "confirmed, never proved");
+    assert!(!found[0].agrees, "where a proof is asked for, that is too little");
+}
+
+#[test]
+fn a_start_that_has_no_state_leaves_a_claim_open() {
+    let case = ball("exponent = \"zero\"\nstart = [1, 1.5]\ntime = 10").expect("a case");
+    let found = observe(&case, &Options::default());
+    assert_eq!(found[0].verdict, Verdict::Undecided, "no point of the sphere");
+    let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("L/G"), "{reason}");
+}
+
+#[test]
+fn a_fixed_parameter_has_no_limit() {
+    let state = "state = { \"ω\" = \"[1,2,3]\", \"γ\" = \"[0,0,1]\" }";
+    let case = ball(&format!("limit-of-motion = \"ω\"\nparameter = \"m\"\n{state}\ntime = 1"));
+    let found = observe(&case.expect("a case"), &Options::default());
+    assert_eq!(found[0].verdict, Verdict::Undecided, "m is 1");
+    let reason = found[0].evidence.reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("give it a range"), "{reason}");
+}
+
+#[test]
+fn wrong_input_is_refused_in_its_words() {
+    let wrong = [
+        ("exponent = \"large\"\nstart = [1, 0]\ntime = 10", "is not what can be claimed"),
+        ("exponent = \"zero\"\nstart = [1, 0]", "has no `time`"),
+        ("exponent = \"zero\"\nstart = [1, 0]\ntime = -1", "cannot be followed"),
+        ("exponent = \"zero\"\ntime = 10", "has no `start`"),
+        ("exponent = \"zero\"\nstart = [1]\ntime = 10", "two coordinates"),
+        ("exponent = \"zero\"\nstart = [1, 0]\nstate = {}\ntime = 10", "one start"),
+        ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "makes 2 statements"),
+        ("exponent = \"zero\"\nstart = [1, 0]\ntime = 10\nwhere = \"level\"", "`where`"),
+        ("periodic-point = [\"x\", 0]", "is no number"),
+        ("periodic-point = [1, 0]\nmodulus = 1\nmultiplier = 2", "complex or real"),
+        ("limit-cycle = 4\nstart = [1, 0]\ncrossings = 10", "do not show a cycle"),
+        ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is no count"),
+        ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "no part of the section"),
+        ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is no share"),
+        ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
+    ];
+    for (claim, message) in wrong {
+        let found = ball(claim).err().unwrap_or_else(|| panic!("accepted: {claim}"));
+        assert!(found.contains(message), "{claim}: {found}");
+    }
+    let bare = "title = \"top\"\nsystem = \"field\"\ncheck-weights = false\n[state]\nx = \"1..2\"\n\
+                [field]\n\"x'\" = \"-x\"\n[[claim]]\nexponent = \"zero\"\nstart = [1, 0]\ntime = 1\n";
+    let found = Case::parse(bare, &[]).expect_err("there is no section").to_string();
+    assert!(found.contains("the case has none"), "{found}");
+}

@@ -1,0 +1,72 @@
+//! Executable memory for machine code: written first, executed afterwards, never both at once.
+
+#![allow(
+    unsafe_code,
+    reason = "generated instructions are called; measured in docs/performance.md"
+)]
+
+use memmap2::{Mmap, MmapMut};
+
+use super::super::{LANES, Row};
+use super::encode::{Assembly, Extent, Width};
+use crate::graph::{Vectors, widest};
+
+/// Signature of the code: inputs, frame, outputs, turns.
+#[cfg(target_arch = "x86_64")]
+type Entry = unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize);
+
+/// Placeholder, never called: other processors have no code.
+#[cfg(not(target_arch = "x86_64"))]
+type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64, usize);
+
+/// Maps instructions into executable memory; `None` where the system refuses it.
+pub fn executable(bytes: &[u8]) -> Option<Mmap> {
+    let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
+    memory.copy_from_slice(bytes);
+    memory.make_exec().ok()
+}
+
+/// A callable function in executable memory.
+#[derive(Debug)]
+pub(super) struct Executable {
+    memory: Mmap,
+    width: Width,
+    extent: Extent,
+}
+
+impl Executable {
+    /// Maps the code. `None` where the processor lacks the instructions, or the system refuses the
+    /// memory.
+    pub(super) fn new(assembly: &Assembly) -> Option<Self> {
+        let has = match assembly.width {
+            Width::Eight => widest() == Vectors::Avx512,
+            Width::Four => widest() != Vectors::Baseline,
+        };
+        if !has {
+            return None;
+        }
+        let memory = executable(&assembly.bytes)?;
+        Some(Self { memory, width: assembly.width, extent: assembly.extent })
+    }
+
+    /// Runs over all lanes of the rows. Panics where there are fewer rows than the code touches.
+    pub(super) fn run(&self, inputs: &[Row], frame: &mut [Row], outputs: &mut [Row]) {
+        let enough = inputs.len() >= self.extent.inputs
+            && outputs.len() >= self.extent.outputs
+            && frame.len() * LANES >= self.extent.frame * self.width.lanes();
+        assert!(enough, "machine code needs {:?}", self.extent);
+        // SAFETY: an `Assembly` is made by the assembler alone, and its bytes are a function of this
+        // type that touches no more than its extent, in rows of `LANES` lanes; the processor has
+        // its instructions. `Row` is an array of f64, so a slice of rows is contiguous.
+        unsafe {
+            let entry: Entry = std::mem::transmute(self.memory.as_ptr());
+            let turns = LANES / self.width.lanes();
+            entry(
+                inputs.as_ptr().cast(),
+                frame.as_mut_ptr().cast(),
+                outputs.as_mut_ptr().cast(),
+                turns,
+            );
+        }
+    }
+}

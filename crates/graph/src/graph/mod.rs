@@ -1,0 +1,318 @@
+//! The expression graph: a computation recorded once and run in any number domain.
+//!
+//! ```text
+//! generic code ─ instantiated at Expr ─▶ Graph ─▶ Tape ─ run over a number domain ─▶ values
+//! ```
+//!
+//! [`record`] runs a closure over [`Expr`] inputs and keeps every operation as a node. Equal nodes
+//! are one node, and exact simplifications are made on the way (see `simplify`).
+
+mod dispatch;
+mod dual_num;
+mod evaluate;
+mod expr;
+mod fingerprint;
+mod index;
+mod merge;
+mod simplify;
+mod steps;
+mod tape;
+
+use std::cell::RefCell;
+
+use rustc_hash::FxHashMap;
+
+use crate::number::rational::Rational;
+use crate::number::{Function, Operation};
+
+pub use dispatch::vector_features;
+pub use dispatch::{Vectors, Work, widest, with_widest_vectors};
+pub use evaluate::Evaluator;
+pub use expr::Expr;
+use index::Index;
+pub use merge::{Choice, Member};
+pub use steps::Step;
+pub(crate) use tape::Instruction;
+pub use tape::Tape;
+
+/// A node's place in its graph; arguments come before their users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(u32);
+
+/// One recorded operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Node {
+    /// An index into the graph's constants.
+    Constant(u32),
+    Input(u32),
+    Unary(Function, NodeId),
+    Binary(Operation, NodeId, NodeId),
+    /// A power whose exponent is an index into the graph's constants.
+    Power(NodeId, u32),
+}
+
+/// An operation that a recorded value cannot carry out, because it has no magnitude and no order.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Fault {
+    /// An operation such as abs, signum, a comparison, a remainder, atan2, or conversion to a
+    /// float.
+    #[error(
+        "`{0}` was applied to a recorded value, which has neither magnitude nor order; \
+         use operations that hold for every number, and `Scalar::modulus` for |x|"
+    )]
+    NeedsValue(&'static str),
+    /// A value kept from an earlier recording.
+    #[error("a value of one recording was used in another")]
+    ForeignValue,
+}
+
+/// Domain of definition of a node, as far as its form determines it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Defined {
+    /// Defined wherever the inputs are.
+    Always,
+    /// Not defined everywhere, or not known to be.
+    Partly,
+    /// Defined nowhere: 1/0 and everything that contains it.
+    Never,
+}
+
+/// The constant 0, the first node of every graph.
+const ZERO: NodeId = NodeId(0);
+/// The constant 1, the second node of every graph.
+const ONE: NodeId = NodeId(1);
+
+/// A recorded computation.
+#[derive(Debug)]
+pub struct Graph {
+    session: u32,
+    nodes: Vec<Node>,
+    /// Domain of definition of each node.
+    domains: Vec<Defined>,
+    /// Whether folds that would extend the domain of a formula are left out.
+    literal: bool,
+    constants: Vec<Rational>,
+    index: Index,
+    constant_ids: FxHashMap<Rational, u32>,
+    inputs: u32,
+    antiderivatives: FxHashMap<(NodeId, NodeId), u32>,
+    fault: Option<Fault>,
+}
+
+impl Graph {
+    /// Makes an empty graph with its two constants in place.
+    fn begin(session: u32) -> Self {
+        let mut graph = Self {
+            session,
+            nodes: Vec::new(),
+            domains: Vec::new(),
+            literal: false,
+            constants: Vec::new(),
+            index: Index::new(),
+            constant_ids: FxHashMap::default(),
+            inputs: 0,
+            antiderivatives: FxHashMap::default(),
+            fault: None,
+        };
+        for value in [0, 1] {
+            graph.constant(Rational::from(value));
+        }
+        graph
+    }
+
+    /// Number of nodes kept.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing was recorded.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Number of inputs: those requested, followed by one for each antiderivative met.
+    pub fn inputs(&self) -> usize {
+        self.inputs as usize
+    }
+
+    /// Returns the exact constant that an expression was folded to, if it was.
+    pub fn constant_value(&self, expr: Expr) -> Option<&Rational> {
+        self.constant_at(expr.id()?)
+    }
+
+    /// Whether the form of an expression shows that it is defined for no inputs: 1/0 and everything
+    /// that contains it.
+    pub fn is_nowhere_defined(&self, expr: Expr) -> bool {
+        expr.id().is_some_and(|id| self.is_undefined(id))
+    }
+
+    /// Whether an expression depends on input `input`. Linear in the size of the graph.
+    pub fn depends_on(&self, expr: Expr, input: usize) -> bool {
+        let Some(root) = expr.id() else { return false };
+        let mut reached = vec![false; root.0 as usize + 1];
+        for (index, node) in self.nodes.iter().enumerate().take(reached.len()) {
+            reached[index] = match *node {
+                Node::Constant(_) => false,
+                Node::Input(i) => i as usize == input,
+                Node::Unary(_, a) | Node::Power(a, _) => reached[a.0 as usize],
+                Node::Binary(_, a, b) => reached[a.0 as usize] || reached[b.0 as usize],
+            };
+        }
+        reached[root.0 as usize]
+    }
+
+    /// Number of operations that these expressions take together.
+    pub fn operations(&self, exprs: &[Expr]) -> usize {
+        let reached = self.reached(exprs.iter().copied());
+        let computed = |(node, reached): &(&Node, bool)| *reached && node.is_computed();
+        self.nodes.iter().zip(reached).filter(computed).count()
+    }
+
+    #[inline]
+    fn constant_at(&self, id: NodeId) -> Option<&Rational> {
+        match self.nodes[id.0 as usize] {
+            Node::Constant(index) => Some(&self.constants[index as usize]),
+            _ => None,
+        }
+    }
+
+    #[inline]
+    fn node(&self, id: NodeId) -> Node {
+        self.nodes[id.0 as usize]
+    }
+
+    #[inline]
+    fn intern(&mut self, node: Node) -> NodeId {
+        if let Some(id) = self.index.find_or_note(node, &self.nodes) {
+            return id;
+        }
+        let id = NodeId(self.nodes.len() as u32);
+        self.domains.push(self.domain_of(node));
+        self.nodes.push(node);
+        id
+    }
+
+    #[inline]
+    fn is_undefined(&self, id: NodeId) -> bool {
+        self.domains[id.0 as usize] == Defined::Never
+    }
+
+    /// Whether a value may be dropped: it is defined everywhere, or domains are not preserved.
+    #[inline]
+    fn may_drop(&self, id: NodeId) -> bool {
+        match self.domains[id.0 as usize] {
+            Defined::Always => true,
+            Defined::Partly => !self.literal,
+            Defined::Never => false,
+        }
+    }
+
+    /// Finds the domain of definition of a node from its arguments and its own operation: 1/0, √-1,
+    /// ln 0 and 0^-1 are undefined.
+    #[inline]
+    fn domain_of(&self, node: Node) -> Defined {
+        let of = |id: NodeId| self.domains[id.0 as usize];
+        let negative = |a| self.constant_at(a).is_some_and(Rational::is_negative);
+        let partly = |argument: Defined, never: bool| match (argument, never) {
+            (Defined::Never, _) | (_, true) => Defined::Never,
+            _ => Defined::Partly,
+        };
+        match node {
+            Node::Constant(_) | Node::Input(_) => Defined::Always,
+            Node::Unary(function, a) => match function {
+                Function::Recip => partly(of(a), a == ZERO),
+                Function::Sqrt if self.constant_at(a).is_some() && !negative(a) => Defined::Always,
+                Function::Sqrt => partly(of(a), negative(a)),
+                Function::Ln => partly(of(a), a == ZERO || negative(a)),
+                _ => of(a),
+            },
+            Node::Binary(Operation::Pow, a, b) => {
+                let never = a == ZERO || negative(a) || of(b) == Defined::Never;
+                partly(of(a), never)
+            }
+            Node::Binary(_, a, b) => match (of(a), of(b)) {
+                (Defined::Always, Defined::Always) => Defined::Always,
+                (Defined::Never, _) | (_, Defined::Never) => Defined::Never,
+                _ => Defined::Partly,
+            },
+            Node::Power(a, exponent) => {
+                let below = self.constants[exponent as usize].is_negative();
+                partly(of(a), negative(a) || (a == ZERO && below))
+            }
+        }
+    }
+
+    fn intern_constant(&mut self, value: Rational) -> u32 {
+        if let Some(index) = self.constant_ids.get(&value) {
+            return *index;
+        }
+        let index = self.constants.len() as u32;
+        self.constants.push(value.clone());
+        self.constant_ids.insert(value, index);
+        index
+    }
+
+    fn fail(&mut self, fault: Fault) {
+        self.fault.get_or_insert(fault);
+    }
+}
+
+thread_local! {
+    /// The recording under way on this thread, if any.
+    static RECORDING: RefCell<Graph> = RefCell::new(Graph::begin(0));
+    static SESSIONS: RefCell<u32> = const { RefCell::new(0) };
+}
+
+/// Records what `build` computes from `inputs` free inputs; returns the graph and the result.
+///
+/// Recordings may be nested; each has its own graph. Fails if a recorded value was used in an
+/// operation that needs a magnitude or an order, or in another recording.
+pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Graph, R), Fault> {
+    let session = SESSIONS.with_borrow_mut(|last| {
+        *last = last.wrapping_add(1).max(1);
+        *last
+    });
+    let mut outer = Restore(Some(RECORDING.replace(Graph::begin(session))));
+    let handles: Vec<Expr> = (0..inputs).map(|_| Expr::input()).collect();
+    let result = build(&handles);
+    let mut graph = outer.finish().unwrap_or_else(|| Graph::begin(session));
+    match graph.fault.take() {
+        Some(fault) => Err(fault),
+        None => Ok((graph, result)),
+    }
+}
+
+/// Runs `build` without folding away any operation on recorded values that may be undefined, so
+/// that the result is defined exactly where the formula as written is.
+///
+/// Otherwise √x·√x becomes x and 0·√x becomes 0, which are defined for x < 0 too.
+pub fn literally<R>(build: impl FnOnce() -> R) -> R {
+    struct Restore(bool);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            with_graph(|graph| graph.literal = self.0);
+        }
+    }
+    let _restore = Restore(with_graph(|graph| std::mem::replace(&mut graph.literal, true)));
+    build()
+}
+
+/// A guard that puts the outer recording back, also when the closure unwinds.
+struct Restore(Option<Graph>);
+
+impl Restore {
+    fn finish(&mut self) -> Option<Graph> {
+        self.0.take().map(|outer| RECORDING.replace(outer))
+    }
+}
+
+impl Drop for Restore {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
+#[inline]
+fn with_graph<R>(action: impl FnOnce(&mut Graph) -> R) -> R {
+    RECORDING.with_borrow_mut(action)
+}

@@ -1,0 +1,77 @@
+//! Items of a benchmark: three work items of fixed size, or the cases of a user.
+
+use super::{Method, by_hand};
+use liouville::case::{Case, CaseError};
+
+/// Residual as a function of the state's components.
+pub type Residual = fn(&[f64]) -> f64;
+
+/// A case to be measured.
+pub struct Item {
+    /// Name: `W1`, or the path of a case file.
+    pub name: String,
+    /// The case; each of its claims is measured.
+    pub case: Case,
+    /// Residuals written by hand with num-dual, from the state's components: plain code first, then
+    /// from a formula for the residual, where there is one.
+    pub by_hand: Vec<(Method, Residual)>,
+}
+
+impl Item {
+    /// An item for a user's case.
+    pub fn new(name: String, case: Case) -> Self {
+        Self { name, case, by_hand: Vec::new() }
+    }
+}
+
+/// A work item: a case with fixed parameters and one claim.
+struct WorkItem {
+    name: &'static str,
+    text: &'static str,
+    plain: Residual,
+    closed: Option<Residual>,
+}
+
+const WORK_ITEMS: [WorkItem; 3] = [
+    WorkItem {
+        name: "W1",
+        text: "title = 'W1'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nR = 3\n\
+               c = [0.7, -0.4, 1.1]\nI = [2.6, 1.2, 1.8]\n[body]\nshape = 'ball'\n[[claim]]\n\
+               integral = '|Ĩ*ω × γ|² − 2*m*R*(γ,c)*(Ĩ*ω,ω)'\n",
+        plain: by_hand::second_integral_along_field,
+        closed: None,
+    },
+    WorkItem {
+        name: "W2",
+        text: "title = 'W2'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nmu = 2\n\
+               B = [1, 2, 3.5]\nI = 'm*B + mu*E'\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
+               density = '(γ,adj(Ĩ)*γ)'\n",
+        plain: by_hand::liouville_residual,
+        closed: None,
+    },
+    WorkItem {
+        name: "W3",
+        text: "title = 'W3'\nsystem = 'rubber-plane'\n[parameters]\nm = 1.3\nB = [1, 2, 3.5]\n\
+               I = [2.6, 1.2, 1.8]\n[body]\nshape = 'ellipsoid'\n[[claim]]\n\
+               analytic-density = 'exists'\nexpect = 'fails'\n",
+        plain: by_hand::criterion,
+        closed: Some(by_hand::criterion_in_closed_form),
+    },
+];
+
+/// Builds the work items.
+///
+/// W1: L_vF₂ of the unbalanced ball, F₂ = |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
+/// W2: v(ln ρ) + div v of the ellipsoid with I = mB + μE, ρ = (γ,adj(Ĩ)γ).
+/// W3: (γ, rot a) of an ellipsoid with any inertia, which is not zero.
+pub fn work_items() -> Result<Vec<Item>, CaseError> {
+    WORK_ITEMS
+        .iter()
+        .map(|item| {
+            let case = Case::parse(item.text, &[])?;
+            let closed = item.closed.map(|closed| (Method::NumDualClosedForm, closed));
+            let by_hand = [(Method::NumDualByHand, item.plain)].into_iter().chain(closed).collect();
+            Ok(Item { name: item.name.to_string(), case, by_hand })
+        })
+        .collect()
+}

@@ -1,0 +1,206 @@
+//! Run time against error: all methods that form the derivatives of a claim's residual, measured
+//! side by side at the same states.
+//!
+//! | method | computation |
+//! |---|---|
+//! | tape | the recorded residual, in each number domain |
+//! | merged tape | the same residual from fewer operations, by each engine of f64 |
+//! | floor | one fused sum for each step of the engine, at the full speed of this machine |
+//! | num-dual by hand | the work items over num-dual's numbers at f64, state by state, written out plainly |
+//! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
+//! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
+//! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
+//!
+//! The states are f64 numbers and taken as exact. The error of a method at a state is
+//!
+//! ```text
+//! |computed - reference| / scale
+//! ```
+//!
+//! where the reference is the same residual in a precision beyond every candidate, and the scale is
+//! a reference size of the residual ([`liouville::claim::Context::scale`]): a residual that is zero has
+//! no relative error.
+
+mod by_hand;
+mod candidate;
+mod central;
+mod complex_step;
+mod engines;
+mod items;
+mod measure;
+mod one_by_one;
+mod reference;
+mod subject;
+mod tapes;
+mod underived;
+
+use serde::Serialize;
+
+pub use candidate::Candidate;
+pub use items::{Item, Residual, work_items};
+pub use subject::{Entry, Subject, record_merged, record_residual};
+
+use liouville::graph::Fault;
+
+/// Method of differentiation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Method {
+    /// The recorded residual.
+    #[serde(rename = "tape")]
+    Tape,
+    /// The recorded residual, with nodes of equal value merged.
+    #[serde(rename = "merged tape")]
+    MergedTape,
+    /// Lower bound: the tape's steps as independent fused sums.
+    #[serde(rename = "floor")]
+    Floor,
+    /// The residual written by hand over num-dual's numbers.
+    #[serde(rename = "num-dual by hand")]
+    NumDualByHand,
+    /// The residual from a formula derived with pencil and paper, over num-dual's numbers.
+    #[serde(rename = "num-dual, closed form")]
+    NumDualClosedForm,
+    /// A complex step on underived tapes.
+    #[serde(rename = "complex step")]
+    ComplexStep,
+    /// Central differences on underived tapes.
+    #[serde(rename = "central difference")]
+    CentralDifference,
+}
+
+impl Method {
+    /// All methods, in the order of reports.
+    pub const ALL: [Method; 7] = [
+        Method::Tape,
+        Method::MergedTape,
+        Method::Floor,
+        Method::NumDualByHand,
+        Method::NumDualClosedForm,
+        Method::ComplexStep,
+        Method::CentralDifference,
+    ];
+
+    /// Name of the method in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Tape => "tape",
+            Method::MergedTape => "merged tape",
+            Method::Floor => "floor",
+            Method::NumDualByHand => "num-dual by hand",
+            Method::NumDualClosedForm => "num-dual, closed form",
+            Method::ComplexStep => "complex step",
+            Method::CentralDifference => "central difference",
+        }
+    }
+}
+
+/// Options of a measurement.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Seed of all states.
+    pub seed: u64,
+    /// Number of blocks of 64 states.
+    pub blocks: u64,
+    /// Number of rounds in which every candidate runs in turn.
+    pub rounds: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { seed: 1, blocks: 4, rounds: 21 }
+    }
+}
+
+/// Measurements of one claim.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Name of the item: `W1`, or a path.
+    pub item: String,
+    /// Name of the claim.
+    pub claim: String,
+    /// Kind of the claim.
+    pub kind: &'static str,
+    /// Rows, one for each method in each domain.
+    pub rows: Vec<Row>,
+    /// Methods that cannot be used, with the reasons.
+    pub skipped: Vec<(Method, &'static str)>,
+}
+
+/// Measurements of one method in one domain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Method of differentiation.
+    pub method: Method,
+    /// Name of the arithmetic.
+    pub domain: &'static str,
+    /// Nanoseconds per state, the median over the rounds.
+    pub ns_per_state: f64,
+    /// Operations per state, in the arithmetic of the domain; `None` where nothing is recorded.
+    pub operations: Option<usize>,
+    /// Microseconds to record and lay out the tapes.
+    pub setup_us: f64,
+    /// Largest error over scale; `None` where the residual is nowhere defined.
+    pub max_error: Option<f64>,
+    /// Median error over scale.
+    pub median_error: Option<f64>,
+    /// Largest error bound over scale, of a domain that encloses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_bound: Option<f64>,
+    /// Number of states at which both the result and the reference are defined.
+    pub states: usize,
+}
+
+impl Measured {
+    /// Row of the merged tape by the quickest engine of this machine.
+    pub fn quickest(&self) -> Option<&Row> {
+        let engines = ["f64, machine code", "f64, interpreter"];
+        engines.iter().find_map(|engine| self.row(Method::MergedTape, engine))
+    }
+
+    /// Time of the quickest engine divided by that of plain num-dual code.
+    pub fn ratio_to_num_dual(&self) -> Option<f64> {
+        let plain = self.row(Method::NumDualByHand, "f64")?;
+        Some(self.quickest()?.ns_per_state / plain.ns_per_state)
+    }
+
+    /// Finds the row of a method in a domain.
+    pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
+        self.rows.iter().find(|row| row.method == method && row.domain == domain)
+    }
+}
+
+/// Reason why an item cannot be measured.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum BenchError {
+    /// A formula asked a recorded value for its magnitude.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+    /// No state could be drawn.
+    #[error("none of {0} states could be drawn")]
+    Unreachable(usize),
+}
+
+impl BenchError {
+    /// Advice on how to avoid the error.
+    pub fn help(&self) -> &'static str {
+        match self {
+            BenchError::Fault(_) => "write the formula with operations that hold for every number",
+            BenchError::Unreachable(_) => "let `liouville check` say what is wrong with the case",
+        }
+    }
+}
+
+/// Measures every claim of an item.
+pub fn measure_item(item: &Item, options: &Options) -> Result<Vec<Measured>, BenchError> {
+    let one = |claim| {
+        let subject = Subject::new(item, claim, options.seed, options.blocks)?;
+        Ok(Measured {
+            item: item.name.clone(),
+            claim: subject.claim.name.clone(),
+            kind: subject.claim.kind.name(),
+            rows: measure::measure(&subject, options.rounds)?,
+            skipped: subject.skipped(),
+        })
+    };
+    item.case.claims.iter().map(one).collect()
+}

@@ -1,0 +1,21 @@
+//! Reference values of a residual, with far more digits than any candidate.
+
+use super::candidate::{Block, Candidate};
+use super::tapes::TapeRun;
+use liouville::graph::Tape;
+use liouville::number::precise::{Approximation, Precise};
+use liouville::verdict::LANES;
+
+/// Twice the precision of the best candidate, and far beyond what cancels.
+const BITS: u32 = 512;
+
+/// Computes the residual at every state; `None` where it is undefined.
+pub fn reference(tape: &Tape, states: &[Block]) -> Vec<Option<Approximation>> {
+    let mut run = TapeRun::new(tape, Precise::new(BITS), states);
+    let mut values = Vec::with_capacity(states.len() * LANES);
+    for block in 0..states.len() {
+        run.run(block);
+        values.extend((0..LANES).map(|lane| run.value(lane)));
+    }
+    values
+}

@@ -1,0 +1,194 @@
+//! A claim prepared for measurement: its tapes and its states.
+
+use std::time::{Duration, Instant};
+
+use super::candidate::{Block, Candidate, states};
+use super::central::Central;
+use super::complex_step::ComplexStep;
+use super::engines;
+use super::one_by_one::OneByOne;
+use super::tapes;
+use super::underived::{Reason, Underived};
+use super::{BenchError, Item, Method};
+use liouville::case::{Case, Claim};
+use liouville::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use liouville::mechanics::Phase;
+use liouville::mechanics::calculus::Jet;
+use liouville::number::float::Float;
+use liouville::verdict::{LANES, Sampler};
+
+/// Number of recordings, of which the shortest time counts as set-up.
+const RECORDINGS: usize = 3;
+
+/// A claim under measurement.
+pub struct Subject<'i> {
+    item: &'i Item,
+    /// Claim measured.
+    pub claim: &'i Claim,
+    states: Vec<Block>,
+    residual: Tape,
+    merged: Tape,
+    merging: Duration,
+    recording: Duration,
+    underived: Result<(Underived, Duration), Reason>,
+}
+
+/// Candidate with the facts known before it runs.
+pub struct Entry<'s> {
+    /// Method of differentiation.
+    pub method: Method,
+    /// Name of the arithmetic.
+    pub domain: &'static str,
+    /// Operations per state, in the arithmetic of the domain, where they are counted.
+    pub operations: Option<usize>,
+    /// Time to record and lay out the tapes.
+    pub set_up: Duration,
+    /// Candidate to run.
+    pub candidate: Box<dyn Candidate + 's>,
+}
+
+impl<'i> Subject<'i> {
+    /// Records a claim of an item and draws `blocks` blocks of states.
+    pub fn new(
+        item: &'i Item,
+        claim: &'i Claim,
+        seed: u64,
+        blocks: u64,
+    ) -> Result<Self, BenchError> {
+        let case = &item.case;
+        let sampler = Sampler::new(case, &claim.place, seed)?;
+        let ((residual, antiderivatives), recording) = timed(|| record_residual(case, claim))?;
+        let (merged, merging) = timed(|| record_merged(case, claim))?;
+        let states =
+            states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
+        let (underived, time) = timed(|| Underived::record(case, claim))?;
+        let underived = underived.map(|underived| (underived, time));
+        Ok(Self { item, claim, states, residual, merged, merging, recording, underived })
+    }
+
+    /// States, block by block.
+    pub fn states(&self) -> &[Block] {
+        &self.states
+    }
+
+    /// Tape of the residual.
+    pub fn residual(&self) -> &Tape {
+        &self.residual
+    }
+
+    /// All candidates that compute the residual.
+    pub fn entries(&self) -> Vec<Entry<'_>> {
+        let mut entries: Vec<Entry<'_>> = tapes::all(&self.residual, &self.states)
+            .into_iter()
+            .map(|(domain, candidate)| Entry {
+                method: Method::Tape,
+                domain,
+                operations: Some(self.residual.operations()),
+                set_up: self.recording,
+                candidate,
+            })
+            .collect();
+        entries.insert(
+            1,
+            Entry {
+                method: Method::MergedTape,
+                domain: "f64",
+                operations: Some(self.merged.operations()),
+                set_up: self.merging,
+                candidate: tapes::in_f64(&self.merged, &self.states),
+            },
+        );
+        entries.extend(engines::all(&self.merged, &self.states, self.merging));
+        let mut at_f64 = |method, domain, operations, set_up, candidate| {
+            entries.push(Entry { method, domain, operations, set_up, candidate });
+        };
+        let none = Duration::ZERO;
+        for (method, by_hand) in &self.item.by_hand {
+            let candidate = Box::new(OneByOne::new(by_hand, &self.states));
+            at_f64(*method, "f64", None, none, candidate);
+        }
+        if let Ok((underived, time)) = &self.underived {
+            let candidate = Box::new(ComplexStep::new(underived, &self.states));
+            let operations = Some(underived.operations(1));
+            at_f64(Method::ComplexStep, "complex f64", operations, *time, candidate);
+            let candidate = Box::new(Central::new(underived, &self.states));
+            let operations = Some(underived.operations(2));
+            at_f64(Method::CentralDifference, "f64", operations, *time, candidate);
+        }
+        entries
+    }
+
+    /// Methods that are not measured, with the reasons.
+    pub fn skipped(&self) -> Vec<(Method, Reason)> {
+        let mut skipped = Vec::new();
+        if let Err(reason) = &self.underived {
+            skipped.push((Method::ComplexStep, *reason));
+            skipped.push((Method::CentralDifference, *reason));
+        }
+        skipped
+    }
+
+    /// Scale of the residual at each lane of each block: |∇F||v| of an integral, |v|(|∇ln ρ| +
+    /// 1/|x|) of a density, |a| of a criterion.
+    pub fn scales(&self) -> Result<Vec<[f64; LANES]>, BenchError> {
+        let (graph, scale) = with_jet(&self.item.case, |jet| {
+            self.claim.kind.context(jet, &self.claim.place.kept).scale
+        })?;
+        let tape = Tape::new(&graph, scale.as_slice());
+        let mut evaluator = Evaluator::new(&tape, Float::<LANES>);
+        let square = |block: &Block| {
+            evaluator.run(block);
+            scale.map_or([f64::NAN; LANES], |_| evaluator.output(0).map(f64::sqrt))
+        };
+        Ok(self.states.iter().map(square).collect())
+    }
+}
+
+/// Records the residual. Returns its tape, and the number of antiderivatives among its inputs.
+pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Fault> {
+    let (graph, residual) = with_jet(case, |jet| claim.kind.residual(jet, &claim.place.kept))?;
+    let inputs = case.model.free_components() + case.model.dimension();
+    Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
+}
+
+/// Records the residual with fewer operations: nodes of proportional value are merged, and
+/// quantities for which the system knows shorter formulas are made by those.
+pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
+    let (graph, (residual, shortcuts)) = at_point(case, |phase| {
+        let jet = Jet::short(phase);
+        let residual = claim.kind.residual(&jet, &claim.place.kept);
+        (residual, jet.phase.model().system.shortcuts(&jet.phase))
+    })?;
+    let (graph, residual) = graph.merged(&residual, &shortcuts)?;
+    Ok(Tape::new(&graph, &residual))
+}
+
+fn with_jet<R>(case: &Case, build: impl FnOnce(&Jet<'_, Expr>) -> R) -> Result<(Graph, R), Fault> {
+    at_point(case, |phase| build(&Jet::new(phase)))
+}
+
+fn at_point<'c, R>(
+    case: &'c Case,
+    build: impl FnOnce(Phase<'c, Expr>) -> R,
+) -> Result<(Graph, R), Fault> {
+    let free = case.model.free_components();
+    record(free + case.model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(free);
+        build(Phase::new(&case.model, parameters, state))
+    })
+}
+
+/// Runs a function several times. Returns its result, and the shortest time.
+fn timed<R>(mut make: impl FnMut() -> Result<R, Fault>) -> Result<(R, Duration), Fault> {
+    let mut once = || {
+        let started = Instant::now();
+        make().map(|made| (made, started.elapsed()))
+    };
+    let (mut made, mut least) = once()?;
+    for _ in 1..RECORDINGS {
+        let (again, time) = once()?;
+        made = again;
+        least = least.min(time);
+    }
+    Ok((made, least))
+}

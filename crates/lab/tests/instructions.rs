@@ -1,0 +1,109 @@
+//! Guards the instruction counts of the work items against regressions, by valgrind's callgrind:
+//! the count is the same in every run, however busy the machine is.
+//!
+//! Valgrind does not support AVX-512, so the code for AVX2 is counted. Without valgrind, or on
+//! another processor, nothing is counted, and the test says so.
+
+use std::process::Command;
+
+use liouville::engine::{Engine, Means, Row};
+use liouville::graph::Tape;
+use liouville_lab::bench::{record_residual, work_items};
+
+/// Parts of the work on a residual: recording and layout; a run at 64 states by the interpreter; a
+/// run by machine code, including its generation.
+const PARTS: [&str; 3] = ["record", "interpret", "compile"];
+
+/// Counts for W1, W2, W3, in the order of the parts. To be lowered when a change reduces them.
+const COUNTS: [[u64; 3]; 3] = [
+    [13_789_550, 826_190, 1_135_851],
+    [19_496_603, 1_001_116, 1_424_443],
+    [15_114_704, 880_119, 1_221_529],
+];
+
+/// Percentage by which a count may grow, for a compiler of another version.
+const MARGIN: u64 = 10;
+
+const ITEM: &str = "LIOUVILLE_COUNTED_ITEM";
+
+fn tape(index: usize) -> Tape {
+    let item = &work_items().expect("the work items are cases")[index];
+    record_residual(&item.case, &item.case.claims[0]).expect("records").0
+}
+
+#[inline(never)]
+fn counted_record(index: usize) -> Tape {
+    tape(index)
+}
+
+#[inline(never)]
+fn counted_interpret(tape: &Tape) -> f64 {
+    run(tape, Means::Interpreter)
+}
+
+#[inline(never)]
+fn counted_compile(tape: &Tape) -> f64 {
+    run(tape, Means::Quickest)
+}
+
+fn run(tape: &Tape, means: Means) -> f64 {
+    let mut runner = Engine::new(tape, means).runner();
+    for (k, row) in runner.inputs().iter_mut().enumerate() {
+        *row = Row(std::array::from_fn(|lane| 1.0 + (k * 64 + lane) as f64 / 1000.0));
+    }
+    runner.run();
+    runner.output(0).0[0]
+}
+
+/// The counted work: run by the test below under valgrind, with one of the functions switched on.
+#[test]
+fn workload() {
+    let Some(index) = std::env::var(ITEM).ok().and_then(|index| index.parse().ok()) else { return };
+    let tape = counted_record(index);
+    assert!(counted_interpret(&tape).is_finite(), "the residual has a value");
+    assert!(counted_compile(&tape).is_finite(), "by machine code too");
+}
+
+/// Counts instructions inside a function; fails with the reason if they cannot be counted.
+fn count(index: usize, part: &str) -> Result<u64, String> {
+    let own = std::env::current_exe().map_err(|error| error.to_string())?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(format!("--toggle-collect=*counted_{part}*"))
+        .arg(own)
+        .args(["--exact", "workload", "--test-threads=1"])
+        .env(ITEM, index.to_string())
+        .output()
+        .map_err(|error| format!("no valgrind: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    let collected = text.lines().find_map(|line| line.split("Collected :").nth(1));
+    let count = collected.and_then(|count| count.trim().parse().ok());
+    count.filter(|count| *count > 0).ok_or_else(|| format!("valgrind counted nothing: {text}"))
+}
+
+#[test]
+fn the_work_items_take_no_more_instructions_than_before() {
+    if !cfg!(target_arch = "x86_64") {
+        println!("counted on x86-64 only");
+        return;
+    }
+    for (index, counts) in COUNTS.iter().enumerate() {
+        for (part, before) in PARTS.iter().zip(counts) {
+            match count(index, part) {
+                Ok(found) => {
+                    println!("W{}, {part}: {found} instructions, {before} before", index + 1);
+                    assert!(
+                        found * 100 <= before * (100 + MARGIN),
+                        "W{}, {part}: {found} instructions, {before} before",
+                        index + 1
+                    );
+                }
+                Err(reason) if reason.starts_with("no valgrind") => {
+                    println!("not counted, {reason}");
+                    return;
+                }
+                Err(reason) => panic!("W{}, {part}: {reason}", index + 1),
+            }
+        }
+    }
+}

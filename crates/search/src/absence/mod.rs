@@ -1,0 +1,220 @@
+//! Claims of absence: proved by a count, refuted by what is found and proved.
+//!
+//! ```text
+//! known        the integrals that the file claims and that are proved, with the energy
+//! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
+//! polynomials  polynomials in all variables of a field, by random states
+//! ```
+//!
+//! A count bounds from above how many there are; what is known bounds it from below. Where both agree
+//! there are no others. Where they do not, one of the others is looked for, and proved: a
+//! witness that refutes the claim.
+
+mod known;
+mod polynomials;
+mod velocities;
+
+use std::time::Duration;
+
+use super::ansatz::monomials::Variables;
+use super::local::Coordinates;
+use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
+use known::Known;
+use liouville::case::{AbsenceClaim, Case, Expect};
+use liouville::claim::absence::Absence;
+use liouville::mechanics::Draw;
+use liouville::verdict::{
+    self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Trust, Verdict,
+};
+
+/// A count that may take longer, in seconds, is left out.
+const SECONDS: f64 = 20.0;
+/// All that is done for a claim ends after this time.
+const MOST: Duration = Duration::from_secs(60);
+
+/// What became of a claim of absence.
+enum Outcome {
+    /// There is nothing of that kind.
+    Excluded {
+        /// With its hypotheses.
+        theorem: String,
+        /// The count, in a few words.
+        counted: String,
+    },
+    /// There is this, proved.
+    Exhibited(String),
+    /// Not known, for this reason.
+    Open(String),
+}
+
+/// Judges all claims of a case but those about motion, those of absence last.
+pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    let mut report = verdict::judge(case, options)?;
+    if !case.absences.is_empty() {
+        let reports = match options.trust {
+            // Counts rest on proved integrals.
+            Trust::Float => {
+                let best = Options { trust: Trust::Best, mutants: false, ..*options };
+                verdict::judge(case, &best)?.claims
+            }
+            Trust::Best | Trust::Proof => report.claims.clone(),
+        };
+        let told = look(case, &reports, options);
+        report.claims.extend(told);
+    }
+    report.absences_left = 0;
+    Ok(report)
+}
+
+/// The reports on all claims of absence; `judged` are those on the others.
+fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimReport> {
+    let options = Options { trust: Trust::Best, mutants: false, ..*options };
+    let ground = abbreviated(case).and_then(|case| {
+        let effort = Effort { options, ..Effort::default() };
+        let known = Known::of(&case, judged, &effort)?;
+        Ok((case, known))
+    });
+    let outcome = |claim: &AbsenceClaim| {
+        let (case, known) = match &ground {
+            Ok((case, known)) => (case, known),
+            Err(error) => return Outcome::Open(error.to_string()),
+        };
+        let asked = Asked::new(case, known, options);
+        asked.look(&claim.kind).unwrap_or_else(|error| Outcome::Open(error.to_string()))
+    };
+    case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
+}
+
+/// A case whose claims of absence are looked at.
+struct Asked<'a> {
+    case: &'a Case,
+    known: &'a Known,
+    effort: Effort,
+}
+
+impl<'a> Asked<'a> {
+    fn new(case: &'a Case, known: &'a Known, options: Options) -> Self {
+        let effort = Effort {
+            seconds: SECONDS,
+            // A root in what is known has to have the right branch as well.
+            terms: known.names().to_vec(),
+            ansatz: Ansatz { wanted: true, ..Ansatz::default() },
+            halt: Halt::within(MOST),
+            options,
+            ..Effort::default()
+        };
+        Self { case, known, effort }
+    }
+
+    fn look(&self, kind: &Absence) -> Result<Outcome, SearchError> {
+        let system = &self.case.model.system;
+        if system.has_arbitrary_function() {
+            let reason = "a function of the body is arbitrary, and a count is about given ones";
+            return Ok(Outcome::Open(reason.to_string()));
+        }
+        let outcome = if Coordinates::of(self.case).is_ok() {
+            velocities::look(self, kind)?
+        } else {
+            let own = Variables::of(self.case).filter(|own| !own.have_velocities());
+            match own {
+                Some(variables) => polynomials::look(self, &variables, kind)?,
+                None => Outcome::Open(
+                    "velocities are not known apart, and polynomials in all variables are counted \
+                     without a level set only"
+                        .to_string(),
+                ),
+            }
+        };
+        match outcome {
+            Outcome::Excluded { .. } if !branches::are_true(self.case, &self.effort)? => {
+                Ok(Outcome::Open(
+                    "the formulas contain a modulus, or a root that depends on others: a count \
+                     modulo a prime says nothing about them"
+                        .to_string(),
+                ))
+            }
+            outcome => Ok(outcome),
+        }
+    }
+
+    /// For which parameters a count speaks: the beginning of a sentence.
+    fn parameters(&self) -> String {
+        let draws = self.case.model.parameter_draws();
+        let is_listed = |draw: &&Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
+        let is_fixed = |draw: &Draw| matches!(draw, Draw::OneOf(_));
+        let listed = draws.iter().any(|draw| is_listed(&draw));
+        match (draws.iter().all(is_fixed), listed) {
+            (true, false) if self.case.model.parameters.is_empty() => "",
+            (true, false) => "For the given values of the parameters, ",
+            (true, true) => "For each combination of the listed values of the parameters, ",
+            (false, false) => {
+                "For all values of the free parameters but those of a proper algebraic set, "
+            }
+            (false, true) => {
+                "For each combination of listed values, and all values of the other free \
+                 parameters but those of a proper algebraic set, "
+            }
+        }
+        .to_string()
+    }
+
+    /// A theorem from its hypotheses and its statement, which begins with a small letter.
+    fn theorem(&self, statement: &str) -> String {
+        let hypotheses = self.parameters();
+        match hypotheses.is_empty() {
+            false => format!("{hypotheses}{statement}."),
+            true => {
+                let mut letters = statement.chars();
+                let first: String =
+                    letters.next().into_iter().flat_map(char::to_uppercase).collect();
+                format!("{first}{}.", letters.as_str())
+            }
+        }
+    }
+}
+
+/// That all integrals of a class are polynomials in some.
+fn generated(class: &str, names: &[String]) -> String {
+    match names {
+        [] => format!("no integral but a constant is {class}"),
+        names => {
+            format!("every integral that is {class} is a polynomial in {}", names.join(" and "))
+        }
+    }
+}
+
+fn report(claim: &AbsenceClaim, outcome: Outcome) -> ClaimReport {
+    let mut evidence = Evidence { method: "count", ..Evidence::default() };
+    let verdict = match outcome {
+        Outcome::Excluded { theorem, counted } => {
+            (evidence.theorem, evidence.remark) = (Some(theorem), Some(counted));
+            Verdict::Proved
+        }
+        Outcome::Exhibited(what) => {
+            evidence.exhibit = Some(what);
+            Verdict::Refuted
+        }
+        Outcome::Open(reason) => {
+            evidence.reason = Some(reason);
+            Verdict::Undecided
+        }
+    };
+    let agrees = match claim.expect {
+        Expect::Open => true,
+        Expect::Holds => verdict == Verdict::Proved,
+        Expect::Fails => verdict == Verdict::Refuted,
+    };
+    ClaimReport {
+        name: claim.name.clone(),
+        formula: None,
+        kind: claim.kind.name(),
+        source: claim.source.clone(),
+        place: "level".to_string(),
+        expect: claim.expect.word(),
+        verdict,
+        agrees,
+        cell: claim.cell.clone(),
+        note: claim.note.clone(),
+        evidence,
+    }
+}

@@ -1,0 +1,345 @@
+//! Absence of polynomials in all variables of a field, with constant coefficients.
+//!
+//! A row is a random state modulo a prime, the parameters the same in all rows; a column is a monomial,
+//! or what it gains along the field. The rank of such a matrix is at most what it is for generic
+//! parameters, so that the null space is at least as large as the space of integrals.
+
+use super::super::SearchError;
+use super::super::ansatz::coefficients::Coefficients;
+use super::super::ansatz::coordinates;
+use super::super::ansatz::monomials::Variables;
+use super::super::ansatz::subspace::complement;
+use super::super::ansatz::system::{At, Column, Recording, System};
+use super::super::ask::{judged, quoted};
+use super::super::multipliers::WEIGHTS;
+use super::super::products::Generators;
+use super::super::terms::{Term, exponent, read};
+use super::known::{contains_integrals, has_lists, rank};
+use super::{Asked, Outcome, generated};
+use liouville::claim::absence::Absence;
+use liouville::graph::Expr;
+use liouville::mechanics::calculus::Jet;
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+use liouville::verdict::Verdict;
+
+/// Elementary steps of an elimination a second, at the least.
+const STEPS: f64 = 5e8;
+
+/// Judges a claim by polynomials in all variables.
+pub fn look(
+    asked: &Asked<'_>,
+    variables: &Variables,
+    kind: &Absence,
+) -> Result<Outcome, SearchError> {
+    if has_lists(asked.case) {
+        let reason = "a parameter has a list of values: give each a case of its own";
+        return Ok(Outcome::Open(reason.to_string()));
+    }
+    if contains_integrals(asked.case)? {
+        return Ok(Outcome::Open("the field contains ∫".to_string()));
+    }
+    let degree = match kind {
+        Absence::NoIntegral(claim) => claim.degree,
+        Absence::NoDensity(claim) => claim.degree,
+    };
+    let mut monomials = variables.monomials(0, 0..=degree);
+    monomials.sort_by_key(|own| own.iter().sum::<u32>());
+    let (unknowns, systems) = match kind {
+        Absence::NoIntegral(_) => (monomials.len() as f64, 2.0),
+        Absence::NoDensity(_) => (monomials.len() as f64, WEIGHTS.len() as f64 + 2.0),
+    };
+    let seconds = systems * unknowns.powi(3) / STEPS;
+    if seconds > asked.effort.seconds {
+        return Ok(Outcome::Open(format!(
+            "degree {degree} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
+        )));
+    }
+    let counting = Counting::new(asked, variables, degree, monomials)?;
+    let Some(counting) = counting else { return Ok(nothing()) };
+    match kind {
+        Absence::NoIntegral(_) => counting.no_integral(),
+        Absence::NoDensity(_) => counting.no_density(),
+    }
+}
+
+/// Where no state has a value modulo a prime.
+fn nothing() -> Outcome {
+    Outcome::Open(SearchError::NoPoints.to_string())
+}
+
+/// All that is counted of a field.
+struct Counting<'a> {
+    asked: &'a Asked<'a>,
+    variables: &'a Variables,
+    degree: u32,
+    monomials: Vec<Vec<u32>>,
+    system: System,
+    at: At,
+    /// The integrals that are known, with their outputs.
+    known: Vec<(Term, usize)>,
+    /// For each choice of α its direction; that of integrals is 0.
+    weighted: Vec<(i64, usize)>,
+    /// The column of div v.
+    divergence: usize,
+}
+
+/// What the integrals that are known make up.
+struct Space {
+    terms: Vec<Term>,
+    exponents: Vec<Vec<u32>>,
+    /// The outputs that each product multiplies.
+    products: Vec<Vec<usize>>,
+    dimension: usize,
+}
+
+impl<'a> Counting<'a> {
+    /// Records the field; nothing where it has no value modulo a prime.
+    fn new(
+        asked: &'a Asked<'a>,
+        variables: &'a Variables,
+        degree: u32,
+        monomials: Vec<Vec<u32>>,
+    ) -> Result<Option<Self>, SearchError> {
+        let case = asked.case;
+        let seed = asked.effort.options.seed;
+        let terms = asked.known.terms(case, seed)?;
+        let (mut outputs, mut weighted, mut output) = (Vec::new(), Vec::new(), 0);
+        let mut record = |jet: &Jet<'_, Expr>, own: &mut Recording| {
+            let zero = Expr::rational(&Rational::from(0));
+            own.derive_growing(jet.along_field(), &variables.terms, zero);
+            outputs = terms.iter().map(|term| own.give(jet.phase.scalar(&term.formula))).collect();
+            let divergence = jet.divergence();
+            output = own.give(divergence);
+            for alpha in WEIGHTS {
+                let growth = Expr::rational(&Rational::from(alpha)) * divergence;
+                let direction = own.derive_growing(jet.along_field(), &variables.terms, growth);
+                weighted.push((alpha, direction));
+            }
+        };
+        let mut system = System::record(case, &coordinates(case), seed, &mut record)?;
+        let product = |direction: usize| {
+            monomials.iter().map(move |exponents| Column::Product {
+                derivation: direction,
+                factor: 0,
+                exponents: exponents.clone(),
+            })
+        };
+        let mut columns: Vec<Column> = product(0).collect();
+        columns.push(Column::Given(output));
+        columns.extend(weighted.iter().flat_map(|(_, direction)| product(*direction)));
+        columns.extend(outputs.iter().map(|output| Column::Given(*output)));
+        system.columns = columns;
+        let divergence = monomials.len();
+        let known = terms.into_iter().zip(outputs).collect();
+        Ok(system.at(0, 0).map(|at| Self {
+            asked,
+            variables,
+            degree,
+            monomials,
+            system,
+            at,
+            known,
+            weighted,
+            divergence,
+        }))
+    }
+
+    /// The columns of the monomials along a direction, which has a number.
+    fn columns(&self, direction: usize) -> Vec<usize> {
+        let count = self.monomials.len();
+        let start = if direction == 0 { 0 } else { 1 + direction * count };
+        (start..start + count).collect()
+    }
+
+    /// The degrees of what is known: nothing for what is no polynomial of the class.
+    fn degrees(&self) -> Option<Vec<Option<u32>>> {
+        let count = self.monomials.len();
+        let first = 1 + (1 + self.weighted.len()) * count;
+        let given: Vec<usize> = (first..first + self.known.len()).collect();
+        let columns = [self.columns(0), given].concat();
+        let relations = self.system.dependences(&self.at, &columns)?;
+        Some(
+            (0..self.known.len())
+                .map(|k| {
+                    let alone = |own: &&Vec<u64>| {
+                        let others = own.iter().enumerate().skip(count);
+                        own[count + k] != 0
+                            && others.filter(|(at, _)| *at != count + k).all(|(_, x)| *x == 0)
+                    };
+                    let relation = relations.iter().find(alone)?;
+                    let used = (0..count).filter(|column| relation[*column] != 0);
+                    used.map(|column| self.monomials[column].iter().sum()).max()
+                })
+                .collect(),
+        )
+    }
+
+    /// The polynomials in what is known that have at most the degree.
+    fn space(&self) -> Result<Option<Space>, SearchError> {
+        let Some(degrees) = self.degrees() else { return Ok(None) };
+        let own: Vec<(&(Term, usize), u32)> = self
+            .known
+            .iter()
+            .zip(degrees)
+            .filter_map(|(known, degree)| Some((known, degree.filter(|degree| *degree > 0)?)))
+            .collect();
+        let named = own.iter().map(|((term, _), degree)| (term.text.clone(), *degree)).collect();
+        let exponents = Generators::of(named).exponents(self.degree, true);
+        let terms: Vec<Term> = own.iter().map(|((term, _), _)| term.clone()).collect();
+        let product = |powers: &Vec<u32>| {
+            let each = powers.iter().zip(&own);
+            each.flat_map(|(power, ((_, output), _))| vec![*output; *power as usize]).collect()
+        };
+        let products = exponents.iter().map(product).collect();
+        let seed = self.asked.effort.options.seed;
+        let dimension = rank(self.asked.case, &terms, &exponents, &[], seed)?;
+        Ok(dimension.map(|dimension| Space { terms, exponents, products, dimension }))
+    }
+
+    fn class(&self) -> String {
+        format!("a polynomial of degree at most {} in the variables of the state", self.degree)
+    }
+
+    fn no_integral(&self) -> Result<Outcome, SearchError> {
+        let columns = self.columns(0);
+        let found = self.system.null_space(&self.at, &columns);
+        let (Some(found), Some(space)) = (found, self.space()?) else {
+            return Ok(nothing());
+        };
+        let dimension = found.len();
+        if dimension < space.dimension {
+            return Ok(Outcome::Open(format!(
+                "{dimension} are counted, fewer than the {} that are known",
+                space.dimension
+            )));
+        }
+        if dimension == space.dimension {
+            let names: Vec<String> = space.terms.iter().map(|term| term.text.clone()).collect();
+            return Ok(Outcome::Excluded {
+                theorem: self.asked.theorem(&generated(&self.class(), &names)),
+                counted: format!(
+                    "{dimension} independent ones at most, constants included: all known"
+                ),
+            });
+        }
+        let padded: Vec<Vec<u64>> = found
+            .into_iter()
+            .map(|mut own| {
+                own.resize(self.system.columns.len(), 0);
+                own
+            })
+            .collect();
+        let new = complement(&self.system, &self.at, &padded, &space.products).unwrap_or_default();
+        for vector in &new {
+            self.asked.effort.halt.check()?;
+            if let Some(formula) = self.integral(vector, &space)? {
+                return Ok(Outcome::Exhibited(format!("integral, proved: {formula}")));
+            }
+        }
+        Ok(Outcome::Open(format!(
+            "at most {dimension} independent ones are counted, constants included, {} are known, and no \
+             further one is found in closed form",
+            space.dimension
+        )))
+    }
+
+    /// A null vector as an integral that is proved, and no polynomial in what is known.
+    fn integral(&self, vector: &[u64], space: &Space) -> Result<Option<String>, SearchError> {
+        let Some(formula) = self.written(vector, 0) else { return Ok(None) };
+        let case = self.asked.case;
+        if !self.holds("integral", &formula)? {
+            return Ok(None);
+        }
+        let own = read(vec![formula.clone()], &case.model.vocabulary);
+        let seed = self.asked.effort.options.seed;
+        let with = rank(case, &space.terms, &space.exponents, &own, seed)?;
+        Ok((with == Some(space.dimension + own.len()) && own.len() == 1).then_some(formula))
+    }
+
+    /// Σ c_a x^a for all values of the parameters, where the coefficients are fractions in them.
+    fn written(&self, vector: &[u64], direction: usize) -> Option<String> {
+        let start = self.columns(direction).first().copied()?;
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let columns: Vec<usize> = support.iter().map(|k| start + k).collect();
+        let coefficients = Coefficients::of(&self.system, &columns)?;
+        let functions: Vec<String> =
+            support.iter().map(|k| self.variables.text(&self.monomials[*k])).collect();
+        Some(coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions))
+    }
+
+    fn holds(&self, kind: &str, formula: &str) -> Result<bool, SearchError> {
+        let claim = [format!("{kind} = {}", quoted(formula))];
+        let reports = judged(self.asked.case, &claim, &self.asked.effort)?;
+        Ok(reports.iter().any(|report| report.verdict == Verdict::Proved))
+    }
+
+    fn no_density(&self) -> Result<Outcome, SearchError> {
+        for (alpha, direction) in &self.weighted {
+            self.asked.effort.halt.check()?;
+            let columns = self.columns(*direction);
+            let Some(found) = self.system.null_space(&self.at, &columns) else {
+                return Ok(nothing());
+            };
+            let Some(vector) = found.first() else { continue };
+            let root = exponent(&[Rational::new(alpha.signum(), alpha.abs())], &["1"]);
+            if let Some(polynomial) = self.written(vector, *direction) {
+                let formula = match root.as_str() {
+                    "1" => polynomial,
+                    root => format!("({polynomial})^{root}"),
+                };
+                if self.holds("density", &formula)? {
+                    return Ok(Outcome::Exhibited(format!("density, proved: {formula}")));
+                }
+            }
+            return Ok(Outcome::Open(format!(
+                "a density P^{root} is counted, and not found in closed form"
+            )));
+        }
+        // L_vP + s div v = 0, without the constants: ln ρ = P/s.
+        let columns = [&self.columns(0)[1..], &[self.divergence]].concat();
+        let Some(found) = self.system.null_space(&self.at, &columns) else { return Ok(nothing()) };
+        if found.iter().any(|own| own.last().is_some_and(|last| *last != 0)) {
+            return self.exponential(&found, &columns);
+        }
+        let Some(space) = self.space()? else { return Ok(nothing()) };
+        if found.len() + 1 != space.dimension {
+            let reason = "there are more integrals of this degree than are claimed, and the count does \
+                          not tell them from densities: claim them as well";
+            return Ok(Outcome::Open(reason.to_string()));
+        }
+        let statement = format!(
+            "there is no invariant density P^(1/α), α = ±1, ±2, ±3, ±4, and none of the form exp P, with \
+             P {}",
+            self.class()
+        );
+        Ok(Outcome::Excluded {
+            theorem: self.asked.theorem(&statement),
+            counted: "0 are counted".to_string(),
+        })
+    }
+
+    /// Writes exp P, and has it judged.
+    fn exponential(&self, found: &[Vec<u64>], columns: &[usize]) -> Result<Outcome, SearchError> {
+        let own = found.iter().find(|own| own.last().is_some_and(|last| *last != 0));
+        let open = || Ok(Outcome::Open("a density exp P is counted, and not found".to_string()));
+        let Some(vector) = own else { return open() };
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
+        let Some(coefficients) = Coefficients::of(&self.system, &used) else { return open() };
+        let last = support.len() - 1;
+        let functions: Vec<String> = support[..last]
+            .iter()
+            .map(|k| self.variables.text(&self.monomials[columns[*k]]))
+            .collect();
+        let sum = coefficients.sum(&(0..last).collect::<Vec<_>>(), &functions);
+        let formula = match coefficients.text(last).as_str() {
+            "1" => format!("exp({sum})"),
+            below => format!("exp(({sum})/({below}))"),
+        };
+        match self.holds("density", &formula)? {
+            true => Ok(Outcome::Exhibited(format!("density, proved: {formula}"))),
+            false => open(),
+        }
+    }
+}

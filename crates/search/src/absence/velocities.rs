@@ -1,0 +1,196 @@
+//! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
+
+use super::super::ask::independent;
+use super::super::counts::{self, CountReport};
+use super::super::local::Local;
+use super::super::products::degree;
+use super::super::terms::exponent;
+use super::super::{Effort, Found, Report, SearchError, ansatz, densities, integrals, multipliers};
+use super::{Asked, Outcome, generated};
+use liouville::claim::absence::Absence;
+use liouville::number::rational::Rational;
+use liouville::verdict::Verdict;
+
+/// Judges a claim by Taylor coefficients.
+pub fn look(asked: &Asked<'_>, kind: &Absence) -> Result<Outcome, SearchError> {
+    match kind {
+        Absence::NoIntegral(claim) => no_integral(asked, claim.degree),
+        Absence::NoDensity(claim) => no_density(asked, claim.degree),
+    }
+}
+
+/// What the counts bound.
+enum Bound {
+    /// Each leading form is a power of the energy.
+    Leading,
+    /// So many independent integrals of at most the degree, constants among them.
+    Integrals(usize),
+}
+
+/// What the counts bound, if they reach the degree.
+fn bound(counts: &[CountReport], degree: u32) -> Option<Bound> {
+    let own: Vec<&CountReport> = counts.iter().filter(|count| !count.free).collect();
+    match own.iter().find(|count| count.degree == degree) {
+        Some(last) if last.mixed => Some(Bound::Integrals(last.dimension)),
+        // Each degree by itself, and the constants.
+        Some(_) => {
+            let all = (1..=degree).map(|n| own.iter().find(|count| count.degree == n));
+            let dimensions: Option<Vec<usize>> =
+                all.map(|count| count.map(|count| count.dimension)).collect();
+            dimensions.map(|each| Bound::Integrals(1 + each.iter().sum::<usize>()))
+        }
+        None => {
+            let powers =
+                |n| counts.iter().any(|c| c.free && c.degree == n && c.dimension == c.known);
+            (own.is_empty() && (1..=degree).all(powers)).then_some(Bound::Leading)
+        }
+    }
+}
+
+fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
+    let case = asked.case;
+    let effort = &Effort { degree: most, ..asked.effort.clone() };
+    let mut report = Report::default();
+    counts::count(case, effort, &mut report, &mut |_| {})?;
+    let class = format!(
+        "a polynomial of degree at most {most} in the velocities, with any smooth coefficients on any \
+         open set of positions"
+    );
+    let dimension = match bound(&report.counts, most) {
+        None => return Ok(Outcome::Open(reasons(&report, "the count does not reach this degree"))),
+        Some(Bound::Leading) => {
+            // What is left after powers of the energy has a lower degree, if the energy is conserved.
+            let names: Vec<String> =
+                asked.known.names().iter().filter(|name| *name == "energy").cloned().collect();
+            return Ok(match names.is_empty() {
+                true => Outcome::Open("the energy is not known to be an integral".to_string()),
+                false => Outcome::Excluded {
+                    theorem: asked.theorem(&generated(&class, &names)),
+                    counted: "leading forms are powers of the energy".to_string(),
+                },
+            });
+        }
+        Some(Bound::Integrals(dimension)) => dimension,
+    };
+    let known = asked.known.of_degree(case, most, effort)?;
+    if known.dimension > dimension {
+        return Ok(Outcome::Open(format!(
+            "{dimension} are counted, fewer than the {} that are known",
+            known.dimension
+        )));
+    }
+    if known.dimension == dimension {
+        return Ok(Outcome::Excluded {
+            theorem: asked.theorem(&generated(&class, &known.names)),
+            counted: format!("{dimension} independent ones at most, constants included: all known"),
+        });
+    }
+    let mut found = |run: &mut dyn FnMut(&mut Report) -> Result<(), SearchError>| {
+        run(&mut report)?;
+        witness(asked, most, &report)
+    };
+    let exhibit = match found(&mut |report| densities::densities(case, effort, report))? {
+        Some(found) => Some(found),
+        None => match found(&mut |report| integrals::integrals(case, effort, report))? {
+            Some(found) => Some(found),
+            None => found(&mut |report| ansatz::search(case, effort, report, &mut |_| {}))?,
+        },
+    };
+    Ok(exhibit.map(Outcome::Exhibited).unwrap_or_else(|| {
+        Outcome::Open(format!(
+            "at most {dimension} independent ones are counted, constants included, {} are known, and \
+             no further one is found in closed form",
+            known.dimension
+        ))
+    }))
+}
+
+/// An integral in a report that refutes the claim.
+fn witness(asked: &Asked<'_>, most: u32, report: &Report) -> Result<Option<String>, SearchError> {
+    let own = |found: &&Found| {
+        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
+    };
+    for found in report.found.iter().filter(own) {
+        let low = degree(asked.case, &found.formula, asked.effort.options.seed)?;
+        let known = asked.known.claimed();
+        if low.is_some_and(|degree| degree <= most)
+            && independent(asked.case, &known, &found.formula, &asked.effort)?.is_some()
+        {
+            return Ok(Some(shown("integral", found)));
+        }
+    }
+    Ok(None)
+}
+
+/// A find with the names that it uses.
+fn shown(what: &str, found: &Found) -> String {
+    let names: Vec<String> =
+        found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+    let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
+    format!("{what}, proved: {}{names}", found.formula)
+}
+
+fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
+    let case = asked.case;
+    let effort = &Effort { degree: most, ..asked.effort.clone() };
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let (unknowns, seconds) = counts::size(&Local::of(case, &[])?, most, mixed);
+    let seconds = seconds * multipliers::WEIGHTS.len() as f64;
+    if seconds > effort.seconds {
+        return Ok(Outcome::Open(format!(
+            "degree {most} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
+        )));
+    }
+    let mut report = Report::default();
+    multipliers::multipliers(case, effort, &mut report, &mut |_| {})?;
+    if !report.excluded.is_empty() {
+        let powers = match most {
+            0 => String::new(),
+            _ => format!(
+                " and none of the form P^(1/α), α = ±1, ±2, ±3, ±4, P a polynomial of degree at most \
+                 {most} in the velocities with any smooth coefficients in the positions"
+            ),
+        };
+        let statement = format!("there is no invariant density of the positions alone{powers}");
+        return Ok(Outcome::Excluded {
+            theorem: asked.theorem(&statement),
+            counted: "0 are counted".to_string(),
+        });
+    }
+    if report.multipliers.is_empty() {
+        return Ok(Outcome::Open(reasons(&report, "nothing can be counted")));
+    }
+    densities::densities(case, effort, &mut report)?;
+    for found in &report.found {
+        if found.kind != "density" || found.verdict != Verdict::Proved {
+            continue;
+        }
+        if is_of_class(asked, &found.formula, most)? {
+            return Ok(Outcome::Exhibited(shown("density", found)));
+        }
+    }
+    Ok(Outcome::Open("a density is counted, and not found in closed form".to_string()))
+}
+
+/// Is a density of the positions alone, or some P^(1/α) with P of at most this degree?
+fn is_of_class(asked: &Asked<'_>, formula: &str, most: u32) -> Result<bool, SearchError> {
+    for alpha in multipliers::WEIGHTS {
+        let power = exponent(&[Rational::from(alpha)], &["1"]);
+        let polynomial = format!("({formula})^{power}");
+        if degree(asked.case, &polynomial, asked.effort.options.seed)?.is_some_and(|n| n <= most) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn reasons(report: &Report, otherwise: &str) -> String {
+    // `check` has no such options.
+    let remark = |text: &String| match text.split_once("; raise --seconds") {
+        Some((reason, _)) => format!("{reason}: ask for a lower degree"),
+        None => text.trim_end_matches("; give values with --set").to_string(),
+    };
+    let unreached = report.unreached.iter().map(|what| format!("not reached: {what}"));
+    let all: Vec<String> = report.remarks.iter().map(remark).chain(unreached).collect();
+    if all.is_empty() { otherwise.to_string() } else { all.join("; ") }
+}

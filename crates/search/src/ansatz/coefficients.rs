@@ -1,0 +1,362 @@
+//! Coefficients as numbers or functions of the parameters.
+//!
+//! A null vector is known modulo a prime for each choice of the parameters. If all parameters are
+//! numbers, so are the coefficients: rational numbers, by the Chinese remainder theorem from enough
+//! primes. Otherwise each coefficient is a fraction N/D of polynomials in the parameters'
+//! components: N(θ) − c(θ) D(θ) = 0 is linear in the coefficients of N and D.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::super::echelon::Echelon;
+use super::super::series::exponents;
+use super::super::terms::written;
+use super::monomials::power_product;
+use super::system::{At, System};
+use liouville::number::prime::Modulus;
+use liouville::proof::reconstruct;
+
+/// Number of primes after which rational coefficients are given up.
+const PRIMES: u64 = 8;
+/// Largest number of coefficients of a numerator and denominator together.
+const MOST: usize = 640;
+/// Number of samples beyond the number of unknowns.
+const SPARE: usize = 8;
+/// Number of choices of parameters beyond those wanted, since some have no value.
+const BARREN: u64 = 64;
+
+/// A polynomial in the coordinates of the parameters, by exponents.
+pub type Polynomial = Vec<(Vec<u32>, BigInt)>;
+
+/// Coefficients of a vector: one polynomial for each column, without common factor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Coefficients {
+    names: Vec<String>,
+    /// Polynomials by column.
+    pub polynomials: Vec<Polynomial>,
+}
+
+impl Coefficients {
+    /// Finds the vector on some columns that is 1 at the last of them, for all values of the
+    /// parameters; `None` if its coefficients are not fractions of low degree.
+    pub fn of(system: &System, columns: &[usize]) -> Option<Self> {
+        let mut samples = Samples { system, columns, next: 0, known: Vec::new() };
+        let varying = samples.varying()?;
+        if varying.is_empty() {
+            return numbers(system, columns);
+        }
+        // Few coordinates are tried first: often J replaces I, m and R.
+        let names = system.coordinates();
+        let tensor = |k: &usize| names[*k].starts_with('J');
+        let instead = |k: usize| {
+            let entry = names[k].strip_prefix('I').map(|entry| format!("J{entry}"));
+            entry.and_then(|entry| names.iter().position(|name| *name == entry)).unwrap_or(k)
+        };
+        let plain: Vec<usize> = varying.iter().copied().filter(|k| !tensor(k)).collect();
+        let mixed = plain.iter().map(|k| instead(*k)).collect();
+        let tensors: Vec<usize> = varying.iter().copied().filter(tensor).collect();
+        [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
+    }
+
+    /// Writes the coefficient of a column, in parentheses where needed.
+    pub fn text(&self, column: usize) -> String {
+        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        let own = &self.polynomials[column];
+        let texts: Vec<String> = own.iter().map(|(a, _)| power_product(&names, a)).collect();
+        let multiples: Vec<BigInt> = own.iter().map(|(_, multiple)| multiple.clone()).collect();
+        written(&multiples, &texts.iter().map(String::as_str).collect::<Vec<_>>())
+    }
+
+    /// Writes Σ coefficient · function over the columns `own`.
+    pub fn sum(&self, own: &[usize], functions: &[String]) -> String {
+        let mut text = String::new();
+        for (column, function) in own.iter().zip(functions) {
+            let polynomial = &self.polynomials[*column];
+            if polynomial.is_empty() {
+                continue;
+            }
+            let coefficient = self.text(*column);
+            let is_sum = polynomial.len() > 1;
+            let (sign, coefficient) = match coefficient.strip_prefix('−').filter(|_| !is_sum) {
+                Some(rest) => ("−", rest.to_string()),
+                None => ("+", coefficient),
+            };
+            match (text.is_empty(), sign) {
+                (true, "+") => {}
+                (true, sign) => text.push_str(sign),
+                (false, sign) => text.push_str(&format!(" {sign} ")),
+            }
+            let coefficient = if is_sum { format!("({coefficient})") } else { coefficient };
+            text.push_str(&match (coefficient.as_str(), function.strip_prefix("1/")) {
+                (coefficient, Some(below)) => format!("{coefficient}/{below}"),
+                ("1", None) => function.to_string(),
+                (coefficient, None) if function == "1" => coefficient.to_string(),
+                (coefficient, None) => format!("{coefficient}*{function}"),
+            });
+        }
+        if text.is_empty() { "0".to_string() } else { text }
+    }
+
+    /// Divides by the common divisor of all numbers and makes the last column positive.
+    fn reduced(mut self) -> Self {
+        let all = || self.polynomials.iter().flatten();
+        let common = all().fold(BigInt::ZERO, |gcd, (_, a)| gcd.gcd(a));
+        let last = self.polynomials.iter().rev().find_map(|own| own.first());
+        let sign = last.is_some_and(|(_, a)| a.is_negative());
+        if !common.is_zero() {
+            let divisor = if sign { -common } else { common };
+            self.polynomials.iter_mut().flatten().for_each(|(_, a)| *a /= &divisor);
+        }
+        self
+    }
+}
+
+/// Values of the vector for choices of the parameters, computed on demand.
+struct Samples<'s> {
+    system: &'s System,
+    columns: &'s [usize],
+    next: u64,
+    /// Choices of the parameters with the vector there.
+    known: Vec<(At, Vec<u64>)>,
+}
+
+impl Samples<'_> {
+    fn extend(&mut self, count: usize) -> Option<()> {
+        let last = self.next + count as u64 + BARREN;
+        while self.known.len() < count {
+            if self.next > last {
+                return None;
+            }
+            let found = self.system.at(0, self.next).and_then(|at| {
+                let vector = normalised(self.system, self.columns, &at)?;
+                Some((at, vector))
+            });
+            self.next += 1;
+            self.known.extend(found);
+        }
+        Some(())
+    }
+
+    /// Returns the coordinates that differ between choices, and from those before them.
+    fn varying(&mut self) -> Option<Vec<usize>> {
+        self.extend(4)?;
+        let column =
+            |k: usize| -> Vec<u64> { self.known.iter().map(|(at, _)| at.coordinates[k]).collect() };
+        let is_new = |k: &usize| {
+            let own = column(*k);
+            own.iter().any(|x| *x != own[0]) && (0..*k).all(|j| column(j) != own)
+        };
+        Some((0..self.system.coordinates().len()).filter(is_new).collect())
+    }
+
+    /// Fits coefficients as polynomials in some of the coordinates, over a common denominator.
+    fn fitted(&mut self, kept: &[usize]) -> Option<Coefficients> {
+        if kept.is_empty() {
+            return None;
+        }
+        let modulus = self.known.first()?.0.modulus;
+        let m = &modulus;
+        let mut denominators: Vec<Fitted> = Vec::new();
+        'again: loop {
+            let mut found = Vec::new();
+            for column in 0..self.columns.len() {
+                let (above, below) = self.fraction(kept, column, &denominators)?;
+                if below.degree > 0 {
+                    denominators.push(below);
+                    continue 'again;
+                }
+                found.push(above.scaled(m, m.inverse(below.images[0].1)));
+            }
+            let rational = |fitted: &Fitted| {
+                let part =
+                    |(a, image): &(Vec<u32>, u64)| Some((a.clone(), reconstruct(*image, m)?));
+                fitted.images.iter().map(part).collect::<Option<Vec<_>>>()
+            };
+            let rational: Vec<Vec<_>> = found.iter().map(rational).collect::<Option<_>>()?;
+            let below = rational
+                .iter()
+                .flatten()
+                .fold(BigInt::one(), |lcm, (_, value)| lcm.lcm(&value.parts().1));
+            let cleared = |(a, value): &(Vec<u32>, liouville::number::rational::Rational)| {
+                let (above, own) = value.parts();
+                (a.clone(), above * (&below / own))
+            };
+            let polynomials =
+                rational.iter().map(|own| own.iter().map(cleared).collect()).collect();
+            let names = kept.iter().map(|k| self.system.coordinates()[*k].clone()).collect();
+            return Some(Coefficients { names, polynomials }.reduced());
+        }
+    }
+
+    /// Finds numerator and denominator of least degree for a column, times denominators of others.
+    fn fraction(
+        &mut self,
+        kept: &[usize],
+        column: usize,
+        denominators: &[Fitted],
+    ) -> Option<(Fitted, Fitted)> {
+        let monomials = |degree: u32| -> Vec<Vec<u32>> {
+            (0..=degree).flat_map(|total| exponents(kept.len(), total)).collect()
+        };
+        let mut trials: Vec<(usize, u32, u32)> = (0..=8u32)
+            .flat_map(|above| (0..=6u32).map(move |below| (above, below)))
+            .map(|(above, below)| {
+                (count(kept.len(), above) + count(kept.len(), below), above, below)
+            })
+            .filter(|(unknowns, ..)| *unknowns <= MOST)
+            .collect();
+        trials.sort();
+        for (unknowns, above, below) in trials {
+            self.extend(unknowns + SPARE)?;
+            let m = self.known[0].0.modulus;
+            let (upper, lower) = (monomials(above), monomials(below));
+            let mut echelon = Echelon::new(unknowns, m);
+            for (at, vector) in &self.known[..unknowns + SPARE] {
+                let point: Vec<u64> = kept.iter().map(|k| at.coordinates[*k]).collect();
+                let value = denominators
+                    .iter()
+                    .fold(vector[column], |value, own| m.mul(value, own.evaluate(&m, &point)));
+                let minus = m.sub(0, value);
+                let row = upper.iter().map(|a| evaluate(&m, &point, a));
+                let row = row.chain(lower.iter().map(|a| m.mul(minus, evaluate(&m, &point, a))));
+                echelon.push(row.collect());
+            }
+            if let Some(vector) = echelon.null_space().first() {
+                let (n, d) = vector.split_at(upper.len());
+                // 0 = c D at all points: the coordinates are dependent.
+                if n.iter().all(|image| *image == 0) {
+                    return None;
+                }
+                return Some((Fitted::new(&upper, n), Fitted::new(&lower, d)));
+            }
+        }
+        None
+    }
+}
+
+/// A polynomial modulo the prime.
+#[derive(Clone, Debug)]
+struct Fitted {
+    images: Vec<(Vec<u32>, u64)>,
+    degree: u32,
+}
+
+impl Fitted {
+    fn new(monomials: &[Vec<u32>], images: &[u64]) -> Self {
+        let used = monomials.iter().zip(images).filter(|(_, image)| **image != 0);
+        let images: Vec<(Vec<u32>, u64)> = used.map(|(a, image)| (a.clone(), *image)).collect();
+        let degree = images.iter().map(|(a, _)| a.iter().sum()).max().unwrap_or(0);
+        Self { images, degree }
+    }
+
+    fn evaluate(&self, m: &Modulus, point: &[u64]) -> u64 {
+        let terms = self.images.iter().map(|(a, image)| m.mul(*image, evaluate(m, point, a)));
+        terms.fold(0, |sum, term| m.add(sum, term))
+    }
+
+    fn scaled(mut self, m: &Modulus, factor: u64) -> Self {
+        self.images.iter_mut().for_each(|(_, image)| *image = m.mul(*image, factor));
+        self
+    }
+}
+
+fn evaluate(m: &Modulus, point: &[u64], exponents: &[u32]) -> u64 {
+    let powers = point.iter().zip(exponents).map(|(x, a)| m.power(*x, u64::from(*a)));
+    powers.fold(m.one(), |product, power| m.mul(product, power))
+}
+
+/// Number of monomials of at most this degree.
+fn count(variables: usize, degree: u32) -> usize {
+    (1..=variables).fold(1, |product, i| product * (degree as usize + i) / i)
+}
+
+/// Returns the null vector that is 1 at the last column.
+fn normalised(system: &System, columns: &[usize], at: &At) -> Option<Vec<u64>> {
+    let vectors = system.null_space(at, columns)?;
+    vectors.into_iter().next_back().filter(|vector| vector.last() == Some(&at.modulus.one()))
+}
+
+/// Finds rational coefficients, confirmed modulo one further prime.
+fn numbers(system: &System, columns: &[usize]) -> Option<Coefficients> {
+    let mut product = BigInt::one();
+    let mut residues: Vec<BigInt> = vec![BigInt::ZERO; columns.len()];
+    for prime in 0..PRIMES {
+        let Some((at, vector)) = (0..BARREN).find_map(|index| {
+            let at = system.at(prime, index)?;
+            let vector = normalised(system, columns, &at)?;
+            Some((at, vector))
+        }) else {
+            continue;
+        };
+        let m = &at.modulus;
+        let own = BigInt::from(m.prime());
+        let images: Vec<BigInt> =
+            vector.iter().map(|image| BigInt::from(m.to_integer(*image))).collect();
+        let fractions: Option<Vec<(BigInt, BigInt)>> =
+            residues.iter().map(|residue| fraction(residue, &product)).collect();
+        if let Some(fractions) = fractions.filter(|_| !product.is_one()) {
+            let agrees = |((above, below), image): (&(BigInt, BigInt), &BigInt)| {
+                (above - below * image).mod_floor(&own).is_zero()
+            };
+            if fractions.iter().zip(&images).all(agrees) {
+                let below = fractions.iter().fold(BigInt::one(), |lcm, (_, below)| lcm.lcm(below));
+                let polynomial = |(above, own): &(BigInt, BigInt)| match above.is_zero() {
+                    true => Vec::new(),
+                    false => vec![(Vec::new(), above * (&below / own))],
+                };
+                let polynomials = fractions.iter().map(polynomial).collect();
+                return Some(Coefficients { names: Vec::new(), polynomials }.reduced());
+            }
+        }
+        let inverse = product.modinv(&own)?;
+        for (residue, image) in residues.iter_mut().zip(&images) {
+            let missing = ((image - &*residue) * &inverse).mod_floor(&own);
+            *residue += &product * missing;
+        }
+        product *= own;
+    }
+    None
+}
+
+/// Finds the fraction with numerator and denominator below √(M/2) and this residue.
+fn fraction(residue: &BigInt, modulus: &BigInt) -> Option<(BigInt, BigInt)> {
+    let bound = (modulus / 2u32).sqrt();
+    let mut previous = (modulus.clone(), BigInt::ZERO);
+    let mut current = (residue.clone(), BigInt::one());
+    while current.0 > bound {
+        let quotient = &previous.0 / &current.0;
+        let next = (&previous.0 - &quotient * &current.0, &previous.1 - &quotient * &current.1);
+        (previous, current) = (current, next);
+    }
+    let (above, below) = if current.1.is_negative() { (-current.0, -current.1) } else { current };
+    (!below.is_zero() && below <= bound).then_some((above, below))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_fractions_come_from_several_primes() {
+        let modulus: BigInt = (BigInt::one() << 127u32) - 1u32;
+        let (above, below) =
+            (BigInt::from(-123_456_789_012_345i64), BigInt::from(987_654_321_989i64));
+        let inverse = below.modinv(&modulus).expect("prime to it");
+        let residue = (&above * inverse).mod_floor(&modulus);
+        assert_eq!(fraction(&residue, &modulus), Some((above, below)));
+    }
+
+    #[test]
+    fn coefficients_read_well() {
+        let names = vec!["a".to_string(), "b".to_string()];
+        let one = |a: [u32; 2], value: i64| (a.to_vec(), BigInt::from(value));
+        let polynomials =
+            vec![vec![one([1, 0], 2)], Vec::new(), vec![one([0, 0], -4), one([0, 2], -6)]];
+        let coefficients = Coefficients { names, polynomials }.reduced();
+        let functions = ["x".to_string(), "y".to_string(), "1".to_string()];
+        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a*x + (2 + 3*b²)");
+        let functions = ["1/x".to_string(), "y".to_string(), "1/z²".to_string()];
+        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a/x + (2 + 3*b²)/z²");
+    }
+}

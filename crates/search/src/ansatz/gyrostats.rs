@@ -1,0 +1,321 @@
+//! Constant rotors under which an integral persists.
+//!
+//! Let F be an integral of degree 2 in ω, and A(S) the contribution of a rotor S to ω', linear in
+//! S. F + F₁ + F₀, with F₁ and F₀ of degree 1 and 0 in ω, is an integral with S when
+//!
+//! ```text
+//! (∂F/∂ω, A(S)) + L_v F₁ = 0       linear in S and F₁
+//! (∂F₁/∂ω, A(S)) + L_v F₀ = 0      linear in the products of S's components and F₀
+//! ```
+//!
+//! For an F of degree 1 the first equation suffices, with F₁ of degree 0.
+
+use super::super::ask::{holds, judged, quoted};
+use super::super::products::Generators;
+use super::super::terms::{Term, read};
+use super::super::{Effort, Excluded, Found, Report, SearchError};
+use super::coefficients::Coefficients;
+use super::forces::{combination, with_constants, with_gyrostat};
+use super::monomials::Variables;
+use super::size::Size;
+use super::system::{Column, System};
+use super::{coordinates, factors, written};
+use liouville::case::Case;
+use liouville::graph::Expr;
+use liouville::mechanics::Model;
+use liouville::mechanics::calculus::Jet;
+
+/// Finds, for each known integral of degree 1 or 2, the rotors under which it persists.
+pub fn gyrostats(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let unit = ["[1,0,0]", "[0,1,0]", "[0,0,1]"];
+    let unit: Option<Vec<Model>> =
+        unit.iter().map(|rotor| with_gyrostat(&case.model, rotor)).collect();
+    let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
+        report.remark("no rotor is looked for: the system takes none, or has one".to_string());
+        return Ok(());
+    };
+    let generators = Generators::all(case, effort, report)?;
+    let own: Vec<(String, u32)> = generators
+        .each()
+        .filter(|(name, degree)| *name != "energy" && (1..=2).contains(degree))
+        .map(|(name, degree)| (name.to_string(), degree))
+        .collect();
+    if own.is_empty() {
+        report.remark("no integral of degree 1 or 2 is known that a rotor could keep".to_string());
+    }
+    let offered = ["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"].map(str::to_string);
+    let below = read(offered.to_vec(), &case.model.vocabulary);
+    for (name, degree) in own {
+        effort.halt.check()?;
+        let Some(integral) = read(vec![name], &case.model.vocabulary).pop() else { continue };
+        let rotors = Rotors {
+            case,
+            effort,
+            variables: &variables,
+            unit: &unit,
+            below: &below,
+            integral,
+            degree,
+        };
+        rotors.search(report, progress)?;
+    }
+    Ok(())
+}
+
+/// The search for the rotors that preserve one integral.
+struct Rotors<'a> {
+    case: &'a Case,
+    effort: &'a Effort,
+    variables: &'a Variables,
+    /// Models with a unit rotor along each axis.
+    unit: &'a [Model],
+    below: &'a [Term],
+    integral: Term,
+    /// Degree of the integral in the velocities.
+    degree: u32,
+}
+
+/// A direction of the rotor, with the terms added to the integral.
+struct Direction {
+    rotor: String,
+    linear: String,
+}
+
+impl Rotors<'_> {
+    fn search(
+        &self,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        let what = format!("rotors that keep {}", self.integral.text);
+        let system = self.linear()?;
+        let size = Size::of(&[(0..system.columns.len()).collect()]);
+        progress(&format!("{what}: {size}"));
+        if let Some(reason) = size.beyond(self.effort) {
+            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            return Ok(());
+        }
+        let Some((dimension, directions)) = self.directions(&system, report) else { return Ok(()) };
+        let told = self.tell(&directions, report)?;
+        let highest = self.effort.ansatz.positions;
+        let then = match (dimension, told) {
+            (0, _) => String::new(),
+            (n, told) if n == told => ": those told here".to_string(),
+            (_, told) => format!("; the terms of second order leave {told} of them"),
+        };
+        report.excluded.push(Excluded {
+            ansatz: format!("rotors that keep {} with terms of degree at most {highest} in the positions", self.integral.text),
+            dimension,
+            known: told,
+            error_log2: None,
+            theorem: format!(
+                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent directions of a rotor allow, to first order in it, \
+                 an integral {} + F₁ with F₁ of degree {} in the velocities and coefficients that are polynomials of degree at most {highest} in the positions over {}{then}.",
+                self.integral.text,
+                self.degree - 1,
+                self.below.iter().map(|term| term.text.as_str()).collect::<Vec<_>>().join(", ")
+            ),
+        });
+        Ok(())
+    }
+
+    /// Computes (∂F/∂ω, A(e_i)) for each axis.
+    fn gains(&self, jet: &Jet<'_, Expr>, function: &Term) -> Vec<Expr> {
+        let (state, field) = (jet.phase.state(), jet.phase.field());
+        let gain = |model: &Model| {
+            let beside = jet.phase.in_model(model, &state);
+            let moved = beside.field().iter().zip(field);
+            let direction: Vec<Expr> = moved.map(|(with, without)| *with - *without).collect();
+            jet.phase.lift(&direction).scalar(&function.formula).eps
+        };
+        self.unit.iter().map(gain).collect()
+    }
+
+    fn products(&self, degree: u32, below: &[Term]) -> impl Iterator<Item = Column> {
+        let highest = self.effort.ansatz.positions;
+        let monomials = self.variables.monomials(degree, 0..=highest);
+        (0..below.len()).flat_map(move |factor| {
+            let product = move |exponents| Column::Product { derivation: 0, factor, exponents };
+            monomials.clone().into_iter().map(product)
+        })
+    }
+
+    /// Sets up the equations of first order; the rotor's components are the last columns.
+    fn linear(&self) -> Result<System, SearchError> {
+        let over = factors(self.below, self.case);
+        let seed = self.effort.options.seed;
+        let mut given = Vec::new();
+        let mut system =
+            System::record(self.case, &coordinates(self.case), seed, |jet, recording| {
+                recording.derive(jet.along_field(), &self.variables.terms, &over);
+                let gains = self.gains(jet, &self.integral);
+                given = gains.into_iter().map(|gain| recording.give(gain)).collect();
+            })?;
+        let rotors = given.into_iter().map(Column::Given);
+        system.columns = self.products(self.degree - 1, self.below).chain(rotors).collect();
+        Ok(system)
+    }
+
+    /// Returns the number of directions to first order, and those whose coefficients are known.
+    fn directions(&self, system: &System, report: &mut Report) -> Option<(usize, Vec<Direction>)> {
+        let at = system.at(0, 0)?;
+        let first = system.columns.len() - 3;
+        let mut columns = system.distinct(&at, &(0..first).collect::<Vec<_>>())?;
+        columns.extend(first..first + 3);
+        let vectors = system.null_space(&at, &columns)?;
+        let mut found = Vec::new();
+        let mut dimension = 0;
+        for vector in &vectors {
+            let pairs = columns.iter().zip(vector).filter(|(_, entry)| **entry != 0);
+            let support: Vec<usize> = pairs.map(|(column, _)| *column).collect();
+            if support.last().is_none_or(|last| *last < first) {
+                continue;
+            }
+            dimension += 1;
+            let Some(coefficients) = Coefficients::of(system, &support) else {
+                report.remark(format!(
+                    "a rotor with {} terms has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                    support.len()
+                ));
+                continue;
+            };
+            let component = |axis: usize| {
+                let place = support.iter().position(|column| *column == first + axis);
+                place.map_or("0".to_string(), |place| coefficients.text(place))
+            };
+            let own: Vec<usize> = (0..support.len()).filter(|k| support[*k] < first).collect();
+            let text =
+                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
+            let linear = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
+            let rotor = format!("[{}, {}, {}]", component(0), component(1), component(2));
+            found.push(Direction { rotor, linear });
+        }
+        Some((dimension, found))
+    }
+
+    /// Finds terms of second order for each product of two directions; `None` where there are none.
+    fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<String>>, SearchError> {
+        if self.degree < 2 {
+            return Ok(vec![Some("0".to_string()); pairs(directions.len()).len()]);
+        }
+        let vocabulary = &self.case.model.vocabulary;
+        let linear = read(directions.iter().map(|own| own.linear.clone()).collect(), vocabulary);
+        let units: Vec<Model> = directions
+            .iter()
+            .filter_map(|own| with_gyrostat(&self.case.model, &own.rotor))
+            .collect();
+        let along = Rotors { unit: &units, integral: self.integral.clone(), ..*self };
+        let over = factors(self.below, self.case);
+        let seed = self.effort.options.seed;
+        let pairs = pairs(directions.len());
+        let mut given = Vec::new();
+        let mut system =
+            System::record(self.case, &coordinates(self.case), seed, |jet, recording| {
+                recording.derive(jet.along_field(), &self.variables.terms, &over);
+                let gains: Vec<Vec<Expr>> =
+                    linear.iter().map(|form| along.gains(jet, form)).collect();
+                given = pairs
+                    .iter()
+                    .map(|(k, l)| match k == l {
+                        true => recording.give(gains[*k][*k]),
+                        false => recording.give(gains[*k][*l] + gains[*l][*k]),
+                    })
+                    .collect();
+            })?;
+        let products: Vec<Column> = self.products(0, self.below).collect();
+        let first = products.len();
+        system.columns = products.into_iter().chain(given.into_iter().map(Column::Given)).collect();
+        let Some(at) = system.at(0, 0) else { return Ok(vec![None; pairs.len()]) };
+        let own: Vec<usize> = (0..first).collect();
+        let Some(distinct) = system.distinct(&at, &own) else { return Ok(vec![None; pairs.len()]) };
+        let solved = |pair: usize| -> Option<String> {
+            let kept = distinct.iter().copied().filter(|column| *column != own[0]);
+            let columns: Vec<usize> = kept.chain([first + pair]).collect();
+            let vector = system.null_space(&at, &columns)?.pop()?;
+            let used = columns.iter().zip(&vector).filter(|(_, entry)| **entry != 0);
+            let support: Vec<usize> = used.map(|(column, _)| *column).collect();
+            if support.last() != Some(&(first + pair)) {
+                return None;
+            }
+            let coefficients = Coefficients::of(&system, &support)?;
+            let last = support.len() - 1;
+            let own: Vec<usize> = (0..last).collect();
+            let text =
+                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
+            let sum = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
+            Some(match coefficients.text(last).as_str() {
+                "1" => sum,
+                below => format!("({sum})/({below})"),
+            })
+        };
+        Ok((0..pairs.len()).map(solved).collect())
+    }
+
+    /// Reports the integral with all directions that admit one, each with a free constant; returns
+    /// their number.
+    fn tell(&self, directions: &[Direction], report: &mut Report) -> Result<usize, SearchError> {
+        let mut kept: Vec<&Direction> = directions.iter().collect();
+        while !kept.is_empty() {
+            let own: Vec<Direction> = kept
+                .iter()
+                .map(|one| Direction { rotor: one.rotor.clone(), linear: one.linear.clone() })
+                .collect();
+            let quadratic = self.quadratic(&own)?;
+            let pairs = pairs(own.len());
+            // Drop a direction without a term for its square first, then the last one in a pair
+            // that fails.
+            let missing = pairs.iter().zip(&quadratic).filter(|(_, term)| term.is_none());
+            let worst = missing.map(|((k, l), _)| (k == l, *k.max(l))).max();
+            if let Some((_, index)) = worst {
+                kept.remove(index);
+                continue;
+            }
+            return self.prove(&own, &pairs, &quadratic, report);
+        }
+        Ok(0)
+    }
+
+    fn prove(
+        &self,
+        own: &[Direction],
+        pairs: &[(usize, usize)],
+        quadratic: &[Option<String>],
+        report: &mut Report,
+    ) -> Result<usize, SearchError> {
+        let (mut extended, names) = with_constants(self.case, "s", own.len());
+        let rotor = combination(names.iter().zip(own.iter().map(|one| &one.rotor)));
+        let linear = combination(names.iter().zip(own.iter().map(|one| &one.linear)));
+        let Some(model) = with_gyrostat(&extended.model, &rotor) else { return Ok(0) };
+        extended.model = model;
+        let mut formula = format!("{} + {linear}", self.integral.text);
+        for ((k, l), term) in pairs.iter().zip(quadratic) {
+            if let Some(term) = term.as_ref().filter(|term| *term != "0") {
+                formula.push_str(&format!(" + {}*{}*({term})", names[*k], names[*l]));
+            }
+        }
+        let claim = [format!("integral = {}", quoted(&formula))];
+        let Some(verdict) = judged(&extended, &claim, self.effort)?.into_iter().next() else {
+            return Ok(0);
+        };
+        if !holds(&verdict) {
+            report.remark(format!(
+                "found, but not proved ({}): {formula} with S = {rotor}",
+                verdict.verdict.word()
+            ));
+            return Ok(0);
+        }
+        let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
+        one.with = vec![("gyrostat", rotor)];
+        report.found.push(one);
+        Ok(own.len())
+    }
+}
+
+fn pairs(count: usize) -> Vec<(usize, usize)> {
+    (0..count).flat_map(|k| (k..count).map(move |l| (k, l))).collect()
+}

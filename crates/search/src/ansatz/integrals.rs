@@ -1,0 +1,396 @@
+//! Search for integrals that are polynomials in velocities and positions over a denominator of the
+//! geometry.
+
+use super::super::ask::{holds, judged, quoted};
+use super::super::integrals::tell;
+use super::super::products::Generators;
+use super::super::terms::{Term, read};
+use super::super::{Effort, Excluded, Report, SearchError, library};
+use super::characters::Characters;
+use super::coefficients::Coefficients;
+use super::monomials::Variables;
+use super::size::Size;
+use super::subspace::complement;
+use super::system::{Column, System};
+use super::{coordinates, factors};
+use liouville::case::Case;
+use liouville::mechanics::{Model, System as Motion};
+use liouville::verdict::Verdict;
+
+/// Increment of the degree in the positions.
+const STEP: u32 = 4;
+
+/// The outcome for a null vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// Proved and reported.
+    Told,
+    /// Proved, but not shown to be independent of the known integrals.
+    Dependent,
+    /// Not written, or not proved; a remark gives the reason.
+    Open,
+}
+
+/// Searches for integrals of the degrees at which the counts leave some, and where nothing was
+/// counted.
+pub fn integrals(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let Some(variables) = Variables::of(case) else {
+        if effort.ansatz.wanted {
+            report.remark("no global ansatz: the level has no standard monomials here".to_string());
+        }
+        return Ok(());
+    };
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
+    let mut generators = Generators::all(case, effort, report)?;
+    for degree in degrees {
+        let known = generators.products(degree, mixed);
+        let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
+        let dimension = count.map(|count| count.dimension);
+        if dimension.is_some_and(|dimension| dimension <= known) {
+            continue;
+        }
+        if !effort.ansatz.wanted {
+            if dimension.is_none() {
+                continue;
+            }
+            report.remark(format!(
+                "more integrals of degree {degree} are counted than known: --ansatz looks for them \
+                 among polynomials"
+            ));
+            return Ok(());
+        }
+        for below in denominators(&case.model) {
+            let mut search = Search {
+                case,
+                effort,
+                variables: &variables,
+                degree,
+                mixed,
+                below,
+                known: &mut generators,
+            };
+            if search.run(dimension, report, progress)? {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Lists denominators of polynomials, simple ones first: all that a pole of the field allows.
+fn denominators(model: &Model) -> Vec<Term> {
+    let mut texts = library::denominators(model);
+    let further: &[&str] = match &model.system {
+        Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
+        Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
+        _ => &[],
+    };
+    texts.extend(further.iter().map(|text| text.to_string()));
+    texts.extend(texts.clone().into_iter().skip(1).map(|text| format!("({text})²")));
+    read(texts, &model.vocabulary)
+}
+
+/// The search in one degree in the velocities, over one denominator.
+struct Search<'a> {
+    case: &'a Case,
+    effort: &'a Effort,
+    variables: &'a Variables,
+    degree: u32,
+    mixed: bool,
+    below: Term,
+    /// Known integrals, including those found so far.
+    known: &'a mut Generators,
+}
+
+impl Search<'_> {
+    /// Searches for integrals of increasing degree in the positions; returns whether all that were
+    /// counted are found.
+    fn run(
+        &mut self,
+        dimension: Option<usize>,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let highest = self.effort.ansatz.positions;
+        let mut steps: Vec<u32> = (1..).map(|k| k * STEP).take_while(|e| *e < highest).collect();
+        steps.push(highest);
+        for positions in steps {
+            if !self.step(positions, positions == highest, report, progress)? {
+                return Ok(true);
+            }
+            let products = self.known.products(self.degree, self.mixed);
+            if dimension.is_some_and(|dimension| products >= dimension) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Solves one ansatz; `false` if it is too large, or has no states.
+    fn step(
+        &mut self,
+        positions: u32,
+        is_last: bool,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<bool, SearchError> {
+        let Self { case, effort, variables, .. } = *self;
+        let seed = effort.options.seed;
+        let below = std::slice::from_ref(&self.below);
+        let over = factors(below, case);
+        let generators = &*self.known;
+        let names: Vec<String> = generators.names().map(str::to_string).collect();
+        let known = read(names, &case.model.vocabulary);
+        let mut outputs = Vec::new();
+        let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+            recording.derive(jet.along_field(), &variables.terms, &over);
+            outputs =
+                known.iter().map(|term| recording.give(jet.phase.scalar(&term.formula))).collect();
+        })?;
+        let lowest = if self.mixed { 0 } else { self.degree };
+        let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
+            .flat_map(|degree| variables.monomials(degree, 0..=positions))
+            .collect();
+        // The last columns are the free ones: of high degree, so that the others have low degree.
+        exponents.sort_by_key(|own| own.iter().sum::<u32>());
+        let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
+        system.columns = exponents.into_iter().map(product).collect();
+        let blocks = Characters::of(case, variables, &over, seed)?.blocks(&system.columns);
+        let size = Size::of(&blocks);
+        let what = self.words(positions);
+        progress(&format!("{what}: {size}"));
+        if let Some(reason) = size.beyond(effort) {
+            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            return Ok(false);
+        }
+        let Some(at) = system.at(0, 0) else { return Ok(false) };
+        let mut found: Vec<Vec<u64>> = Vec::new();
+        for block in &blocks {
+            self.effort.halt.check()?;
+            let Some(vectors) = system.null_space(&at, block) else { return Ok(false) };
+            found.extend(vectors.into_iter().map(|vector| {
+                let mut full = vec![0; system.columns.len()];
+                block.iter().zip(vector).for_each(|(column, entry)| full[*column] = entry);
+                full
+            }));
+        }
+        found.sort_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
+        let products: Vec<Vec<usize>> = generators
+            .exponents(self.degree, self.mixed)
+            .into_iter()
+            .map(|powers| {
+                let own = powers.iter().zip(&outputs);
+                own.flat_map(|(power, output)| vec![*output; *power as usize]).collect()
+            })
+            .collect();
+        let dimension = found.len();
+        let Some(new) = complement(&system, &at, &found, &products) else { return Ok(false) };
+        let mut outcomes = Vec::new();
+        for vector in &new {
+            outcomes.push(self.tell(&system, vector, report)?);
+        }
+        if is_last || outcomes.contains(&Outcome::Told) {
+            self.exclude(&what, dimension, &outcomes, report);
+        }
+        Ok(true)
+    }
+
+    /// Writes a null vector as a formula and has it judged.
+    fn tell(
+        &mut self,
+        system: &System,
+        vector: &[u64],
+        report: &mut Report,
+    ) -> Result<Outcome, SearchError> {
+        let Self { case, effort, .. } = *self;
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let Some(coefficients) = Coefficients::of(system, &support) else {
+            report.remark(format!(
+                "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                self.degree, support.len(), self.below.text
+            ));
+            return Ok(Outcome::Open);
+        };
+        let functions: Vec<String> =
+            support.iter().map(|k| self.monomial(&system.columns[*k])).collect();
+        let all: Vec<usize> = (0..support.len()).collect();
+        let sum = coefficients.sum(&all, &functions);
+        let formula = match self.below.text.as_str() {
+            "1" => sum,
+            below => format!("({sum})/({below})"),
+        };
+        let claim = [format!("integral = {}", quoted(&formula))];
+        let Some(verdict) = judged(case, &claim, effort)?.into_iter().next() else {
+            return Ok(Outcome::Open);
+        };
+        if !holds(&verdict) {
+            report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
+            return Ok(Outcome::Open);
+        }
+        let names: Vec<String> = self.known.names().map(quoted).chain([quoted(&formula)]).collect();
+        let claim = [format!("independent = [{}]", names.join(", "))];
+        let independence = judged(case, &claim, effort)?.into_iter().next();
+        match independence.map(|report| report.verdict) {
+            Some(Verdict::Proved) => {
+                let before = report.found.len();
+                tell(case, &formula, verdict, effort, report)?;
+                if report.found.len() == before {
+                    return Ok(Outcome::Dependent);
+                }
+                *self.known = Generators::all(case, effort, report)?;
+                Ok(Outcome::Told)
+            }
+            other => {
+                let word = other.map_or("undecided", |verdict| verdict.word());
+                report.remark(format!(
+                    "an integral, of which it is {word} that it is independent of what is told: {formula}"
+                ));
+                Ok(Outcome::Dependent)
+            }
+        }
+    }
+
+    fn monomial(&self, column: &Column) -> String {
+        match column {
+            Column::Product { exponents, .. } => self.variables.text(exponents),
+            Column::Given(_) => "1".to_string(),
+        }
+    }
+
+    fn words(&self, positions: u32) -> String {
+        let below = match self.below.text.as_str() {
+            "1" => String::new(),
+            below => format!(" over {below}"),
+        };
+        let degree = if self.mixed { "at most " } else { "" };
+        format!(
+            "polynomials of degree {degree}{} in the velocities and at most {positions} in the positions{below}",
+            self.degree
+        )
+    }
+
+    /// States a theorem: an upper bound on the integrals that the ansatz contains.
+    fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
+        let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
+        let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));
+        let generic =
+            "For generic values of the free parameters, and the given values of the fixed ones,";
+        let mut theorem = match dimension {
+            0 => format!("{generic} no integrals are {what}, constants aside."),
+            _ => format!(
+                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of what was known",
+                dimension - outcomes.len()
+            ),
+        };
+        for (count, words) in [
+            (many(Outcome::Told), "are told here"),
+            (dependent, "are not shown to be independent functions of these"),
+            (open, "are not known"),
+        ] {
+            if count > 0 {
+                theorem.push_str(&format!(", {count} {words}"));
+            }
+        }
+        if dimension > 0 {
+            theorem.push('.');
+        }
+        report.excluded.push(Excluded {
+            ansatz: what.to_string(),
+            dimension,
+            known: dimension - open,
+            error_log2: None,
+            theorem,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Ansatz;
+
+    fn effort(degree: u32, positions: u32) -> Effort {
+        Effort {
+            degree,
+            blind: true,
+            ansatz: Ansatz { wanted: true, positions, ..Ansatz::default() },
+            ..Effort::default()
+        }
+    }
+
+    fn searched(text: &str, effort: &Effort) -> Report {
+        let case = Case::parse(text, &[]).expect("a case");
+        let mut report = Report::default();
+        integrals(&case, effort, &mut report, &mut |_| {}).expect("it can be searched");
+        report
+    }
+
+    #[test]
+    fn integrals_are_found_without_terms() {
+        let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nR='1..3'\n\
+                    I='inertia(0.5..5)'\n";
+        let cases = [
+            (format!("{ball}[body]\nshape='ball'\n"), 4),
+            (
+                "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1.3\nR=3\nI=[2.6,1.2,1.8]\n\
+                 c=[0.7,-0.4,1.1]\n[body]\nshape='ball'\n"
+                    .to_string(),
+                4,
+            ),
+            (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
+            (
+                "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                 \"μ\"='1..2'\nI='m*B + μ*E'\n[body]\nshape='ellipsoid'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='flat-base'\n[parameters]\nm='0.5..2'\nk='0.2..1'\nz=0\n\
+                 I='inertia(0.5..5)'\n[body]\nheight='z'\n"
+                    .to_string(),
+                4,
+            ),
+            (
+                "title='x'\nsystem='rubber-sphere'\n[parameters]\nm=1\nR=1\nk=-2\nI=[1.37,2.91,3.73]\n\
+                 [body]\nshape='ball'\n"
+                    .to_string(),
+                8,
+            ),
+        ];
+        for (text, positions) in cases {
+            let report = searched(&text, &effort(2, positions));
+            let found: Vec<&str> = report.formulas("integral").collect();
+            assert_eq!(
+                found.len(),
+                1,
+                "{text}: {found:?} {:?} {:?}",
+                report.remarks,
+                report.excluded
+            );
+            assert_eq!(report.found[0].verdict, Verdict::Proved, "{text}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_there_is_nothing_and_what_is_too_large_is_left_out() {
+        let body = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+                    I='inertia(0.5..5)'\n[body]\nshape='ellipsoid'\n";
+        let report = searched(body, &effort(2, 4));
+        assert_eq!(report.found.len(), 0, "{:?}", report.found);
+        let fits = |one: &&Excluded| {
+            one.ansatz.contains("of degree 2 in") && one.ansatz.ends_with("over (γ,B*γ)")
+        };
+        let excluded = report.excluded.iter().find(fits).expect("the energy fits there");
+        assert_eq!((excluded.dimension, excluded.known), (1, 1), "{}", excluded.theorem);
+        let mut small = effort(2, 40);
+        small.ansatz.megabytes = 1;
+        let report = searched(body, &small);
+        assert!(report.remarks.iter().any(|one| one.contains("the bound is 1 MB")), "it is told");
+    }
+}

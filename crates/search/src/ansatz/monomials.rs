@@ -1,0 +1,159 @@
+//! Monomials in velocities and positions that are linearly independent on the level.
+//!
+//! On |γ| = 1, (ω,γ) = 0 the leading monomials of the ideal are γ₃², ω₃γ₃ and ω₃γ₂². The monomials
+//! divisible by none of them are a basis: ω₃ does not occur and γ₃ at most once, or ω₃ occurs, γ₃
+//! does not, and γ₂ at most once.
+
+use crate::series::exponents;
+use crate::terms::{Term, read};
+use liouville::case::Case;
+use liouville::mechanics::{Chart, Role, System};
+
+/// The relations of the level, by which some monomials are redundant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ideal {
+    /// No relations.
+    None,
+    /// γ² = 1 in the last three variables.
+    Sphere,
+    /// γ² = 1 and (ω,γ) = 0 in six variables.
+    Rolling,
+}
+
+/// The variables of a polynomial ansatz: the components of the state.
+#[derive(Clone, Debug)]
+pub struct Variables {
+    /// Components of the state as formulas.
+    pub terms: Vec<Term>,
+    /// Whether each of them is a velocity.
+    is_velocity: Vec<bool>,
+    ideal: Ideal,
+}
+
+impl Variables {
+    /// Returns the components of a case's state; `None` for a level without known standard
+    /// monomials.
+    pub fn of(case: &Case) -> Option<Self> {
+        let model = &case.model;
+        if !model.extension.is_empty() {
+            return None;
+        }
+        let (is_velocity, ideal) = match (&model.system, &case.chart) {
+            (System::Rubber(_), Chart::Rolling) => (first(3, 6), Ideal::Rolling),
+            (System::Ball(_), Chart::Sphere) => (first(3, 6), Ideal::Sphere),
+            (System::FlatBase(_), _) => (first(2, 4), Ideal::None),
+            (System::Lagrangian(lagrangian), _) if model.level.is_empty() => {
+                let roles = lagrangian.roles.iter().zip(&model.state);
+                let own = roles.flat_map(|(role, variable)| {
+                    let moves = matches!(role, Role::Velocity | Role::Multiplier);
+                    vec![moves; variable.len()]
+                });
+                (own.collect(), Ideal::None)
+            }
+            (System::Field(_) | System::Hamiltonian(_), _) if model.level.is_empty() => {
+                (vec![false; model.dimension()], Ideal::None)
+            }
+            _ => return None,
+        };
+        let names = (0..model.dimension()).map(|k| model.component_name(k)).collect();
+        let terms = read(names, &model.vocabulary);
+        (terms.len() == model.dimension()).then_some(Self { terms, is_velocity, ideal })
+    }
+
+    /// Number of variables.
+    pub fn count(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether some variable is a velocity.
+    pub fn have_velocities(&self) -> bool {
+        self.is_velocity.contains(&true)
+    }
+
+    /// Lists the monomials of a degree in the velocities and of some degrees in the positions, low
+    /// degrees in the positions first.
+    pub fn monomials(
+        &self,
+        degree: u32,
+        positions: std::ops::RangeInclusive<u32>,
+    ) -> Vec<Vec<u32>> {
+        let velocities = self.is_velocity.iter().filter(|own| **own).count();
+        if velocities == 0 && degree > 0 {
+            return Vec::new();
+        }
+        let moving = match velocities {
+            0 => vec![Vec::new()],
+            count => exponents(count, degree),
+        };
+        let mut found = Vec::new();
+        for total in positions {
+            for place in exponents(self.count() - velocities, total) {
+                for motion in &moving {
+                    let (mut w, mut q) = (motion.iter(), place.iter());
+                    let exponent = |own: &bool| if *own { w.next() } else { q.next() };
+                    let all: Vec<u32> =
+                        self.is_velocity.iter().filter_map(exponent).copied().collect();
+                    if self.is_standard(&all) {
+                        found.push(all);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn is_standard(&self, exponents: &[u32]) -> bool {
+        match (self.ideal, exponents) {
+            (Ideal::Sphere, [.., z]) => *z < 2,
+            (Ideal::Rolling, [_, _, 0, _, _, z]) => *z < 2,
+            (Ideal::Rolling, [_, _, _, _, y, z]) => *z == 0 && *y < 2,
+            _ => true,
+        }
+    }
+
+    /// Writes a monomial.
+    pub fn text(&self, exponents: &[u32]) -> String {
+        let names: Vec<&str> = self.terms.iter().map(|term| term.text.as_str()).collect();
+        power_product(&names, exponents)
+    }
+}
+
+fn first(velocities: usize, all: usize) -> Vec<bool> {
+    (0..all).map(|k| k < velocities).collect()
+}
+
+/// Writes Π x^a; `1` for the empty product.
+pub fn power_product(names: &[&str], exponents: &[u32]) -> String {
+    let used = names.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
+    let powers: Vec<String> = used
+        .map(|(name, exponent)| match exponent {
+            1 => name.to_string(),
+            2 => format!("{name}²"),
+            3 => format!("{name}³"),
+            n => format!("{name}^{n}"),
+        })
+        .collect();
+    if powers.is_empty() { "1".to_string() } else { powers.join("*") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn variables(text: &str) -> Variables {
+        let case = Case::parse(text, &[]).expect("a case");
+        Variables::of(&case).expect("it has standard monomials")
+    }
+
+    #[test]
+    fn standard_monomials_are_a_basis_on_the_level() {
+        let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1\nR=1\nI=[1,2,2.5]\n[body]\nshape='ball'\n";
+        let variables = variables(ball);
+        // Functions on the sphere up to degree e: (e + 1)²; forms linear in ω are pairs of them
+        // minus the multiples of γ.
+        assert_eq!(variables.monomials(0, 0..=4).len(), 25);
+        assert_eq!(variables.monomials(2, 0..=4).len(), 102, "as a table of sizes has it");
+        assert_eq!(variables.text(&[1, 0, 0, 2, 0, 1]), "ω1*γ1²*γ3");
+        assert_eq!(variables.text(&[0; 6]), "1");
+    }
+}

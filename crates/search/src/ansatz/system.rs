@@ -1,0 +1,364 @@
+//! Linear systems whose columns are derivatives of functions, and whose rows are random states
+//! modulo a prime, for one choice of the parameters.
+//!
+//! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
+//! and all columns follow from them.
+
+use num_dual::Dual;
+
+use super::super::SearchError;
+use super::super::echelon::Echelon;
+use super::super::local::{random, sign};
+use super::super::terms::{Term, recorded};
+use liouville::case::Case;
+use liouville::claim::Place;
+use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::{Draw, Phase};
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::number::rational::Rational;
+use liouville::proof::Chance;
+use liouville::scalar::Scalar;
+use liouville::verdict::Sampler;
+
+/// Number of lanes of the evaluation.
+const LANES: usize = 8;
+/// Number of successive dependent rows after which the rank is accepted: accidents have probability
+/// p⁻⁸.
+const SPARE: usize = 8;
+/// Largest number of choices of parameters tried until some state has a value, roots included.
+const POINTS: usize = 64;
+
+/// A column of a linear system.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// An output of the recording.
+    Given(usize),
+    /// The derivative of a factor times a product of powers of the variables.
+    Product {
+        /// Index of the direction.
+        derivation: usize,
+        /// Index of the factor.
+        factor: usize,
+        /// One exponent for each variable.
+        exponents: Vec<u32>,
+    },
+}
+
+/// Position of x, dx, W and dW of one direction among the outputs.
+#[derive(Clone, Copy, Debug)]
+struct Derivation {
+    start: usize,
+    variables: usize,
+    factors: usize,
+}
+
+/// Values recorded at a state.
+#[derive(Default)]
+pub struct Recording {
+    outputs: Vec<Expr>,
+    derivations: Vec<Derivation>,
+}
+
+impl Recording {
+    /// Adds an output and returns its index.
+    pub fn give(&mut self, value: Expr) -> usize {
+        self.outputs.push(value);
+        self.outputs.len() - 1
+    }
+
+    /// Adds variables and factors with their derivatives along a direction; returns its index.
+    pub fn derive(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        variables: &[Term],
+        factors: &[Term],
+    ) -> usize {
+        let start = self.outputs.len();
+        for terms in [variables, factors] {
+            let values: Vec<Dual<Expr>> =
+                terms.iter().map(|term| moved.scalar(&term.formula)).collect();
+            self.outputs.extend(values.iter().map(|value| value.re));
+            self.outputs.extend(values.iter().map(|value| value.eps));
+        }
+        let (variables, factors) = (variables.len(), factors.len());
+        self.derivations.push(Derivation { start, variables, factors });
+        self.derivations.len() - 1
+    }
+}
+
+impl Recording {
+    /// Adds variables, which grow at the rate `growth` beside; gives the direction's number. The
+    /// derivative of x^a is v(x^a) + growth·x^a.
+    pub fn derive_growing(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        variables: &[Term],
+        growth: Expr,
+    ) -> usize {
+        let direction = self.derive(moved, variables, &[]);
+        self.outputs.extend([Expr::rational(&Rational::from(1)), growth]);
+        self.derivations[direction].factors = 1;
+        direction
+    }
+}
+
+/// A prime, and values for the draws of the parameters.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// Prime field.
+    pub modulus: Modulus,
+    parameters: Vec<u64>,
+    /// Values of the parameters' coordinates.
+    pub coordinates: Vec<u64>,
+}
+
+/// A linear system: its columns, and the tape that computes its rows.
+pub struct System {
+    /// Columns of the unknowns.
+    pub columns: Vec<Column>,
+    tape: Tape,
+    inputs: usize,
+    parameters: Vec<Draw>,
+    draws: Vec<Draw>,
+    derivations: Vec<Derivation>,
+    /// Number of outputs before the coordinates of the parameters.
+    own: usize,
+    coordinates: Vec<String>,
+    seed: u64,
+}
+
+impl System {
+    /// Records the values that `make` needs at a state of the level; the columns are added later.
+    pub fn record(
+        case: &Case,
+        coordinates: &[Term],
+        seed: u64,
+        make: impl FnOnce(&Jet<'_, Expr>, &mut Recording),
+    ) -> Result<Self, SearchError> {
+        let (graph, (recording, own)) = recorded(case, |jet| {
+            let mut recording = Recording::default();
+            make(jet, &mut recording);
+            let own = recording.outputs.len();
+            let values = coordinates.iter().map(|term| jet.phase.scalar(&term.formula));
+            recording.outputs.extend(values);
+            (recording, own)
+        })?;
+        let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+        if sampler.is_numerical() {
+            return Err(SearchError::NoChart);
+        }
+        let fixed = vec![None; sampler.recipes().len()];
+        let (graph, outputs) = sampler.compose(&graph, &[recording.outputs], &fixed)?;
+        let mut system = Self {
+            columns: Vec::new(),
+            tape: Tape::new(&graph, &outputs.concat()),
+            inputs: graph.inputs(),
+            parameters: case.model.parameter_draws(),
+            draws: sampler.recipes().to_vec(),
+            derivations: recording.derivations,
+            own,
+            coordinates: Vec::new(),
+            seed,
+        };
+        system.coordinates = coordinates.iter().map(|term| term.text.clone()).collect();
+        Ok(system)
+    }
+
+    /// Returns the names of the parameters' coordinates.
+    pub fn coordinates(&self) -> &[String] {
+        &self.coordinates
+    }
+
+    /// Makes choice `index` of the parameters, modulo the prime with index `prime`; `None` where no
+    /// state has a value.
+    pub fn at(&self, prime: u64, index: u64) -> Option<At> {
+        let modulus = Chance::new(self.seed, 60 + prime).prime(&[3, 5], &[2, 3]);
+        let mut chance = Chance::new(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15), 58);
+        for _ in 0..POINTS {
+            let parameters = random(&self.parameters, &modulus, &mut chance);
+            let mut at = At { modulus, parameters, coordinates: Vec::new() };
+            let mut seen = None;
+            self.visit(&at, index, 4, &mut |values| {
+                seen = Some(values[self.own..].to_vec());
+                false
+            });
+            if let Some(coordinates) = seen {
+                at.coordinates = coordinates;
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    /// Passes the outputs at random states that have values to `look` until it has seen enough;
+    /// `false` if it has not within the limit of blocks.
+    fn visit(
+        &self,
+        at: &At,
+        stream: u64,
+        blocks: usize,
+        look: &mut dyn FnMut(&[u64]) -> bool,
+    ) -> bool {
+        let mut chance = Chance::new(self.seed.wrapping_add(stream), 59);
+        let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; LANES]));
+        for _ in 0..blocks {
+            let inputs: Vec<[u64; LANES]> = (0..self.inputs)
+                .map(|input| match at.parameters.get(input) {
+                    Some(value) => [*value; LANES],
+                    None if matches!(self.draws.get(input), Some(Draw::Sign)) => {
+                        std::array::from_fn(|_| sign(&at.modulus, &mut chance))
+                    }
+                    None => std::array::from_fn(|_| chance.element(&at.modulus)),
+                })
+                .collect();
+            evaluator.run(&inputs);
+            let values: Vec<[u64; LANES]> = evaluator.outputs().copied().collect();
+            for lane in 0..LANES {
+                let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
+                if !row.contains(&UNDEFINED) && !look(&row) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Finds a basis of the relations between some columns, each vector being 1 at a free column, 0
+    /// at the other free ones and at all columns after its own; `None` if too few states have
+    /// values.
+    pub fn null_space(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
+        self.relations(at, columns.len(), &mut |values| {
+            self.row(&at.modulus, values, columns, &|column, powers| {
+                powers.derivative(&at.modulus, column)
+            })
+        })
+    }
+
+    /// A basis of the relations between the functions themselves, as
+    /// [`null_space`](Self::null_space) has it between their derivatives.
+    pub fn dependences(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
+        let m = &at.modulus;
+        self.relations(at, columns.len(), &mut |values| {
+            self.row(m, values, columns, &|column, powers| powers.value(m, column))
+        })
+    }
+
+    /// Selects the columns whose functions do not depend on earlier ones; `None` if too few states
+    /// have values.
+    pub fn distinct(&self, at: &At, columns: &[usize]) -> Option<Vec<usize>> {
+        let relations = self.dependences(at, columns)?;
+        let last = |own: &Vec<u64>| own.iter().rposition(|entry| *entry != 0);
+        let dependent: Vec<usize> = relations.iter().filter_map(last).collect();
+        let kept = (0..columns.len()).filter(|k| !dependent.contains(k));
+        Some(kept.map(|k| columns[k]).collect())
+    }
+
+    /// Finds a basis of the relations between combinations of the functions, and products of
+    /// outputs.
+    pub fn combination_relations(
+        &self,
+        at: &At,
+        combinations: &[Vec<u64>],
+        further: &[Vec<usize>],
+    ) -> Option<Vec<Vec<u64>>> {
+        let m = &at.modulus;
+        let columns: Vec<usize> = (0..self.columns.len()).collect();
+        self.relations(at, combinations.len() + further.len(), &mut |values| {
+            let all = self.row(m, values, &columns, &|column, powers| powers.value(m, column))?;
+            let sum =
+                |c: &Vec<u64>| c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
+            let product =
+                |p: &Vec<usize>| p.iter().fold(m.one(), |product, k| m.mul(product, values[*k]));
+            Some(combinations.iter().map(sum).chain(further.iter().map(product)).collect())
+        })
+    }
+
+    fn relations(
+        &self,
+        at: &At,
+        width: usize,
+        row: &mut dyn FnMut(&[u64]) -> Option<Vec<u64>>,
+    ) -> Option<Vec<Vec<u64>>> {
+        let mut echelon = Echelon::new(width, at.modulus);
+        let mut dependent = 0;
+        let enough = self.visit(at, 1, 64 * (width + SPARE), &mut |values| {
+            if let Some(row) = row(values) {
+                dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+            }
+            dependent < SPARE
+        });
+        enough.then(|| echelon.null_space())
+    }
+
+    /// Computes the entries of some columns at a state; `None` where a variable is 0.
+    fn row(
+        &self,
+        m: &Modulus,
+        values: &[u64],
+        columns: &[usize],
+        entry: &dyn Fn(&Column, &Powers<'_>) -> u64,
+    ) -> Option<Vec<u64>> {
+        let powers: Option<Vec<Powers<'_>>> =
+            self.derivations.iter().map(|own| Powers::of(m, own, values, self.highest())).collect();
+        let powers = powers?;
+        let one = |index: &usize| match &self.columns[*index] {
+            Column::Given(output) => values[*output],
+            column @ Column::Product { derivation, .. } => entry(column, &powers[*derivation]),
+        };
+        Some(columns.iter().map(one).collect())
+    }
+
+    fn highest(&self) -> u32 {
+        let exponents = self.columns.iter().flat_map(|column| match column {
+            Column::Given(_) => &[],
+            Column::Product { exponents, .. } => exponents.as_slice(),
+        });
+        exponents.max().copied().unwrap_or(0)
+    }
+}
+
+/// Powers and logarithmic derivatives of the variables at a state, with the factors.
+struct Powers<'v> {
+    powers: Vec<Vec<u64>>,
+    growth: Vec<u64>,
+    factors: &'v [u64],
+    slopes: &'v [u64],
+}
+
+impl<'v> Powers<'v> {
+    fn of(m: &Modulus, own: &Derivation, values: &'v [u64], highest: u32) -> Option<Self> {
+        let (x, rest) = values[own.start..].split_at(own.variables);
+        let (dx, rest) = rest.split_at(own.variables);
+        let (factors, rest) = rest.split_at(own.factors);
+        if x.contains(&0) {
+            return None;
+        }
+        let growth = x.iter().zip(dx).map(|(x, dx)| m.mul(*dx, m.inverse(*x))).collect();
+        let powers = |x: &u64| {
+            std::iter::successors(Some(m.one()), |power| Some(m.mul(*power, *x)))
+                .take(highest as usize + 1)
+                .collect()
+        };
+        let powers = x.iter().map(powers).collect();
+        Some(Self { powers, growth, factors, slopes: &rest[..own.factors] })
+    }
+
+    fn monomial(&self, m: &Modulus, exponents: &[u32]) -> u64 {
+        let powers = self.powers.iter().zip(exponents).map(|(row, a)| row[*a as usize]);
+        powers.fold(m.one(), |product, power| m.mul(product, power))
+    }
+
+    fn derivative(&self, m: &Modulus, column: &Column) -> u64 {
+        let Column::Product { factor, exponents, .. } = column else { return 0 };
+        let used = self.growth.iter().zip(exponents).filter(|(_, a)| **a > 0);
+        let growth = used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
+        let slope = m.add(m.mul(self.factors[*factor], growth), self.slopes[*factor]);
+        m.mul(self.monomial(m, exponents), slope)
+    }
+
+    fn value(&self, m: &Modulus, column: &Column) -> u64 {
+        let Column::Product { factor, exponents, .. } = column else { return 0 };
+        m.mul(self.monomial(m, exponents), self.factors[*factor])
+    }
+}

@@ -1,0 +1,57 @@
+//! Validity of theorems obtained modulo primes: roots and moduli must be on the same branches there
+//! as at real states.
+
+use super::ansatz::Hamiltonians;
+use super::terms::recorded;
+use super::{Effort, Report, SearchError};
+use liouville::case::Case;
+use liouville::claim::Place;
+use liouville::formula::Formula;
+use liouville::proof::Prover;
+use liouville::verdict::Sampler;
+
+/// Withdraws all theorems if the formulas of a case contain moduli, or roots that depend on each
+/// other: modulo a prime these have another sign at half of all points.
+pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+    let counts = report.counts.len() + report.multipliers.len();
+    if counts + report.excluded.len() + report.conditions.len() == 0 || are_true(case, effort)? {
+        return Ok(());
+    }
+    report.counts.clear();
+    report.multipliers.clear();
+    report.excluded.clear();
+    report.conditions.clear();
+    report.remark(
+        "nothing is counted or excluded: the formulas contain a modulus, or a root that depends on \
+         others; write what it is on the given ranges, as x for |x| or √(x²) where x > 0"
+            .to_string(),
+    );
+    Ok(())
+}
+
+/// Whether all formulas that enter theorems agree modulo primes with their values at real states.
+pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+    let sampler = Sampler::new(case, &Place::level(&case.model), effort.options.seed)?;
+    if sampler.is_numerical() {
+        return Ok(true);
+    }
+    let given = match &effort.poisson {
+        Some(Hamiltonians::Given(text)) => Some(text),
+        Some(Hamiltonians::Known) | None => None,
+    };
+    let texts = effort.terms.iter().chain(given);
+    let typed: Vec<Formula> =
+        texts.filter_map(|text| Formula::parse(text, &case.model.vocabulary).ok()).collect();
+    let (graph, outputs) = recorded(case, |jet| {
+        let mut outputs = jet.phase.field().to_vec();
+        for formula in &typed {
+            outputs.extend(jet.phase.evaluate(formula).components());
+        }
+        outputs
+    })?;
+    let fixed = vec![None; sampler.recipes().len()];
+    let (graph, groups) = sampler.compose(&graph, &[outputs], &fixed)?;
+    let (extents, sources) = (sampler.extents(), sampler.sources());
+    let prover = Prover { sources: &sources, extents: &extents, seed: effort.options.seed };
+    Ok(prover.is_true_to_branches(&graph, &groups.concat())?)
+}

@@ -1,0 +1,34 @@
+//! Parameters of a case as coordinates: the components that vary, by name.
+
+use crate::terms::{Term, read};
+use liouville::case::Case;
+use liouville::formula::Type;
+use liouville::mechanics::Origin;
+
+/// Lists the components of the drawn parameters, including constant and equal ones.
+pub fn components(case: &Case) -> Vec<Term> {
+    let model = &case.model;
+    let drawn = model.parameters.iter().filter(|p| matches!(p.origin, Origin::Free(_)));
+    let texts = drawn.flat_map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Type::Scalar => vec![name.clone()],
+            Type::Vector(_) | Type::Matrix(..) if parameter.kind.size() > 9 => {
+                let indices = parameter.kind.indices().into_iter();
+                indices.map(|index| format!("{name}{index}")).collect()
+            }
+            Type::Vector(length) => (1..=length).map(|i| format!("{name}{i}")).collect(),
+            Type::Matrix(rows, columns) => {
+                let upper = rows == columns;
+                let first = move |i: usize| if upper { i } else { 1 };
+                let pairs = (1..=rows).flat_map(|i| (first(i)..=columns).map(move |j| (i, j)));
+                let entry = |(i, j)| match name == "I" && i == j {
+                    true => format!("I{i}"),
+                    false => format!("{name}{i}{j}"),
+                };
+                pairs.map(entry).collect()
+            }
+        }
+    });
+    read(texts.collect(), &model.vocabulary)
+}

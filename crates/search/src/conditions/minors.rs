@@ -1,0 +1,234 @@
+//! Values of one parameter for which there are more integrals than in general.
+//!
+//! The equations for the Taylor coefficients of an integral have a minor that is not 0 in general.
+//! As a function of one parameter it is a fraction; a value with more integrals makes every such
+//! minor vanish, so it is a root of the common divisor of minors at several points. All such values
+//! are found, including complex ones; those in the field are confirmed by a count.
+
+use super::polynomial::{Polynomial, Ring};
+use crate::expansion::Taylor;
+use crate::jets::{Asked, Equations, RowKey};
+use crate::local::Local;
+use crate::{Effort, SearchError};
+use liouville::case::Case;
+use liouville::mechanics::{Draw, Origin, Recipe};
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use liouville::proof::{Chance, reconstruct};
+
+/// Number of points whose minors are compared.
+const POINTS: usize = 2;
+/// Smallest number of values of a minor, followed by the largest.
+const LEAST: usize = 64;
+const MOST: usize = 2048;
+/// Number of draws of a point, or of a value, until the field has a series there.
+const DRAWS: usize = 64;
+/// Number of choices of the other parameters under which a relation must persist.
+const ROUNDS: u64 = 2;
+
+/// Lists the parameters drawn from a range: name, and index of the draw.
+pub fn scalars(case: &Case) -> Vec<(String, usize)> {
+    let mut draw = 0;
+    let mut found = Vec::new();
+    for parameter in &case.model.parameters {
+        let Origin::Free(recipe) = &parameter.origin else { continue };
+        if matches!(recipe, Recipe::Scalar(Draw::Within(_) | Draw::Of(..))) {
+            found.push((parameter.name.clone(), draw));
+        }
+        draw += recipe.draws().len();
+    }
+    found
+}
+
+/// Finds the relations under which there are more integrals of a degree, for one parameter; the
+/// others are random small integers.
+pub fn relations(
+    case: &Case,
+    local: &Local,
+    asked: Asked,
+    (name, draw): &(String, usize),
+    effort: &Effort,
+) -> Result<Vec<String>, SearchError> {
+    let others = scalars(case);
+    let mut rounds = Vec::new();
+    for round in 0..ROUNDS {
+        let mut search = Minors::new(local, asked, *draw, round, effort);
+        let values = search.special_values()?;
+        rounds.push((values, search.parameters.clone(), search.modulus));
+        if rounds[0].0.is_empty() {
+            return Ok(Vec::new());
+        }
+    }
+    let spelled = |round: usize| -> Vec<String> {
+        let (values, parameters, modulus) = &rounds[round];
+        let m = modulus;
+        let mut texts = Vec::new();
+        for value in values {
+            let mut add = |image: u64, text: &dyn Fn(String) -> String| {
+                if let Some(rational) = reconstruct(image, m).filter(is_simple) {
+                    texts.push(text(rational.to_string()));
+                }
+            };
+            add(*value, &|rational| format!("{name} = {rational}"));
+            for (other, place) in others.iter().filter(|(_, place)| place != draw && *value != 0) {
+                let y = parameters[*place];
+                add(m.mul(*value, y), &|rational| format!("{name}*{other} = {rational}"));
+                add(m.mul(*value, m.inverse(y)), &|rational| {
+                    format!("{name}/{other} = {rational}")
+                });
+                add(m.sub(*value, y), &|rational| format!("{name} − {other} = {rational}"));
+                add(m.add(*value, y), &|rational| format!("{name} + {other} = {rational}"));
+            }
+        }
+        texts
+    };
+    let again: Vec<Vec<String>> = (1..rounds.len()).map(spelled).collect();
+    let mut found: Vec<String> = spelled(0);
+    found.retain(|text| again.iter().all(|texts| texts.contains(text)));
+    found.dedup();
+    if found.is_empty() {
+        let count = rounds[0].0.len();
+        found.push(format!(
+            "{count} values of {name}, in no simple relation to one other parameter"
+        ));
+    }
+    Ok(found)
+}
+
+/// Whether a number is small enough to be the constant of a relation rather than an accident.
+fn is_simple(value: &Rational) -> bool {
+    value.small_parts().is_some_and(|(n, d)| n.abs() <= 8 && d <= 8)
+}
+
+/// Minors as functions of one draw of the parameters.
+struct Minors<'l> {
+    taylor: Taylor<'l>,
+    effort: &'l Effort,
+    asked: Asked,
+    draw: usize,
+    parameters: Vec<u64>,
+    modulus: Modulus,
+    chance: Chance,
+}
+
+impl<'l> Minors<'l> {
+    fn new(local: &'l Local, asked: Asked, draw: usize, round: u64, effort: &'l Effort) -> Self {
+        let mut chance = Chance::new(effort.options.seed + round, 46);
+        let modulus = chance.prime(&[], &[]);
+        let small = |chance: &mut Chance| 2 + modulus.to_integer(chance.element(&modulus)) % 97;
+        let parameters = local.parameters(&modulus, &mut chance);
+        let parameters = parameters
+            .into_iter()
+            .zip(&local.draws)
+            .map(|(listed, draw)| match draw {
+                Draw::OneOf(_) => listed,
+                Draw::Sign => modulus.one(),
+                Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut chance)),
+            })
+            .collect();
+        let taylor = Taylor::new(local, modulus, 2 * asked.degree + 2);
+        Self { taylor, effort, asked, draw, parameters, modulus, chance }
+    }
+
+    /// Sets up the equations at a value of the parameter; `None` where the field has no series.
+    fn equations(
+        &mut self,
+        value: u64,
+        positions: &[u64],
+    ) -> Result<Option<Equations>, SearchError> {
+        let mut parameters = self.parameters.clone();
+        parameters[self.draw] = value;
+        let expansion = self.taylor.at(&parameters, positions, &mut self.chance)?;
+        Ok(expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0)))
+    }
+
+    /// Finds the values at which there are more integrals.
+    fn special_values(&mut self) -> Result<Vec<u64>, SearchError> {
+        let ring = Ring(self.modulus);
+        let mut common: Polynomial = Vec::new();
+        let mut dimension = usize::MAX;
+        for _ in 0..POINTS {
+            let (numerator, own) = self.minor()?;
+            common = ring.common(&common, &numerator);
+            dimension = dimension.min(own);
+        }
+        let candidates = ring.roots(&common, &mut self.chance);
+        let mut found = Vec::new();
+        for value in candidates {
+            for _ in 0..DRAWS {
+                let positions = self.taylor.positions(&mut self.chance);
+                let Ok(Some(equations)) = self.equations(value, &positions) else { continue };
+                if equations.dimension(&equations.solved(&self.effort.halt)?.0) > dimension {
+                    found.push(value);
+                }
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Finds the numerator of a maximal minor at a random point, and the number of integrals in
+    /// general.
+    fn minor(&mut self) -> Result<(Polynomial, usize), SearchError> {
+        let ring = Ring(self.modulus);
+        for _ in 0..DRAWS {
+            let positions = self.taylor.positions(&mut self.chance);
+            let value = self.chance.element(&self.modulus);
+            let Some(equations) = self.equations(value, &positions)? else { continue };
+            let (echelon, rows) = equations.solved(&self.effort.halt)?;
+            let dimension = equations.dimension(&echelon);
+            let columns: Vec<usize> =
+                (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();
+            let mut values = Vec::new();
+            let (mut wanted, mut tries) = (LEAST, 0);
+            while wanted <= MOST {
+                while values.len() < wanted && tries < DRAWS * wanted {
+                    tries += 1;
+                    self.effort.halt.check()?;
+                    let value = self.chance.element(&self.modulus);
+                    if let Some(equations) = self.equations(value, &positions)? {
+                        values.push((value, self.determinant(&equations, &rows, &columns)));
+                    }
+                }
+                if let Some((numerator, _)) = ring.fraction(&values) {
+                    return Ok((numerator, dimension));
+                }
+                wanted *= 2;
+            }
+            break;
+        }
+        Err(SearchError::NoFraction)
+    }
+
+    /// Computes the determinant of some rows and columns.
+    fn determinant(&self, equations: &Equations, rows: &[RowKey], columns: &[usize]) -> u64 {
+        let m = self.modulus;
+        let mut matrix: Vec<Vec<u64>> = equations
+            .rows()
+            .filter(|(key, _)| rows.contains(key))
+            .map(|(_, row)| columns.iter().map(|column| row[*column]).collect())
+            .collect();
+        if matrix.len() < columns.len() {
+            return 0;
+        }
+        let mut determinant = m.one();
+        for k in 0..columns.len() {
+            let Some(pivot) = (k..matrix.len()).find(|row| matrix[*row][k] != 0) else { return 0 };
+            if pivot != k {
+                matrix.swap(pivot, k);
+                determinant = m.sub(0, determinant);
+            }
+            let (above, below) = matrix.split_at_mut(k + 1);
+            let row = &above[k];
+            determinant = m.mul(determinant, row[k]);
+            let inverse = m.inverse(row[k]);
+            for other in below.iter_mut().filter(|other| other[k] != 0) {
+                let factor = m.mul(other[k], inverse);
+                for (entry, pivot) in other[k..].iter_mut().zip(&row[k..]) {
+                    *entry = m.sub(*entry, m.mul(factor, *pivot));
+                }
+            }
+        }
+        determinant
+    }
+}

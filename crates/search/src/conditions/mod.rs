@@ -1,0 +1,198 @@
+//! Polynomial conditions on the parameters under which a claim that fails in general holds.
+//!
+//! ```text
+//! line      points on a random line of parameters where the residual vanishes for all states
+//! variety   the equations of least degree at the points found on many lines
+//! small     conditions of codimension two, met by chance in small fields
+//! minors    values of one parameter for which there are more integrals
+//! ```
+//!
+//! A condition of codimension one meets almost every line (over the closure of the field), so that
+//! without a meeting point there is none; equations come from points modulo one prime, and are
+//! confirmed at more points than they have coefficients.
+
+mod coordinates;
+mod line;
+mod minors;
+mod polynomial;
+mod residual;
+mod small;
+mod variety;
+
+use serde::Serialize;
+
+use super::jets::Asked;
+use super::{Effort, Report, SearchError};
+pub use coordinates::components;
+use line::{Along, Lines};
+use liouville::case::{Case, Claim};
+use residual::Residual;
+
+use super::local::Local;
+
+/// Highest degree of an equation.
+const DEGREE: u32 = 5;
+/// Number of lines after which the search for points ends.
+const LINES: usize = 4000;
+/// Number of lines without any point after which there is no condition of codimension one.
+const BARREN: usize = 24;
+/// Number of points that establish a simple condition shared by them.
+const REPEATED: usize = 2;
+
+/// A condition on the parameters under which a statement holds.
+#[derive(Clone, Debug, Serialize)]
+pub struct Condition {
+    /// Statement that holds.
+    pub of: String,
+    /// Alternative equations, each sufficient; empty if no condition was found.
+    pub equations: Vec<String>,
+    /// Method by which it was found, or the reason why there is none.
+    pub grounds: String,
+}
+
+/// The statements for which conditions are searched.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Existence of a density of the configuration, and of integrals of degree 1 and 2 in the
+    /// velocities.
+    Existence,
+    /// A claim, by name.
+    Claim(String),
+}
+
+/// Finds the conditions under which statements hold that fail in general.
+pub fn conditions(
+    case: &Case,
+    wanted: &Wanted,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    match wanted {
+        Wanted::Claim(name) => {
+            let named = case.claims.iter().find(|claim| &claim.name == name);
+            let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
+            progress(&format!("conditions for {name}"));
+            report.conditions.extend(condition(case, Some(claim), effort)?);
+        }
+        Wanted::Existence => {
+            if case.model.system.has_criterion() {
+                progress("conditions for a density of the configuration");
+                report.conditions.extend(condition(case, None, effort)?);
+            }
+            integrals(case, effort, report, progress)?;
+        }
+    }
+    Ok(())
+}
+
+/// Finds the values of single parameters for which there are more integrals of degree 1 or 2.
+fn integrals(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let local = match Local::of(case, &[]) {
+        Err(SearchError::Unsplit(_)) => return Ok(()),
+        local => local?,
+    };
+    for degree in 1..=effort.degree.min(2) {
+        for parameter in minors::scalars(case) {
+            let of = format!("more integrals of degree {degree}");
+            progress(&format!("{of}, by {}", parameter.0));
+            let (equations, grounds) = match minors::relations(
+                case,
+                &local,
+                Asked { degree, mixed },
+                &parameter,
+                effort,
+            ) {
+                Ok(relations) if relations.is_empty() => continue,
+                Ok(relations) => {
+                    (relations, "minors of the equations for Taylor coefficients".to_string())
+                }
+                Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
+                Err(error) => return Err(error),
+            };
+            let of = format!("{of}, by the value of {}", parameter.0);
+            report.conditions.push(Condition { of, equations, grounds });
+        }
+    }
+    Ok(())
+}
+
+/// Finds the conditions for one claim, or for the criterion; `None` if it always holds.
+fn condition(
+    case: &Case,
+    claim: Option<&Claim>,
+    effort: &Effort,
+) -> Result<Option<Condition>, SearchError> {
+    let of = claim.map_or("a density ρ of the configuration exists", |claim| &claim.name);
+    let told = |equations: Vec<String>, grounds: String| {
+        Ok(Some(Condition { of: of.to_string(), equations, grounds }))
+    };
+    let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
+    let Some(mut lines) = Lines::new(&residual, effort.options.seed) else {
+        let grounds = "the residual is no fraction of low degree in the parameters";
+        return told(Vec::new(), grounds.to_string());
+    };
+    let names = residual.names();
+    let (mut equations, mut points): (Vec<(String, usize)>, Vec<Vec<u64>>) = Default::default();
+    let (mut degree, mut seen, mut tried) = (0, 0, 0);
+    for line in 0..LINES {
+        effort.halt.check()?;
+        match lines.next() {
+            Along::Always => return Ok(None),
+            Along::Unknown => {
+                return told(
+                    Vec::new(),
+                    "the residual is no fraction of low degree in the parameters".to_string(),
+                );
+            }
+            Along::Points(found, own) => {
+                degree = degree.max(own);
+                for point in found {
+                    seen += 1;
+                    let all: Vec<usize> = (0..point.len()).collect();
+                    let own = variety::simple(names, &point, &all);
+                    if own.is_empty() {
+                        points.push(point);
+                    }
+                    for text in own {
+                        match equations.iter_mut().find(|(known, _)| known == &text) {
+                            Some((_, count)) => *count += 1,
+                            None => equations.push((text, 1)),
+                        }
+                    }
+                }
+            }
+        }
+        if line == BARREN && degree == 0 {
+            let (systems, met) = small::conditions(&residual, effort)?;
+            let grounds = format!(
+                "no condition of codimension one on {BARREN} random lines; {met} points met by chance modulo 43"
+            );
+            return told(systems, grounds);
+        }
+        let coordinates = variety::varying(&points).len();
+        if points.len() >= variety::needed(coordinates, tried + 1) {
+            tried += 1;
+            if let Some(found) = variety::equations(names, &points, &lines.modulus(), tried) {
+                equations.extend(found.into_iter().map(|text| (text, points.len())));
+                break;
+            }
+            if tried == DEGREE {
+                break;
+            }
+        }
+        if line > 8 * BARREN && points.is_empty() {
+            break;
+        }
+    }
+    equations.retain(|(_, count)| *count >= REPEATED);
+    let grounds =
+        format!("{seen} points on random lines; the condition has degree {degree} along them");
+    told(equations.into_iter().map(|(text, _)| text).collect(), grounds)
+}

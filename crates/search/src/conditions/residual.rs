@@ -1,0 +1,142 @@
+//! Residual as a function of the draws of parameters and state, modulo a prime.
+
+use super::coordinates::components;
+use crate::SearchError;
+use crate::local::random;
+use crate::terms::recorded;
+use liouville::case::{Case, Claim};
+use liouville::claim::Place;
+use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::mechanics::Draw;
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::Chance;
+use liouville::verdict::Sampler;
+
+/// Number of points evaluated at a time.
+pub const LANES: usize = 8;
+
+/// A residual that has to vanish for all states.
+pub struct Residual {
+    tape: Tape,
+    /// Number of draws of parameters and state, and constants of integration.
+    inputs: usize,
+    /// Names of the parameters' components.
+    names: Vec<String>,
+    /// Number of outputs that belong to the residual; the components follow.
+    height: usize,
+    /// Draws of the parameters; those of the state follow.
+    parameters: Vec<Draw>,
+}
+
+/// One point of an evaluation: the residual, and the parameters' components.
+pub struct Seen {
+    /// Values of the residual; `None` where it is undefined.
+    pub residual: Option<Vec<u64>>,
+    /// Values of the parameters' components.
+    pub components: Vec<u64>,
+}
+
+impl Residual {
+    /// Records the residual of a claim or, without one, of the criterion for a density of the
+    /// configuration.
+    pub fn of(case: &Case, claim: Option<&Claim>, seed: u64) -> Result<Option<Self>, SearchError> {
+        let model = &case.model;
+        let terms = components(case);
+        let (graph, (residual, values)) = recorded(case, |jet| {
+            let residual: Option<Vec<Expr>> = match claim {
+                Some(claim) => Some(claim.kind.residual(jet, &claim.place.kept)),
+                None => model.system.criterion(&jet.phase).map(|value| vec![value]),
+            };
+            let values = terms.iter().map(|term| jet.phase.scalar(&term.formula)).collect();
+            (residual, values)
+        })?;
+        let Some(residual) = residual else { return Ok(None) };
+        let place = claim.map_or_else(|| Place::level(model), |claim| claim.place.clone());
+        let sampler = Sampler::new(case, &place, seed)?;
+        if sampler.is_numerical() {
+            return Err(SearchError::NoChart);
+        }
+        let fixed = vec![None; sampler.recipes().len()];
+        let height = residual.len();
+        let (graph, outputs) = sampler.compose(&graph, &[residual, values], &fixed)?;
+        let names = terms.into_iter().map(|term| term.text).collect();
+        let parameters = model.parameter_draws();
+        let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
+        let mut residual =
+            Self { tape: laid_out(&outputs), names, height, parameters, inputs: graph.inputs() };
+        let varying = residual.varying(seed);
+        let keep = |k: &usize| outputs[1][*k];
+        residual.tape = laid_out(&[outputs[0].clone(), varying.iter().map(keep).collect()]);
+        residual.names = varying.iter().map(|k| residual.names[*k].clone()).collect();
+        Ok(Some(residual))
+    }
+
+    /// Returns the components that differ between draws, and from those before them.
+    fn varying(&self, seed: u64) -> Vec<usize> {
+        let mut chance = Chance::new(seed, 44);
+        let modulus = chance.prime(&[3, 5], &[2, 3]);
+        let mut evaluator = self.evaluator(modulus);
+        let mut point = || {
+            let parameters = self.parameters(&modulus, &mut chance);
+            [parameters, self.state(&modulus, &mut chance)].concat()
+        };
+        let points: [Vec<u64>; LANES] = std::array::from_fn(|_| point());
+        let seen = self.at(&mut evaluator, &points);
+        let column = |k: usize| seen.each_ref().map(|seen| seen.components[k]);
+        let is_new = |k: &usize| {
+            let own = column(*k);
+            own.iter().any(|x| *x != own[0]) && (0..*k).all(|j| column(j) != own)
+        };
+        (0..self.names.len()).filter(is_new).collect()
+    }
+
+    /// Returns the names of the components.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of components of the residual.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Draws the parameters at random; of a list the first value is taken.
+    pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
+        random(&self.parameters, modulus, chance)
+    }
+
+    /// Whether each draw of the parameters is from a range rather than a list.
+    pub fn free(&self) -> impl Iterator<Item = bool> {
+        self.parameters.iter().map(|draw| !matches!(draw, Draw::OneOf(_)))
+    }
+
+    /// Draws a random state.
+    pub fn state(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
+        (self.parameters.len()..self.inputs).map(|_| chance.element(modulus)).collect()
+    }
+
+    /// Makes an evaluator modulo a prime.
+    pub fn evaluator(&self, modulus: Modulus) -> Evaluator<'_, Prime<LANES>> {
+        Evaluator::new(&self.tape, Prime::new([modulus; LANES]))
+    }
+
+    /// Evaluates residual and components at points, each given by draws of parameters and state.
+    pub fn at(
+        &self,
+        evaluator: &mut Evaluator<'_, Prime<LANES>>,
+        points: &[Vec<u64>; LANES],
+    ) -> [Seen; LANES] {
+        let inputs: Vec<[u64; LANES]> =
+            (0..self.inputs).map(|input| std::array::from_fn(|lane| points[lane][input])).collect();
+        evaluator.run(&inputs);
+        let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
+        std::array::from_fn(|lane| {
+            let (residual, components) = values.split_at(self.height);
+            let residual: Vec<u64> = residual.iter().map(|block| block[lane]).collect();
+            Seen {
+                residual: (!residual.contains(&UNDEFINED)).then_some(residual),
+                components: components.iter().map(|block| block[lane]).collect(),
+            }
+        })
+    }
+}

@@ -1,0 +1,123 @@
+//! Equations of a variety from points on it.
+
+use crate::echelon::Echelon;
+use crate::series::exponents;
+use crate::terms::sum;
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use liouville::proof::reconstruct;
+
+/// Number of points beyond the number of monomials.
+const SPARE: usize = 8;
+
+/// Finds the equations of least degree that hold at all points, as text; `None` if none has degree
+/// at most `most`, or if there are too few points.
+pub fn equations(
+    names: &[String],
+    points: &[Vec<u64>],
+    modulus: &Modulus,
+    most: u32,
+) -> Option<Vec<String>> {
+    let varying = varying(points);
+    let names: Vec<&str> = varying.iter().map(|k| names[*k].as_str()).collect();
+    for degree in 1..=most {
+        let monomials: Vec<Vec<u32>> =
+            (0..=degree).flat_map(|total| exponents(names.len(), total)).collect();
+        if points.len() < monomials.len() + SPARE {
+            return None;
+        }
+        let mut echelon = Echelon::new(monomials.len(), *modulus);
+        for point in points {
+            let coordinates: Vec<u64> = varying.iter().map(|k| point[*k]).collect();
+            echelon.push(monomials.iter().map(|e| power(&coordinates, e, modulus)).collect());
+        }
+        let texts: Vec<String> = monomials.iter().map(|e| monomial(&names, e)).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let rational = |vector: Vec<u64>| -> Option<Vec<Rational>> {
+            vector.iter().map(|x| reconstruct(*x, modulus)).collect()
+        };
+        let found: Vec<String> = echelon
+            .null_space()
+            .into_iter()
+            .filter_map(rational)
+            .map(|vector| format!("{} = 0", sum(&vector, &texts)))
+            .collect();
+        if !found.is_empty() {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// Number of points needed for equations of this degree.
+pub fn needed(coordinates: usize, degree: u32) -> usize {
+    (0..=degree).map(|total| exponents(coordinates, total).len()).sum::<usize>() + SPARE
+}
+
+/// Returns the components that differ between points, and from those before them.
+pub fn varying(points: &[Vec<u64>]) -> Vec<usize> {
+    let Some(first) = points.first() else { return Vec::new() };
+    let constant = |k: usize| points.iter().all(|point| point[k] == first[k]);
+    let copy = |k: usize| (0..k).any(|j| points.iter().all(|point| point[j] == point[k]));
+    (0..first.len()).filter(|k| !constant(*k) && !copy(*k)).collect()
+}
+
+/// Evaluates a monomial.
+pub fn power(coordinates: &[u64], exponents: &[u32], m: &Modulus) -> u64 {
+    coordinates
+        .iter()
+        .zip(exponents)
+        .fold(m.one(), |product, (x, e)| m.mul(product, m.power(*x, u64::from(*e))))
+}
+
+/// Writes a monomial.
+pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
+    let used = names.iter().zip(exponents).filter(|(_, e)| **e > 0);
+    let factors: Vec<String> = used
+        .map(|(name, e)| match e {
+            1 => name.to_string(),
+            e => format!("{name}^{e}"),
+        })
+        .collect();
+    if factors.is_empty() { "1".to_string() } else { factors.join("*") }
+}
+
+/// Lists conditions on single components: x = 0, and x = y for components with similar names.
+pub fn simple(names: &[String], point: &[u64], among: &[usize]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (place, k) in among.iter().enumerate() {
+        if point[*k] == 0 {
+            found.push(format!("{} = 0", names[*k]));
+        }
+        let letter = |k: usize| names[k].chars().next();
+        for j in &among[..place] {
+            if point[*j] == point[*k] && letter(*j) == letter(*k) && point[*k] != 0 {
+                found.push(format!("{} = {}", names[*j], names[*k]));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use liouville::proof::Chance;
+
+    #[test]
+    fn a_hyperbola_is_found_from_its_points() {
+        let mut chance = Chance::new(3, 0);
+        let m = chance.prime(&[], &[]);
+        let names: Vec<String> = ["k", "R", "two"].map(str::to_string).to_vec();
+        let points: Vec<Vec<u64>> = (0..20)
+            .map(|_| {
+                let radius = chance.element(&m);
+                let curvature = m.mul(m.sub(0, m.integer(2)), m.inverse(radius));
+                vec![curvature, radius, m.integer(2)]
+            })
+            .collect();
+        let found = equations(&names, &points, &m, 3).expect("there is one");
+        assert_eq!(found, ["2 + k*R = 0"]);
+        assert_eq!(simple(&names, &[0, 5, 5], &[0, 1]), ["k = 0"]);
+    }
+}

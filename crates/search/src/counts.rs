@@ -1,0 +1,290 @@
+//! Numbers of integrals, degree by degree, and the theorems that follow.
+
+use std::ops::RangeInclusive;
+
+use serde::Serialize;
+
+use super::jets::{self, Asked, Count};
+use super::local::Local;
+use super::products::Generators;
+use super::{Effort, Excluded, Report, SearchError};
+use liouville::case::Case;
+use liouville::mechanics::Draw;
+use liouville::number::rational::Rational;
+
+/// Largest number of combinations of listed values that are counted one by one.
+const MOST_LISTED: usize = 64;
+
+/// Lower bound on the elementary steps of an elimination per second.
+const STEPS: f64 = 1e9;
+
+/// Number of integrals of one degree.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CountReport {
+    /// Degree in the velocities.
+    pub degree: u32,
+    /// Whether all degrees up to it are counted together.
+    pub mixed: bool,
+    /// Whether potential and gyrostat are left out.
+    pub free: bool,
+    /// Number of independent integrals, an upper bound for generic parameters.
+    pub dimension: usize,
+    /// Number of products of known integrals among them.
+    pub known: usize,
+    /// Number of unknowns of the linear system.
+    pub unknowns: usize,
+    /// Number of equations of the linear system.
+    pub equations: usize,
+}
+
+/// Estimated size and duration of a count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Number of unknowns of the largest system.
+    pub unknowns: u64,
+    /// Bound on the total time in seconds.
+    pub seconds: f64,
+    /// Bound on the memory of the largest system.
+    pub megabytes: u64,
+}
+
+/// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
+pub fn plan(case: &Case, effort: &Effort) -> Option<Plan> {
+    let local = Local::of(case, &[]).ok()?;
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let combinations = listed(&case.model.parameter_draws()).len() as f64;
+    let sizes = (1..=effort.degree).map(|degree| size(&local, degree, mixed));
+    let counted = sizes.map(|(unknowns, seconds)| (unknowns, seconds * combinations));
+    let (unknowns, seconds) = counted
+        .filter(|(_, seconds)| *seconds <= effort.seconds)
+        .fold((0, 0.0), |(most, sum), (unknowns, seconds)| (unknowns.max(most), sum + seconds));
+    Some(Plan { unknowns, seconds, megabytes: megabytes(unknowns) })
+}
+
+fn megabytes(unknowns: u64) -> u64 {
+    unknowns * unknowns * 8 / 1_000_000
+}
+
+/// Counts integrals degree by degree, within the effort; first those of the free motion, since the
+/// leading form of an integral is one of them.
+pub fn count(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let mixed = case.model.system.energy_is_inhomogeneous();
+    let mut undecided = 1..=effort.degree;
+    if let Some(free) = free_motion(case).filter(|_| mixed) {
+        let motion = Motion::of(&free, false, true, effort)?;
+        motion.series(undecided.clone(), effort, report, progress)?;
+        let excess = report.counts.iter().find(|count| count.dimension > count.known);
+        match excess {
+            // Each leading form is a power of the energy: nothing remains to be counted.
+            None if !report.counts.is_empty() => return Ok(()),
+            None => {}
+            Some(excess) => undecided = excess.degree..=effort.degree,
+        }
+    }
+    Motion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
+}
+
+/// Makes the same body without potential and gyrostat, if these are known.
+pub fn free_motion(case: &Case) -> Option<Case> {
+    let system = case.model.system.without_forces()?;
+    let mut free = case.clone();
+    free.model.system = system;
+    Some(free)
+}
+
+/// The motion whose integrals are counted.
+struct Motion<'c> {
+    case: &'c Case,
+    /// Whether all degrees up to the given one are counted together.
+    mixed: bool,
+    /// Whether potential and gyrostat are left out.
+    free: bool,
+    /// Energy of the motion, a known integral.
+    energy: Generators,
+}
+
+impl<'c> Motion<'c> {
+    fn of(case: &'c Case, mixed: bool, free: bool, effort: &Effort) -> Result<Self, SearchError> {
+        Ok(Self { case, mixed, free, energy: Generators::energy(case, effort)? })
+    }
+
+    /// Counts degree by degree; a remark gives the reason for an early end.
+    fn series(
+        &self,
+        degrees: RangeInclusive<u32>,
+        effort: &Effort,
+        report: &mut Report,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        let Some(locals) = locals(self.case, report)? else { return Ok(()) };
+        let Some(first) = locals.first() else { return Ok(()) };
+        for degree in degrees {
+            let (unknowns, seconds) = size(first, degree, self.mixed);
+            let seconds = seconds * locals.len() as f64;
+            progress(&format!(
+                "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {} MB",
+                megabytes(unknowns)
+            ));
+            if seconds > effort.seconds {
+                report.remark(format!(
+                    "degree {degree} was not counted: {unknowns} unknowns may take {seconds:.0} s; raise --seconds"
+                ));
+                return Ok(());
+            }
+            match self.of_degree(&locals, degree, effort) {
+                // A bound below the number of known integrals would be a defect of the program:
+                // nothing is concluded.
+                Ok(count) if count.dimension < count.known => {
+                    report.remark(format!(
+                        "degree {degree}: fewer integrals are counted than are known"
+                    ));
+                    return Ok(());
+                }
+                Ok(count) => report.counts.push(count),
+                Err(SearchError::Stopped) => {
+                    report.unreached.push(format!("integrals of degree {degree} and more"));
+                    return Ok(());
+                }
+                Err(error) => {
+                    report.remark(error.to_string());
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn of_degree(
+        &self,
+        locals: &[Local],
+        degree: u32,
+        effort: &Effort,
+    ) -> Result<CountReport, SearchError> {
+        let known = self.energy.products(degree, self.mixed);
+        let asked = Asked { degree, mixed: self.mixed };
+        let found = largest(locals, asked, &Rational::from(0), known, effort)?;
+        let Count { dimension, size: (unknowns, equations) } = found;
+        let (mixed, free) = (self.mixed, self.free);
+        Ok(CountReport { degree, mixed, free, dimension, known, unknowns, equations })
+    }
+}
+
+/// Records the equations of motion for each combination of listed values; `None`, with a remark, if
+/// there are too many combinations or nothing can be counted.
+pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, SearchError> {
+    let mut locals = Vec::new();
+    for fixed in listed(&case.model.parameter_draws()) {
+        match Local::of(case, &fixed) {
+            Ok(local) => locals.push(local),
+            Err(error @ SearchError::Unsplit(_)) => {
+                report.remark(error.to_string());
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    if locals.is_empty() {
+        report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
+        return Ok(None);
+    }
+    Ok(Some(locals))
+}
+
+/// Returns the largest count over the listed values: a theorem is about all of them.
+pub fn largest(
+    locals: &[Local],
+    asked: Asked,
+    weight: &Rational,
+    least: usize,
+    effort: &Effort,
+) -> Result<Count, SearchError> {
+    let counts: Result<Vec<Count>, SearchError> =
+        locals.iter().map(|local| jets::count(local, asked, weight, least, effort)).collect();
+    counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
+}
+
+/// Lists the combinations of the values of parameters that have a list, if they are few.
+fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
+    let mut combinations = vec![Vec::new()];
+    for draw in draws {
+        let values = match draw {
+            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
+        };
+        if combinations.len() * values.len() > MOST_LISTED {
+            return Vec::new();
+        }
+        let extended = combinations.iter().flat_map(|known: &Vec<Option<Rational>>| {
+            values.iter().map(|value| known.iter().cloned().chain([value.clone()]).collect())
+        });
+        combinations = extended.collect();
+    }
+    combinations
+}
+
+/// Estimates the number of unknowns and bounds the time in seconds.
+pub fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
+    let (positions, velocities) =
+        (local.coordinates.positions as u32, local.coordinates.velocities as u32);
+    let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
+    let powers: u64 = if mixed { (0..=degree).map(powers).sum() } else { powers(degree) };
+    let unknowns = powers * binomial(2 * degree + 3 + positions, positions);
+    (unknowns, (unknowns as f64).powi(3) / STEPS)
+}
+
+fn binomial(n: u32, k: u32) -> u64 {
+    (1..=u64::from(k)).fold(1, |product, i| product * (u64::from(n - k) + i) / i)
+}
+
+/// States the theorems of absence that follow from the counts and the known integrals.
+pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+    if report.counts.is_empty() {
+        return Ok(());
+    }
+    let all = Generators::all(case, effort, report)?;
+    for count in report.counts.iter_mut().filter(|count| !count.free) {
+        count.known = all.products(count.degree, count.mixed);
+    }
+    let free_only = report.counts.iter().all(|count| count.free);
+    let complete = |count: &&CountReport| count.dimension == count.known;
+    let relevant = report.counts.iter().filter(|count| count.free == free_only);
+    let Some(last) = relevant.take_while(complete).last().copied() else { return Ok(()) };
+    let degree = last.degree;
+    let forces = match (free_only, last.mixed) {
+        (true, _) => {
+            " Leading forms are integrals of the free motion, so this holds for every gyrostat and every potential."
+        }
+        (false, true) => " Potential, gyrostat and moments are those of the case.",
+        (false, false) => "",
+    };
+    let names: Vec<&str> = all.names().collect();
+    let what = match names.as_slice() {
+        [] => format!(
+            "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
+        ),
+        [only] => format!(
+            "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {only}."
+        ),
+        several => format!(
+            "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {}.",
+            several.join(" and ")
+        ),
+    };
+    report.excluded.push(Excluded {
+        ansatz: format!(
+            "polynomials in the velocities of degree up to {degree}, with any smooth coefficients in the positions"
+        ),
+        dimension: last.dimension,
+        known: last.known,
+        error_log2: None,
+        theorem: format!(
+            "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
+        ),
+    });
+    Ok(())
+}

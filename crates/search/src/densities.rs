@@ -1,0 +1,96 @@
+//! Densities that are products of powers of factors offered by the geometry, and integrals that are
+//! such products with a factor linear in the velocities.
+//!
+//! v(ln ρ) + div v is linear in the exponents of ρ = Π f^α, and so is v(ln F) for F = P Π f^α.
+
+use super::ask::{holds, judged, quoted};
+use super::integrals::tell;
+use super::library;
+use super::linear::Functions;
+use super::terms::{Term, powers, read, recorded};
+use super::{Effort, Found, Report, SearchError};
+use liouville::case::Case;
+use liouville::claim::Place;
+use liouville::graph::{Expr, Graph};
+use liouville::number::rational::Rational;
+
+/// Factors, exponents, and their rates along the motion.
+struct Logarithms {
+    factors: Vec<Term>,
+    exponents: Vec<Term>,
+    graph: Graph,
+    /// Products of v(ln f) with each exponent, factor by factor.
+    rates: Vec<Vec<Expr>>,
+}
+
+/// Searches for densities and integrals of this form.
+pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+    let model = &case.model;
+    let factors = read(library::factors(model), &model.vocabulary);
+    let exponents = read(library::exponents(model), &model.vocabulary);
+    let forms = read(library::linear_factors(model), &model.vocabulary);
+    let kept = Place::level(model).kept;
+    let (graph, (divergence, rates, moving)) = recorded(case, |jet| {
+        let moved = jet.along_field();
+        let growth =
+            |term: &Term| term.formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
+        let mut rates = Vec::new();
+        for factor in &factors {
+            let rate = growth(factor);
+            rates.extend(exponents.iter().map(|t| vec![rate * jet.phase.scalar(&t.formula)]));
+        }
+        let moving: Vec<Vec<Expr>> = forms.iter().map(|form| vec![growth(form)]).collect();
+        (vec![jet.divergence() - jet.level_cofactor(&kept)], rates, moving)
+    })?;
+    let logarithms = Logarithms { factors, exponents, graph, rates };
+    if let Some(product) = logarithms.solve(case, divergence, effort)? {
+        let formula = if product.is_empty() { "1".to_string() } else { product.join("*") };
+        let reports = judged(case, &[format!("density = {}", quoted(&formula))], effort)?;
+        if let Some(found) = reports.into_iter().find(holds) {
+            report.found.push(Found::new("density", &formula, None, found, model));
+        }
+    }
+    for (form, rate) in forms.into_iter().zip(moving) {
+        let Some(product) = logarithms.solve(case, rate, effort)? else { continue };
+        let formula = [vec![form.text], product].concat().join("*");
+        let reports = judged(case, &[format!("integral = {}", quoted(&formula))], effort)?;
+        if let Some(found) = reports.into_iter().find(holds) {
+            tell(case, &formula, found, effort, report)?;
+        }
+    }
+    Ok(())
+}
+
+impl Logarithms {
+    /// Finds exponents of the factors for which the target and their rates add up to 0.
+    fn solve(
+        &self,
+        case: &Case,
+        target: Vec<Expr>,
+        effort: &Effort,
+    ) -> Result<Option<Vec<String>>, SearchError> {
+        let columns: Vec<Vec<Expr>> = self.rates.iter().cloned().chain([target]).collect();
+        let mut functions = Functions::new(case, &self.graph, &columns, effort.options.seed)?;
+        let defined = functions.defined();
+        if defined.last() != Some(&self.rates.len()) {
+            return Ok(None);
+        }
+        functions.restrict(&defined);
+        let relations = match functions.relations() {
+            Err(SearchError::NoPoints) => return Ok(None),
+            other => other?,
+        };
+        // The target is the last column: if it depends on the others, one vector has 1 there.
+        let one = Rational::from(1);
+        let vectors = relations.rational().0;
+        let Some(vector) = vectors.iter().find(|vector| vector.last() == Some(&one)) else {
+            return Ok(None);
+        };
+        let mut exponents = vec![Rational::from(0); self.rates.len()];
+        for (place, value) in defined.iter().zip(&vector[..vector.len() - 1]) {
+            exponents[*place] = value.clone();
+        }
+        let names: Vec<&str> = self.exponents.iter().map(|term| term.text.as_str()).collect();
+        Ok(Some(powers(&exponents, &self.factors, &names)))
+    }
+}

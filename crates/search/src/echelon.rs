@@ -1,0 +1,99 @@
+//! Row echelon form modulo a prime, built row by row.
+
+use liouville::number::prime::Modulus;
+
+/// A set of independent rows with distinct pivots.
+pub struct Echelon {
+    modulus: Modulus,
+    /// Row by pivot column, with 1 at its pivot and 0 before it.
+    rows: Vec<Option<Vec<u64>>>,
+}
+
+impl Echelon {
+    /// Makes an echelon form without rows.
+    pub fn new(columns: usize, modulus: Modulus) -> Self {
+        Self { modulus, rows: vec![None; columns] }
+    }
+
+    /// Adds a row; returns `false` if it depends on those before it.
+    pub fn push(&mut self, mut row: Vec<u64>) -> bool {
+        let m = self.modulus;
+        for column in 0..row.len() {
+            if row[column] == 0 {
+                continue;
+            }
+            match &self.rows[column] {
+                Some(pivot) => {
+                    let factor = m.sub(0, row[column]);
+                    for (entry, pivot) in row[column..].iter_mut().zip(&pivot[column..]) {
+                        if *pivot != 0 {
+                            *entry = m.add(*entry, m.mul(factor, *pivot));
+                        }
+                    }
+                }
+                None => {
+                    let inverse = m.inverse(row[column]);
+                    row[column..].iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
+                    self.rows[column] = Some(row);
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether some row has its pivot in this column.
+    pub fn has_pivot(&self, column: usize) -> bool {
+        self.rows[column].is_some()
+    }
+
+    /// Returns a basis of the null space of all rows: for each free column the vector with 1 there
+    /// and 0 at the other free columns.
+    pub fn null_space(&self) -> Vec<Vec<u64>> {
+        let m = self.modulus;
+        let columns = self.rows.len();
+        let free = (0..columns).filter(|column| self.rows[*column].is_none());
+        free.map(|free| {
+            let mut vector = vec![0; columns];
+            vector[free] = m.one();
+            for column in (0..columns).rev() {
+                if let Some(row) = &self.rows[column] {
+                    let sum = (column + 1..columns)
+                        .fold(0, |sum, k| m.add(sum, m.mul(row[k], vector[k])));
+                    vector[column] = m.sub(0, sum);
+                }
+            }
+            vector
+        })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn null_vectors_are_annulled() {
+        let m = Modulus::new(2_305_843_009_213_693_951);
+        let n = |x: u64| m.integer(x);
+        let mut echelon = Echelon::new(4, m);
+        let rows = [[1, 2, 0, 3], [2, 4, 1, 1], [3, 6, 1, 4]];
+        let added: Vec<bool> =
+            rows.iter().map(|row| echelon.push(row.iter().map(|x| n(*x)).collect())).collect();
+        assert_eq!(added, [true, true, false], "the third row is the sum of the others");
+        let vectors = echelon.null_space();
+        assert_eq!(vectors.len(), 2);
+        for vector in vectors {
+            for row in rows {
+                let sum = row.iter().zip(&vector).fold(0, |s, (a, b)| m.add(s, m.mul(n(*a), *b)));
+                assert_eq!(sum, 0, "row · vector");
+            }
+        }
+    }
+}

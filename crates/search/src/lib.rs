@@ -1,0 +1,347 @@
+//! Search for invariants that the case does not state: counted, found and proved, or excluded by a
+//! theorem.
+//!
+//! ```text
+//! count      number of integrals polynomial in the velocities there are, with any coefficients
+//! integrals  relations between L_vT for terms T that the system offers, at random points mod p
+//! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
+//! verdict    each find is judged as a claim like any other
+//! absence    a claim that there is no other invariant: proved by counts, refuted by a find
+//! ```
+
+mod absence;
+mod ansatz;
+mod ask;
+mod branches;
+mod conditions;
+mod counts;
+mod densities;
+mod echelon;
+mod expansion;
+mod halt;
+mod integrals;
+mod jets;
+mod library;
+mod linear;
+mod local;
+mod multipliers;
+mod products;
+mod second_opinion;
+mod series;
+pub mod survey;
+mod symmetries;
+mod terms;
+
+use serde::Serialize;
+
+use self::ask::{Claimed, quoted};
+use liouville::case::{Case, CaseError};
+use liouville::graph::Fault;
+use liouville::mechanics::Model;
+use liouville::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
+
+pub use absence::judge;
+pub use ansatz::{Ansatz, Hamiltonians};
+pub use conditions::{Condition, Wanted};
+pub use counts::{CountReport, Plan, plan};
+pub use halt::Halt;
+pub use multipliers::MultiplierReport;
+pub use second_opinion::SecondOpinion;
+
+/// The reason why a search is impossible.
+#[derive(Debug, thiserror::Error)]
+pub enum SearchError {
+    /// Positions and velocities cannot be separated, or the field has no series in them.
+    #[error("integrals cannot be counted: {0}")]
+    Unsplit(&'static str),
+    /// The rates are not polynomials of degree 2 in the velocities.
+    #[error("integrals cannot be counted: the rates are not quadratic in the velocities")]
+    NotQuadratic,
+    /// The equations for the coefficients are not of finite type, unlike those for Killing tensors.
+    #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
+    NotSpanned,
+    /// The field has functions that prime fields lack, or is defined nowhere.
+    #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
+    NoSeries,
+    /// A minor is not a fraction of low degree in a parameter.
+    #[error("the equations are no fractions of low degree in the parameter")]
+    NoFraction,
+    /// A term given by the user cannot be read.
+    #[error("the term `{0}` is no scalar in the names of the case")]
+    NoTerm(String),
+    /// The case has no claim of this name.
+    #[error("the case has no claim `{0}`")]
+    NoClaim(String),
+    /// The count did not become stable.
+    #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
+    Unsettled(u32),
+    /// The system is a map.
+    #[error("the case is a map, and invariants are searched for of flows")]
+    Discrete,
+    /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
+    #[error("the search was stopped")]
+    Stopped,
+    /// States cannot be parametrised in a prime field.
+    #[error("the level set has no parametrisation")]
+    NoChart,
+    /// No point at which all terms have a value was found.
+    #[error("the terms have no common value modulo a prime: they contain exp, ln, sin, cos or x^y")]
+    NoPoints,
+    /// Recording failed.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+    /// The candidate is not a valid claim for this case.
+    #[error("a find cannot be read in the names of the case: {0}")]
+    Unreadable(#[from] CaseError),
+    /// Judging failed.
+    #[error(transparent)]
+    Judge(#[from] JudgeError),
+}
+
+impl SearchError {
+    /// Whether the error concerns counts only, and not the rest of a search.
+    fn is_of_count(&self) -> bool {
+        use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+    }
+
+    /// Suggests a remedy.
+    pub fn help(&self) -> &'static str {
+        match self {
+            SearchError::Judge(error) => error.help(),
+            SearchError::NoChart => "give [level.chart], or level equations that can be solved",
+            SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
+            SearchError::Unsettled(_) => "ask for a lower --degree",
+            SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
+            _ => "see docs/writing-a-case.md",
+        }
+    }
+}
+
+/// Scope and limits of a search.
+#[derive(Clone, Debug)]
+pub struct Effort {
+    /// Highest degree in the velocities of integrals to be counted.
+    pub degree: u32,
+    /// Whether the claims of the case are ignored.
+    pub blind: bool,
+    /// Terms of integrals in addition to those offered by the system.
+    pub terms: Vec<String>,
+    /// Search for conditions on the parameters, if any.
+    pub conditions: Option<Wanted>,
+    /// Time in seconds above which a count is left out.
+    pub seconds: f64,
+    /// Scope of the polynomial ansatz.
+    pub ansatz: Ansatz,
+    /// Hamiltonians for which brackets are searched, if any.
+    pub poisson: Option<Hamiltonians>,
+    /// Condition for an early end.
+    pub halt: Halt,
+    /// Options for judging candidates.
+    pub options: Options,
+}
+
+impl Default for Effort {
+    /// Integrals up to degree 4, a minute for each count, and no early end.
+    fn default() -> Self {
+        Self {
+            degree: 4,
+            blind: false,
+            terms: Vec::new(),
+            conditions: None,
+            seconds: 60.0,
+            ansatz: Ansatz::default(),
+            poisson: None,
+            halt: Halt::default(),
+            options: Options::default(),
+        }
+    }
+}
+
+/// An invariant that was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Found {
+    /// Kind of the invariant: `integral`, `density`, `symmetry-field` or `bracket`.
+    pub kind: &'static str,
+    /// Formula in the names of the case.
+    pub formula: String,
+    /// Abbreviations used in the formula that the case does not define, in order.
+    #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
+    pub abbreviations: Vec<(&'static str, &'static str)>,
+    /// Additional data under which it holds: a `potential` or `gyrostat` that the case does not
+    /// have; for a bracket its `Hamiltonian` and each known `Casimir`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub with: Vec<(&'static str, String)>,
+    /// Whether it is a function of the energy and the level. Such finds are not reported, so this
+    /// is always `false`.
+    pub trivial: bool,
+    /// Name of the claim of the case that implies it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub known: Option<String>,
+    /// Verdict on the claim.
+    pub verdict: Verdict,
+    /// Evidence for the verdict.
+    pub evidence: Evidence,
+}
+
+impl Found {
+    /// Makes a find from a formula and its evidence.
+    fn new(
+        kind: &'static str,
+        formula: &str,
+        known: Option<String>,
+        report: ClaimReport,
+        model: &Model,
+    ) -> Self {
+        let mut needed = vec![formula];
+        let mut abbreviations = library::abbreviations(model);
+        abbreviations.reverse();
+        abbreviations.retain(|(name, text)| {
+            let used = needed.iter().any(|formula| formula.contains(name));
+            if used {
+                needed.push(text);
+            }
+            used
+        });
+        abbreviations.reverse();
+        Self {
+            kind,
+            formula: formula.to_string(),
+            abbreviations,
+            with: Vec::new(),
+            trivial: false,
+            known,
+            verdict: report.verdict,
+            evidence: report.evidence,
+        }
+    }
+}
+
+/// A theorem of absence: a family of candidates, and a bound on its invariants.
+#[derive(Clone, Debug, Serialize)]
+pub struct Excluded {
+    /// Family that was examined.
+    pub ansatz: String,
+    /// Dimension of the invariants in the family.
+    pub dimension: usize,
+    /// Number of these that are functions of known invariants.
+    pub known: usize,
+    /// Log₂ of the error probability; absent if there is no error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_log2: Option<f64>,
+    /// Theorem with its hypotheses.
+    pub theorem: String,
+}
+
+/// The outcome of a search.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// Numbers of integrals, degree by degree.
+    pub counts: Vec<CountReport>,
+    /// Numbers of polynomials whose powers are densities.
+    pub multipliers: Vec<MultiplierReport>,
+    /// Invariants that were found.
+    pub found: Vec<Found>,
+    /// Theorems of absence.
+    pub excluded: Vec<Excluded>,
+    /// Singular values of the matrices of the search for integrals.
+    pub opinions: Vec<SecondOpinion>,
+    /// Parameter conditions for claims that fail in general.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<Condition>,
+    /// Parts that could not be carried out, with reasons.
+    pub remarks: Vec<String>,
+    /// Parts that a stopped search did not reach; empty for a complete search.
+    pub unreached: Vec<String>,
+    /// Integrals claimed by the case, with which finds are compared.
+    #[serde(skip)]
+    claimed: Vec<Claimed>,
+}
+
+impl Report {
+    /// Returns the formulas of one kind found for the case without additional data.
+    pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
+        let own = move |found: &&Found| found.kind == kind && found.with.is_empty();
+        let found = self.found.iter().filter(own);
+        found.map(|found| found.formula.as_str())
+    }
+
+    fn remark(&mut self, remark: String) {
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
+        }
+    }
+
+    /// Runs a part of a search; a part that is stopped is noted by its name.
+    fn stage(
+        &mut self,
+        name: &str,
+        effort: &Effort,
+        run: impl FnOnce(&mut Self) -> Result<(), SearchError>,
+    ) -> Result<(), SearchError> {
+        match effort.halt.check().and_then(|()| run(self)) {
+            Err(SearchError::Stopped) => {
+                self.unreached.push(name.to_string());
+                Ok(())
+            }
+            other => other,
+        }
+    }
+}
+
+/// Searches a case for integrals, densities and symmetries.
+///
+/// `progress` is called with a description of the next part and its size. A search that is stopped
+/// reports the results reached so far, and the parts not reached.
+pub fn search(
+    case: &Case,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Report, SearchError> {
+    if case.model.system.is_map() {
+        return Err(SearchError::Discrete);
+    }
+    let mut report = Report::default();
+    let case = &abbreviated(case)?;
+    report.claimed = ask::claimed(case, effort)?;
+    report.stage("the number of integrals", effort, |report| {
+        counts::count(case, effort, report, progress)
+    })?;
+    // Integrals of degree 1 come first: those of degree 2 may be functions of them.
+    report.stage("products of factors", effort, |report| {
+        progress("factors of densities");
+        densities::densities(case, effort, report)
+    })?;
+    report.stage("integrals among the terms", effort, |report| {
+        progress("terms of integrals");
+        integrals::integrals(case, effort, report)
+    })?;
+    report.stage("linear symmetry fields", effort, |report| {
+        progress("linear symmetry fields");
+        symmetries::symmetries(case, effort, report)
+    })?;
+    report.stage("a global ansatz", effort, |report| {
+        ansatz::search(case, effort, report, progress)
+    })?;
+    counts::conclude(case, effort, &mut report)?;
+    report.stage("densities that depend on the velocities", effort, |report| {
+        multipliers::multipliers(case, effort, report, progress)
+    })?;
+    if let Some(wanted) = &effort.conditions {
+        report.stage("conditions on the parameters", effort, |report| {
+            conditions::conditions(case, wanted, effort, report, progress)
+        })?;
+    }
+    branches::withdraw(case, effort, &mut report)?;
+    Ok(report)
+}
+
+/// Extends the case by the names that the library's terms use.
+fn abbreviated(case: &Case) -> Result<Case, SearchError> {
+    let names = library::abbreviations(&case.model);
+    let definition = |(name, text): &(&str, &str)| format!("{} = {}\n", quoted(name), quoted(text));
+    let entries: String = names.iter().map(definition).collect();
+    let mut named = case.ask(&format!("[let]\n{entries}"))?;
+    named.claims = case.claims.clone();
+    Ok(named)
+}

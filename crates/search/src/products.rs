@@ -1,0 +1,219 @@
+//! Products of known integrals, and their number in each degree in the velocities.
+
+use num_dual::Dual;
+
+use super::SearchError;
+use super::ask::judged;
+use super::echelon::Echelon;
+use super::local::Coordinates;
+use super::{Effort, Report, ask};
+use liouville::case::Case;
+use liouville::formula::Formula;
+use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::mechanics::Phase;
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::Chance;
+use liouville::verdict::Verdict;
+
+/// Highest degree that is recognised.
+const MOST: usize = 16;
+/// Number of points of a line at which slopes are taken.
+const POINTS: usize = 2 * MOST + 8;
+/// Number of lines to try, since roots exist on some only.
+const TRIALS: usize = 64;
+
+/// Independent integrals with their degrees in the velocities.
+#[derive(Clone, Debug, Default)]
+pub struct Generators(Vec<(String, u32)>);
+
+impl Generators {
+    /// Integrals of which the degrees are known.
+    pub fn of(known: Vec<(String, u32)>) -> Self {
+        Self(known)
+    }
+
+    /// Collects the energy, if it is an integral.
+    pub fn energy(case: &Case, effort: &Effort) -> Result<Self, SearchError> {
+        let mut generators = Self::default();
+        if case.model.vocabulary.find("energy").is_some() {
+            let reports = judged(case, &["integral = \"energy\"".to_string()], effort)?;
+            // Theorems rest on it: what is seen in numbers is not enough.
+            if reports.iter().any(|report| report.verdict == Verdict::Proved) {
+                generators.add(case, "energy", effort.options.seed)?;
+            }
+        }
+        Ok(generators)
+    }
+
+    /// Collects the energy and all integrals found or claimed.
+    pub fn all(case: &Case, effort: &Effort, report: &Report) -> Result<Self, SearchError> {
+        let mut generators = Self::energy(case, effort)?;
+        let mut told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
+        for ask::Claimed { formula, .. } in &report.claimed {
+            if ask::independent(case, &told, formula, effort)?.is_some() {
+                told.push(formula.clone());
+            }
+        }
+        for formula in told {
+            generators.add(case, &formula, effort.options.seed)?;
+        }
+        Ok(generators)
+    }
+
+    /// Adds an integral if its degree can be determined.
+    fn add(&mut self, case: &Case, formula: &str, seed: u64) -> Result<(), SearchError> {
+        if let Some(degree) = degree(case, formula, seed)?.filter(|degree| *degree > 0) {
+            self.0.push((formula.to_string(), degree));
+        }
+        Ok(())
+    }
+
+    /// Iterates over the formulas.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Iterates over the formulas with their degrees in the velocities.
+    pub fn each(&self) -> impl Iterator<Item = (&str, u32)> {
+        self.0.iter().map(|(name, degree)| (name.as_str(), *degree))
+    }
+
+    /// Lists the products of this degree, or with `mixed` of at most this degree, as exponents of
+    /// the formulas.
+    pub fn exponents(&self, degree: u32, mixed: bool) -> Vec<Vec<u32>> {
+        let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
+        for (_, own) in &self.0 {
+            let raised = |(total, powers): (u32, Vec<u32>)| {
+                (0..=(degree - total) / own).map(move |power| {
+                    (total + power * own, powers.iter().copied().chain([power]).collect())
+                })
+            };
+            found = found.into_iter().flat_map(raised).collect();
+        }
+        let wanted = found.into_iter().filter(|(total, _)| mixed || *total == degree);
+        wanted.map(|(_, powers)| powers).collect()
+    }
+
+    /// Number of products of this degree; with `mixed`, of at most this degree, including 1.
+    pub fn products(&self, degree: u32, mixed: bool) -> usize {
+        // Entry d: number of products of degree d of the generators so far.
+        let mut ways = vec![0usize; degree as usize + 1];
+        ways[0] = 1;
+        for (_, own) in &self.0 {
+            for d in *own as usize..ways.len() {
+                ways[d] += ways[d - *own as usize];
+            }
+        }
+        if mixed { ways.iter().sum() } else { ways[degree as usize] }
+    }
+}
+
+/// Finds the degree of a formula in the velocities; `None` if it is not a polynomial in them, or if
+/// its slope has no value modulo a prime.
+///
+/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
+/// are linear equations for the coefficients of P. The logarithm's slope is a rational function
+/// where F has factors that fields lack, such as exponentials of the positions.
+pub fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
+    let model = &case.model;
+    let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
+    let Ok(formula) = Formula::parse(formula, &model.vocabulary) else { return Ok(None) };
+    let all = model.vocabulary.with_abbreviations(&formula, &model.abbreviations);
+    let draws = model.parameter_draws();
+    let inputs = draws.len() + coordinates.count() + coordinates.velocities + 1;
+    let (graph, (slope, moving)) = record(inputs, |inputs| {
+        let (given, point) = inputs.split_at(draws.len());
+        let (parameters, _) = model.make_parameters(given);
+        let (positions, rest) = point.split_at(coordinates.positions);
+        let (start, rest) = rest.split_at(coordinates.velocities);
+        let (along, s) = rest.split_at(coordinates.velocities);
+        let velocities = start.iter().zip(along).map(|(w, u)| Dual::new(*w + s[0] * *u, *u));
+        let positions = positions.iter().map(|q| Dual::from_re(*q));
+        let state = coordinates.state(&positions.chain(velocities).collect::<Vec<_>>());
+        let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
+        let moved = Phase::new(model, &parameters, &state);
+        let slope = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
+        // An ∫ whose variable depends on the velocities has a degree that this test does not see.
+        let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| moved.value(s)));
+        let moving: Vec<Expr> = integrals.map(|(_, variable)| variable.eps).collect();
+        (slope, moving)
+    })?;
+    if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
+        return Ok(None);
+    }
+    let mut chance = Chance::new(seed, 42);
+    let modulus = chance.prime(&[3, 5], &[2, 3]);
+    let tape = Tape::new(&graph, &[slope]);
+    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; POINTS]));
+    for _ in 0..TRIALS {
+        let mut values: Vec<[u64; POINTS]> =
+            (1..inputs).map(|_| [chance.element(&modulus); POINTS]).collect();
+        values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
+        values.resize(graph.inputs(), [modulus.one(); POINTS]);
+        evaluator.run(&values);
+        let slopes = evaluator.output(0);
+        if !slopes.contains(&UNDEFINED) {
+            return Ok(polynomial_degree(slopes, &modulus));
+        }
+    }
+    Ok(None)
+}
+
+/// Finds the degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if there is
+/// one.
+fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
+    let mut echelon = Echelon::new(MOST + 1, *m);
+    for (s, slope) in slopes.iter().enumerate() {
+        let s = m.integer(s as u64);
+        // P' - P (ln F)', with the coefficients of P from the highest down
+        let entry = |power: u64| {
+            let slope_of_power = match power {
+                0 => 0,
+                _ => m.mul(m.integer(power), m.power(s, power - 1)),
+            };
+            m.sub(slope_of_power, m.mul(*slope, m.power(s, power)))
+        };
+        echelon.push((0..=MOST as u64).rev().map(entry).collect());
+    }
+    match &echelon.null_space()[..] {
+        [only] => only.iter().rev().rposition(|entry| *entry != 0).map(|degree| degree as u32),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_are_counted() {
+        let generators = Generators(vec![("E".into(), 2), ("F".into(), 2), ("G".into(), 1)]);
+        // E², EF, F², EG², FG², G⁴
+        assert_eq!(generators.products(4, false), 6);
+        assert_eq!(generators.exponents(4, false).len(), 6);
+        assert_eq!(generators.exponents(2, true).len(), 5);
+        // 1, G, and E, F, G²
+        assert_eq!(generators.products(2, true), 5);
+    }
+
+    #[test]
+    fn degrees_come_from_slopes_of_logarithms() {
+        let m = Chance::new(1, 42).prime(&[3, 5], &[2, 3]);
+        let of = |slope: &dyn Fn(u64) -> u64| {
+            let slopes: Vec<u64> = (0..POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
+            polynomial_degree(&slopes, &m)
+        };
+        let over = |a: u64, b: u64| m.mul(a, m.inverse(b));
+        let cube = |s: u64| m.add(m.mul(s, m.mul(s, s)), m.integer(5));
+        let slope = |s: u64| m.mul(m.integer(3), m.mul(s, s));
+        assert_eq!(of(&|s| over(slope(s), cube(s))), Some(3), "s³ + 5");
+        assert_eq!(of(&|_| 0), Some(0), "a constant");
+        assert_eq!(of(&|s| over(m.integer(2), s)), Some(2), "s²");
+        let twice = |s: u64| m.mul(m.integer(2), over(slope(s), cube(s)));
+        assert_eq!(of(&twice), Some(6), "(s³ + 5)²");
+        assert_eq!(of(&|s| over(m.one(), m.mul(m.integer(2), s))), None, "√s");
+        assert_eq!(of(&|s| m.sub(0, over(m.one(), s))), None, "1/s");
+        assert_eq!(of(&|s| m.sub(twice(s), over(m.one(), s))), None, "(s³ + 5)²/s");
+        assert_eq!(of(&|_| m.one()), None, "exp s");
+    }
+}

@@ -1,0 +1,82 @@
+//! Conformally Hamiltonian form of rubber bodies with a density.
+//!
+//! With N = ρ/ρ₀, ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, on (M,γ) = 0
+//!
+//! ```text
+//! plane:   M = N(Ĩω − (Ĩω,γ)γ),        H = (γ×M, Ĩ(γ×M))/(2N²ρ₀) + U
+//! sphere:  M = N[Γ(γ×Ĩω)]×γ,           H = [(y,Ĩ⁻¹y) − (y,Ĩ⁻¹γ)²/(γ,Ĩ⁻¹γ)]/(2N²) + U,  y = ΓM/det Γ
+//! N⁻¹M' = M×∂H/∂M + γ×∂H/∂γ,   N⁻¹γ' = γ×∂H/∂M
+//! ```
+//!
+//! BMB 2013, (2.14)-(2.19), (2.28), for any potential and without a rotor.
+
+use super::question::{Definition, Finding, Question, define, merged, used_by};
+use super::shown::Typesetter;
+use liouville::case::Case;
+use liouville::mechanics::System;
+use liouville::verdict::{JudgeError, Options};
+
+/// Returns the form with its proof, if the density is known in closed form.
+pub fn form(
+    case: &Case,
+    options: &Options,
+    bindings: &[Definition],
+    density: &Finding,
+) -> Result<Vec<Finding>, JudgeError> {
+    let System::Rubber(body) = &case.model.system else { return Ok(Vec::new()) };
+    if body.gyrostat.is_some() || body.moment.is_some() || !case.model.extension.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (mut names, formulas) = merged(bindings, &[density]);
+    let mut add = |name: &str, formula: String| names.push(define(name, &formula));
+    let volume = if body.curvature.is_some() { "*D_T" } else { "" };
+    add("N", format!("({})/(det(Ĩ)*(γ,Ĩ⁻¹*γ){volume})", formulas[0]));
+    let energy = match body.curvature {
+        None => {
+            // The last term vanishes on the level; with it M and γ are coordinates off the level
+            // too.
+            add("M", "N*(Ĩ*ω − (Ĩ*ω,γ)*γ) + (ω,γ)*γ".to_string());
+            "((γ × M),Ĩ*(γ × M))/(2*N²*det(Ĩ)*(γ,Ĩ⁻¹*γ))"
+        }
+        Some(_) => {
+            add("M", "N*(Γ*(γ × Ĩ*ω) × γ) + (ω,γ)*γ".to_string());
+            add("y", "(1/det(Γ))*(Γ*M)".to_string());
+            "((y,Ĩ⁻¹*y) − (y,Ĩ⁻¹*γ)²/(γ,Ĩ⁻¹*γ))/(2*N²)"
+        }
+    };
+    let potential = if body.potential.is_some() { " + U" } else { "" };
+    let body = format!(
+        "[variables]\nM = \"M\"\n\"γ\" = \"γ\"\n[poisson]\nstructure = \"e(3)\"\n\
+         [[claim]]\nname = \"H\"\nhamiltonian = \"{energy}{potential}\"\nmultiplier = \"N\"\n\
+         [[claim]]\nname = \"ρ\"\ndensity-in-variables = \"1/N\"\n"
+    );
+    let mut question = Question::plain("conformally Hamiltonian form", &names, body);
+    question.source = match volume {
+        "" => "BMB 2013, (2.14)-(2.19)".to_string(),
+        _ => "BMB 2013, (2.28)".to_string(),
+    };
+    let mut found = question.ask(case, options)?.unwrap_or_default();
+    let asked = case.ask(&question.text()).ok();
+    for finding in &mut found {
+        // H is written in the new variables, so its text is not among the names of the case.
+        let text = match finding.claim.kind {
+            "hamiltonian" => format!("{energy}{potential}"),
+            _ => "1/N".to_string(),
+        };
+        // The measure follows H in the report, in the same names.
+        finding.definitions = match finding.claim.kind {
+            "hamiltonian" => used_by(&[&text, "N", "M"], &names),
+            _ => Vec::new(),
+        };
+        if let Some(asked) = &asked {
+            let paper = Typesetter(&asked.model.vocabulary);
+            finding.shown.definitions = paper.definitions(&finding.definitions);
+            finding.shown.statement = asked.model.variables.as_ref().and_then(|variables| {
+                Typesetter(&variables.model.vocabulary)
+                    .definition(&define(&finding.claim.name, &text))
+            });
+        }
+        finding.claim.formula = Some(text);
+    }
+    Ok(found)
+}

@@ -1,0 +1,91 @@
+//! Independence of integrals, and their number against that needed for a quadrature.
+
+use serde::Serialize;
+
+use super::question::{Definition, Finding, Question, merged};
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict};
+
+/// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Count {
+    /// Dimension of the level set.
+    pub dimension: usize,
+    /// Number of integrals that the theorem needs in addition to a density.
+    pub needed: usize,
+    /// Names of independent integrals, the energy first if there is one.
+    pub independent: Vec<String>,
+    /// Claim of their independence, if there are integrals other than the energy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub claim: Option<ClaimReport>,
+}
+
+/// Selection of integrals that are independent of each other and of the energy.
+pub struct Independent {
+    /// Indices of the independent integrals.
+    pub kept: Vec<usize>,
+    /// Count of independent integrals.
+    pub count: Count,
+}
+
+/// Takes integrals in order if they are independent of those before them, general ones first;
+/// `implied` are names of integrals that exist without a formula.
+pub fn count(
+    case: &Case,
+    options: &Options,
+    bindings: &[Definition],
+    integrals: &[&Finding],
+    implied: &[String],
+) -> Result<Independent, JudgeError> {
+    let dimension = case.model.dimension() - case.model.level.len();
+    let energy = has_energy(case);
+    let mut kept: Vec<usize> = Vec::new();
+    let mut proof = None;
+    for index in 0..integrals.len() {
+        let trial: Vec<&Finding> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
+        let claim = independent(case, options, bindings, energy, &trial)?;
+        if let Some(claim) = claim.filter(|claim| claim.verdict == Verdict::Proved) {
+            kept.push(index);
+            proof = Some(claim);
+        }
+    }
+    let energy = energy.then(|| "energy".to_string());
+    let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
+    // Integrals with a formula may be functions of those without one, so they are not counted
+    // twice.
+    let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
+    let implied = &implied[beside.min(implied.len())..];
+    let count = Count {
+        dimension,
+        needed: dimension.saturating_sub(2),
+        independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
+        claim: proof,
+    };
+    Ok(Independent { kept, count })
+}
+
+/// Whether every system of this kind conserves the energy.
+fn has_energy(case: &Case) -> bool {
+    let conserved = |case: &Case| match &case.model.system {
+        liouville::mechanics::System::Ball(ball) => ball.rotation.is_none(),
+        liouville::mechanics::System::Rubber(body) => body.moment.is_none(),
+        system => system.has_energy(),
+    };
+    conserved(case) && case.model.vocabulary.find("energy").is_some()
+}
+
+fn independent(
+    case: &Case,
+    options: &Options,
+    bindings: &[Definition],
+    energy: bool,
+    findings: &[&Finding],
+) -> Result<Option<ClaimReport>, JudgeError> {
+    let (definitions, formulas) = merged(bindings, findings);
+    let energy = energy.then(|| "energy".to_string());
+    let quoted: Vec<String> =
+        energy.iter().chain(&formulas).map(|text| format!("\"{text}\"")).collect();
+    let body = format!("[[claim]]\nindependent = [{}]\n", quoted.join(", "));
+    let found = Question::plain("independence", &definitions, body).ask(case, options)?;
+    Ok(found.and_then(|found| found.into_iter().next()).map(|finding| finding.claim))
+}

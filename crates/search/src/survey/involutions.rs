@@ -1,0 +1,357 @@
+//! Symmetries and reversors among the signed permutations of the axes of the frame, and the
+//! involutions about vectors of the case.
+//!
+//! With Q in O(3), Qᵀ = Q⁻¹, an axial vector is mapped to det Q Qω and a polar one to Qγ; a
+//! reversor has −det Q Qω, and Q² = E. If Q preserves the body, its inertia, its rotor and the
+//! potential, the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides each case.
+
+use super::mirrors::Mirror;
+use super::question::{Finding, FixedSet, Question};
+use liouville::case::Case;
+use liouville::formula::Type;
+use liouville::mechanics::{Surface, System};
+use liouville::verdict::{JudgeError, Options};
+
+/// A signed permutation: component i is `signs[i]` times component `places[i]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Turn {
+    places: [usize; 3],
+    signs: [i8; 3],
+}
+
+/// A candidate map: its name, its key in a claim, the images by state variable, the dimension of
+/// its fixed set.
+struct Candidate {
+    name: String,
+    key: &'static str,
+    images: Vec<(String, String)>,
+    fixed_set: Option<FixedSet>,
+}
+
+/// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
+pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
+    let candidates = candidates(case);
+    let claim = |one: &Candidate| {
+        let images = one.images.iter().map(|(name, image)| format!("\"{name}\" = \"{image}\""));
+        let images = images.collect::<Vec<_>>().join(", ");
+        format!("[[claim]]\nname = \"{}\"\n{} = {{ {images} }}\n", one.name, one.key)
+    };
+    let body: String = candidates.iter().map(claim).collect();
+    let question = Question::plain("maps of the frame", &[], body);
+    let mut found = question.ask(case, options)?.unwrap_or_default();
+    for (finding, candidate) in found.iter_mut().zip(&candidates) {
+        finding.fixed_set = candidate.fixed_set;
+    }
+    found.retain(Finding::holds);
+    Ok(found)
+}
+
+fn candidates(case: &Case) -> Vec<Candidate> {
+    let turns = || Turn::all().into_iter();
+    match &case.model.system {
+        System::Rubber(_) => {
+            let candidate = |map: &Map, axial: i8| Candidate {
+                name: map.name(axial < 0),
+                key: key(axial),
+                images: vec![
+                    ("ω".into(), map.image("ω", axial * map.determinant())),
+                    ("γ".into(), map.image("γ", 1)),
+                ],
+                // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+                fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
+                    1 => along.checked_sub(1).map(|d| d + velocity),
+                    _ => along.checked_sub(1).map(|d| d + velocity - 1),
+                }),
+            };
+            both(Map::all(case), candidate)
+        }
+        System::Ball(ball) => {
+            let is_level = matches!(ball.surface, Surface::Level(_));
+            let second = if is_level { "r" } else { "γ" };
+            both(Map::all(case), |map, axial| Candidate {
+                name: map.name(axial < 0),
+                key: key(axial),
+                images: vec![
+                    ("M".into(), map.image("M", axial * map.determinant())),
+                    (second.into(), map.image(second, 1)),
+                ],
+                fixed_set: fixed(axial, map, |along, velocity| match is_level {
+                    true => Some(along + velocity),
+                    false => along.checked_sub(1).map(|d| d + velocity),
+                }),
+            })
+        }
+        System::FlatBase(_) => {
+            let about_axis = turns().filter(|turn| turn.places[2] == 2 && turn.signs[2] == 1);
+            both(about_axis.collect(), |turn: &Turn, axial| {
+                let across = |name: &str, sign: i8| {
+                    (0..2)
+                        .map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
+                        .collect::<Vec<_>>()
+                };
+                let mut images = across("ω", axial * turn.determinant());
+                images.extend(across("r", 1));
+                // Both fixed spaces contain the axis in addition to vectors in the plane.
+                let fixed_set = fixed(axial, turn, |along, velocity| {
+                    let of_axis = usize::from(axial * turn.determinant() == 1);
+                    Some(along - 1 + velocity - of_axis)
+                });
+                Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set }
+            })
+        }
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+            sign_changes(case)
+        }
+    }
+}
+
+fn key(axial: i8) -> &'static str {
+    if axial < 0 { "reversor" } else { "symmetry" }
+}
+
+/// Computes the dimension of the fixed set of a reversor from those of the fixed spaces of polar
+/// and of axial vectors.
+fn fixed(
+    axial: i8,
+    map: &impl Orthogonal,
+    dimension: impl Fn(usize, usize) -> Option<usize>,
+) -> Option<FixedSet> {
+    (axial < 0).then(|| {
+        let velocity = map.fixed_space(axial * map.determinant());
+        FixedSet { dimension: dimension(map.fixed_space(1), velocity) }
+    })
+}
+
+/// Lists reversors (axial −1) of all involutions, then symmetries (axial 1) except the identity.
+fn both<M: Orthogonal>(maps: Vec<M>, candidate: impl Fn(&M, i8) -> Candidate) -> Vec<Candidate> {
+    let involutions = maps.iter().filter(|map| map.is_involution());
+    let mut all: Vec<Candidate> = involutions.map(|map| candidate(map, -1)).collect();
+    let others = maps.iter().filter(|map| !map.is_identity());
+    all.extend(others.map(|map| candidate(map, 1)));
+    all
+}
+
+/// An orthogonal map Q, Qᵀ = Q⁻¹.
+trait Orthogonal {
+    fn determinant(&self) -> i8;
+    fn is_identity(&self) -> bool;
+    fn is_involution(&self) -> bool;
+    /// Returns the dimension of {x : sign Qx = x}.
+    fn fixed_space(&self, sign: i8) -> usize;
+}
+
+/// An orthogonal map of a body's frame.
+enum Map {
+    Turn(Turn),
+    Mirror(Mirror),
+}
+
+impl Map {
+    /// Lists the 48 signed permutations, and reflections about the vectors of the case.
+    fn all(case: &Case) -> Vec<Self> {
+        let turns = Turn::all().into_iter().map(Self::Turn);
+        turns.chain(Mirror::all(case).into_iter().map(Self::Mirror)).collect()
+    }
+
+    fn name(&self, reverses: bool) -> String {
+        match self {
+            Self::Turn(turn) => turn.name(reverses),
+            Self::Mirror(mirror) => mirror.name(reverses),
+        }
+    }
+
+    /// Writes sign·Q x as a formula.
+    fn image(&self, name: &str, sign: i8) -> String {
+        match self {
+            Self::Turn(turn) => turn.image(name, sign),
+            Self::Mirror(mirror) => mirror.image(name, sign),
+        }
+    }
+}
+
+impl Orthogonal for Map {
+    fn determinant(&self) -> i8 {
+        match self {
+            Self::Turn(turn) => turn.determinant(),
+            Self::Mirror(mirror) => mirror.determinant(),
+        }
+    }
+
+    fn is_identity(&self) -> bool {
+        matches!(self, Self::Turn(turn) if turn.is_identity())
+    }
+
+    fn is_involution(&self) -> bool {
+        match self {
+            Self::Turn(turn) => turn.is_involution(),
+            Self::Mirror(_) => true,
+        }
+    }
+
+    fn fixed_space(&self, sign: i8) -> usize {
+        match self {
+            Self::Turn(turn) => turn.fixed_space(sign),
+            Self::Mirror(mirror) => mirror.fixed_space(sign),
+        }
+    }
+}
+
+/// Largest number of components of a user-defined state for which all sign changes are tried.
+const MOST_COMPONENTS: usize = 6;
+
+/// Lists the sign changes of the components of a state without a frame; of whole variables if there
+/// are many.
+fn sign_changes(case: &Case) -> Vec<Candidate> {
+    let model = &case.model;
+    let single = model.dimension() <= MOST_COMPONENTS;
+    let parts = |kind: Type| match kind {
+        Type::Vector(length) if single => length,
+        _ => 1,
+    };
+    let count: usize = model.state.iter().map(|variable| parts(variable.kind)).sum();
+    if count > MOST_COMPONENTS {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    for key in ["reversor", "symmetry"] {
+        for mask in 1u32..1 << count {
+            let (mut images, mut changed, mut bit) = (Vec::new(), Vec::new(), 0);
+            let mut fixed = model.dimension();
+            for variable in &model.state {
+                let name = &variable.name;
+                let flips: Vec<bool> =
+                    (bit..bit + parts(variable.kind)).map(|b| mask >> b & 1 == 1).collect();
+                bit += flips.len();
+                if !flips.contains(&true) {
+                    continue;
+                }
+                let whole = !flips.contains(&false);
+                fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
+                let sign =
+                    |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
+                let image = match whole {
+                    true => format!("−{name}"),
+                    false => {
+                        let signs: Vec<String> = (0..flips.len()).map(sign).collect();
+                        format!("[{}]", signs.join(", "))
+                    }
+                };
+                changed.push(format!("{name} → {image}"));
+                images.push((name.clone(), image));
+            }
+            // On a level the dimension depends on the intersection with the fixed space.
+            let known = key == "reversor" && model.level.is_empty();
+            let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
+            all.push(Candidate {
+                name: format!("{key} {}", changed.join(", ")),
+                key,
+                images,
+                fixed_set,
+            });
+        }
+    }
+    all
+}
+
+impl Turn {
+    /// Lists all 48, those without exchanges first.
+    fn all() -> Vec<Self> {
+        let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
+        let signs =
+            (0..8).map(|mask: i32| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { -1 } else { 1 }));
+        let signs: Vec<[i8; 3]> = signs.collect();
+        orders
+            .into_iter()
+            .flat_map(|places| signs.iter().map(move |signs| Self { places, signs: *signs }))
+            .collect()
+    }
+
+    /// Writes component i of sign·Q x as a formula.
+    fn component(self, name: &str, i: usize, sign: i8) -> String {
+        let minus = if self.signs[i] * sign < 0 { "−" } else { "" };
+        format!("{minus}{name}{}", self.places[i] + 1)
+    }
+
+    fn image(self, name: &str, sign: i8) -> String {
+        let parts = [0, 1, 2].map(|i| self.component(name, i, sign));
+        format!("[{}]", parts.join(", "))
+    }
+
+    /// Returns the name in BMB 2013, A.1, if it has one.
+    fn name(self, reverses: bool) -> String {
+        let tilde = if reverses { "\u{303}" } else { "" };
+        let minus = self.signs.iter().filter(|sign| **sign < 0).count();
+        let odd_one = |sign: i8| self.signs.iter().position(|s| *s == sign).map_or(0, |k| k + 1);
+        match (self.places, minus) {
+            ([0, 1, 2], 0) => "R(0)".to_string(),
+            ([0, 1, 2], 1) => format!("Σ{tilde}({})", odd_one(-1)),
+            ([0, 1, 2], 2) => format!("Π{tilde}({})", odd_one(1)),
+            ([0, 1, 2], _) => format!("Σ{tilde}(0)"),
+            _ => {
+                let parts = [0, 1, 2].map(|i| self.component("", i, 1));
+                let word = if reverses { "reversor" } else { "symmetry" };
+                format!("{word} ({})", parts.join(" "))
+            }
+        }
+    }
+}
+
+impl Orthogonal for Turn {
+    fn determinant(&self) -> i8 {
+        let exchanges = (0..3).flat_map(|i| (i + 1..3).map(move |j| (i, j)));
+        let odd = exchanges.filter(|(i, j)| self.places[*i] > self.places[*j]).count() % 2 == 1;
+        self.signs.iter().product::<i8>() * if odd { -1 } else { 1 }
+    }
+
+    fn is_identity(&self) -> bool {
+        *self == Self { places: [0, 1, 2], signs: [1, 1, 1] }
+    }
+
+    fn is_involution(&self) -> bool {
+        (0..3).all(|i| {
+            let j = self.places[i];
+            self.places[j] == i && self.signs[i] * self.signs[j] == 1
+        })
+    }
+
+    /// One dimension for each cycle whose signs multiply to 1.
+    fn fixed_space(&self, sign: i8) -> usize {
+        let mut seen = [false; 3];
+        let mut dimension = 0;
+        for start in 0..3 {
+            let (mut at, mut product) = (start, 1);
+            while !std::mem::replace(&mut seen[at], true) {
+                product *= sign * self.signs[at];
+                at = self.places[at];
+                if at == start {
+                    dimension += usize::from(product == 1);
+                }
+            }
+        }
+        dimension
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_are_as_many_as_in_the_octahedral_group() {
+        let all = Turn::all();
+        assert_eq!(all.len(), 48, "signed permutations");
+        assert_eq!(all.iter().filter(|turn| turn.determinant() == 1).count(), 24, "rotations");
+        assert_eq!(all.iter().filter(|turn| turn.is_involution()).count(), 20, "Q² = E");
+    }
+
+    #[test]
+    fn fixed_spaces_are_those_of_the_paper() {
+        let diagonal = |signs| Turn { places: [0, 1, 2], signs };
+        assert_eq!(diagonal([1, -1, -1]).fixed_space(1), 1, "Π(1) keeps e₁");
+        assert_eq!(diagonal([-1, 1, 1]).fixed_space(1), 2, "Σ(1) keeps a plane");
+        let exchange = Turn { places: [1, 0, 2], signs: [1, 1, -1] };
+        assert_eq!((exchange.fixed_space(1), exchange.fixed_space(-1)), (1, 2), "a half turn");
+        assert_eq!(exchange.name(false), "symmetry (2 1 −3)", "named by what it does");
+        assert_eq!(diagonal([-1, -1, -1]).name(true), "Σ\u{303}(0)", "named as in the appendix");
+    }
+}

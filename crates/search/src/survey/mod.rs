@@ -1,0 +1,404 @@
+//! Survey of a system's invariants: all known formulas are tried on the geometry, and those that
+//! hold are proved.
+//!
+//! ```text
+//! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
+//! family       formulas that make sense under such facts; files of data
+//! question     a family's formulas put to the case, in the names that the case has
+//! involutions  signed permutations of the axes, as symmetries and reversors
+//! sphere       the density, or the criterion, over the sphere of normals
+//! hamiltonian  the conformally Hamiltonian form that a density gives
+//! unknown      further invariants that the search finds and excludes
+//! hierarchy    what follows: integral and measure, integral only, measure only, neither
+//! ```
+
+mod axis;
+mod data;
+mod family;
+mod geometry;
+mod hamiltonian;
+mod hierarchy;
+mod independence;
+mod involutions;
+mod mirrors;
+mod question;
+mod shown;
+mod sphere;
+mod unknown;
+mod wireframe;
+mod words;
+
+use serde::Serialize;
+
+use liouville::case::{Case, Expect};
+use liouville::verdict::{JudgeError, Options, Verdict};
+use liouville_flow::observe::evidence_against_density;
+
+pub use geometry::Fact;
+pub use hierarchy::{Class, Integrals, Measure, Standing};
+pub use independence::Count;
+pub use question::{Definition, Finding, FixedSet};
+pub use shown::Shown;
+pub use sphere::SphereMap;
+pub use unknown::Unknown;
+pub use wireframe::Wireframe;
+pub use words::Given;
+
+use geometry::Geometry;
+use question::Question;
+
+/// All known invariants of a system, with proofs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Survey {
+    /// Title of the case.
+    pub title: String,
+    /// Kind of system.
+    pub system: String,
+    /// Seed of all states, primes and points.
+    pub seed: u64,
+    /// Description of the system in one sentence.
+    pub sentence: String,
+    /// Parameters; proofs cover all values of the free ones.
+    pub parameters: Vec<Given>,
+    /// Surface of the body with the parameters of the first state, for a picture.
+    #[serde(skip)]
+    pub wireframe: Option<Wireframe>,
+    /// Notes of the case.
+    pub notes: Vec<String>,
+    /// Facts about the geometry, true and false.
+    pub facts: Vec<Fact>,
+    /// Place in the hierarchy.
+    pub hierarchy: Standing,
+    /// Integrals common to all such systems, and the energy.
+    pub general: Vec<Finding>,
+    /// Criterion for a density of the configuration.
+    pub criterion: Vec<Finding>,
+    /// Densities that hold.
+    pub densities: Vec<Finding>,
+    /// Map of ln ρ, or of the criterion, on the sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<SphereMap>,
+    /// Integrals other than the general ones, each independent of those before it.
+    pub integrals: Vec<Finding>,
+    /// Integrals that depend on these and have simple formulas.
+    pub dependent: Vec<Finding>,
+    /// Rates from which further integrals follow by a linear equation.
+    pub rates: Vec<Finding>,
+    /// Count for the theorem of Euler and Jacobi.
+    pub independence: Count,
+    /// Symmetry fields.
+    pub fields: Vec<Finding>,
+    /// Reversors, with the dimensions of their fixed sets.
+    pub reversors: Vec<Finding>,
+    /// Discrete symmetries.
+    pub symmetries: Vec<Finding>,
+    /// Conformally Hamiltonian form, if there is a density in closed form and no rotor.
+    pub hamiltonian: Vec<Finding>,
+    /// Claims and questions of the case.
+    pub claimed: Vec<Finding>,
+    /// Known invariants of such systems that fail for this one.
+    pub fails: Vec<Finding>,
+    /// Claims that could not be decided.
+    pub undecided: Vec<Finding>,
+    /// Results of the search beyond the families.
+    pub search: Unknown,
+    /// Physical impossibilities of the states drawn.
+    pub warnings: Vec<String>,
+}
+
+/// Tries all known formulas on a case; `progress` is called with a description of the next part.
+pub fn survey(
+    case: &Case,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Survey, JudgeError> {
+    if case.model.system.is_map() {
+        return Err(JudgeError::Discrete);
+    }
+    progress("what the case claims");
+    let own = liouville::verdict::judge(case, options)?;
+    let claimed: Vec<Finding> = own
+        .claims
+        .into_iter()
+        .filter(|claim| claim.expect != Expect::Fails.word())
+        .map(|claim| Finding::claimed(case, claim))
+        .collect();
+    progress("the geometry");
+    let geometry = Geometry::of(case, options)?;
+    let (mut all, implied) = tried(case, options, &geometry, progress)?;
+    all.extend(claimed.iter().filter(|one| one.is("integral") || one.is("density")).cloned());
+    progress("symmetries and reversors");
+    let (reversors, symmetries) = involutions::find(case, options)?
+        .into_iter()
+        .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
+    progress("integrals that nobody typed");
+    let mut search = Unknown::of(case, options, progress);
+    all.append(&mut search.findings);
+    progress("what follows");
+    let mut sorted = Sorted::of(all);
+    let candidates: Vec<&Finding> = sorted.integrals.iter().collect();
+    let independent =
+        independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
+    let (mut integrals, mut dependent) = (Vec::new(), Vec::new());
+    for (index, finding) in std::mem::take(&mut sorted.integrals).into_iter().enumerate() {
+        match (finding.is_general, independent.kept.contains(&index)) {
+            (true, _) => sorted.general.push(finding),
+            (false, true) => integrals.push(finding),
+            (false, false) if finding.is_of_family() => dependent.push(finding),
+            // Further integrals of the case or the search are functions of those reported.
+            (false, false) => {}
+        }
+    }
+    // The densities of the case and of the search are reported if no family has one.
+    let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
+    sorted.densities.retain(|one| !from_family || one.is_of_family());
+    let measure = measure(&sorted);
+    let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
+        Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
+        None => Vec::new(),
+    };
+    let found = independent.count.independent.len();
+    let none = integrals.is_empty() && implied.is_empty();
+    let standing = match (none, search.excluded_to()) {
+        (false, _) if found >= independent.count.needed => Integrals::Enough,
+        (false, _) => Integrals::Some,
+        (true, Some(degree)) => Integrals::ExcludedToDegree(degree),
+        (true, None) => Integrals::NotKnown,
+    };
+    let sphere = match measure {
+        Measure::ClosedForm | Measure::ByQuadrature => sphere::density(case, options)?,
+        Measure::Excluded | Measure::ExcludedForConfiguration => sphere::criterion(case, options)?,
+        Measure::Singular | Measure::NotKnown => None,
+    };
+    let mut hierarchy = Standing::of(measure, standing, reversors.len());
+    if !matches!(measure, Measure::ClosedForm | Measure::ByQuadrature) {
+        progress("closed orbits");
+        hierarchy.grounds.extend(evidence_against_density(case, options.seed));
+    }
+    Ok(Survey {
+        title: case.title.clone(),
+        system: case.system.clone(),
+        seed: options.seed,
+        sentence: words::sentence(case, &geometry.facts),
+        parameters: words::parameters(case),
+        wireframe: wireframe::of(case, options)?,
+        notes: case.notes.clone(),
+        facts: geometry.facts,
+        hierarchy,
+        general: sorted.general,
+        criterion: sorted.criterion,
+        densities: sorted.densities,
+        sphere,
+        integrals,
+        dependent,
+        rates: sorted.rates,
+        independence: independent.count,
+        fields: sorted.fields,
+        reversors,
+        symmetries,
+        hamiltonian,
+        claimed,
+        fails: sorted.fails,
+        undecided: sorted.undecided,
+        search,
+        warnings: own.warnings,
+    })
+}
+
+/// Judges the claims of all families that apply; returns them with the integrals that follow
+/// without a formula.
+fn tried(
+    case: &Case,
+    options: &Options,
+    geometry: &Geometry,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(Vec<Finding>, Vec<String>), JudgeError> {
+    let (mut all, mut implied) = (Vec::new(), Vec::new());
+    for family in family::all() {
+        let axes: Vec<Option<&axis::Axis>> = match family.around {
+            true => geometry.axes.iter().map(Some).collect(),
+            false => vec![None],
+        };
+        for axis in axes {
+            if !family.applies(&case.system, |fact| geometry.has_about(fact, axis)) {
+                continue;
+            }
+            let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
+            progress(&family.name);
+            let question = Question::of(&family, &geometry.bindings);
+            let found = question.ask(case, options)?.unwrap_or_default();
+            if !found.is_empty() && found.iter().all(Finding::holds) {
+                implied.extend(family.gives);
+            }
+            all.extend(found);
+        }
+    }
+    Ok((all, implied))
+}
+
+/// Findings sorted by subject.
+#[derive(Default)]
+struct Sorted {
+    general: Vec<Finding>,
+    integrals: Vec<Finding>,
+    criterion: Vec<Finding>,
+    densities: Vec<Finding>,
+    rates: Vec<Finding>,
+    fields: Vec<Finding>,
+    fails: Vec<Finding>,
+    undecided: Vec<Finding>,
+}
+
+impl Sorted {
+    fn of(all: Vec<Finding>) -> Self {
+        let mut sorted = Self::default();
+        let mut told: Vec<(&'static str, String)> = Vec::new();
+        for finding in all {
+            let statement = (finding.claim.kind, finding.formula().to_string());
+            if told.contains(&statement) && finding.definitions.is_empty() {
+                continue;
+            }
+            told.push(statement);
+            let place = match finding.claim.kind {
+                "position-density" | "analytic-density" => &mut sorted.criterion,
+                // Questions of the case are reported with the case's claims.
+                _ if !finding.is_of_family() && !finding.holds() => continue,
+                "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
+                _ if finding.fails() => &mut sorted.fails,
+                _ if !finding.holds() => &mut sorted.undecided,
+                "density" => &mut sorted.densities,
+                "integral" if finding.is_new_integral() => &mut sorted.integrals,
+                "integral" => &mut sorted.general,
+                "symmetry-field" => &mut sorted.fields,
+                "rate" => &mut sorted.rates,
+                _ => continue,
+            };
+            place.push(finding);
+        }
+        // Simple formulas first, and those of the case after those of the families.
+        sorted.integrals.sort_by_key(|one| {
+            let length = one.formula().chars().count();
+            (!one.is_general, !one.is_of_family(), one.is_quadrature(), length)
+        });
+        sorted.densities.sort_by_key(|one| (!one.is_of_family(), one.is_quadrature()));
+        sorted
+    }
+}
+
+/// Determines the state of knowledge about a density of constant sign.
+fn measure(sorted: &Sorted) -> Measure {
+    let verdict = |kind: &str| {
+        let claim = sorted.criterion.iter().find(|one| one.is(kind));
+        claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
+    };
+    let mut measures = sorted.densities.iter().filter(|one| one.is_measure());
+    if measures.any(|one| !one.is_quadrature()) {
+        return Measure::ClosedForm;
+    }
+    match (verdict("position-density"), verdict("analytic-density")) {
+        (Verdict::Proved | Verdict::Confirmed, _) => Measure::ByQuadrature,
+        (_, Verdict::Refuted) => Measure::Excluded,
+        (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
+        _ if sorted.densities.iter().any(Finding::is_measure) => Measure::ByQuadrature,
+        _ if !sorted.densities.is_empty() => Measure::Singular,
+        _ => Measure::NotKnown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bodies of the catalogue, with at least one for each family.
+    const BODIES: [&str; 33] = [
+        "plane/spherical-inertia-ball",
+        "plane/balanced-ball-gravity",
+        "plane/balanced-ball",
+        "plane/balanced-ball-gyrostat",
+        "plane/balanced-ball-brun",
+        "plane/unbalanced-ball",
+        "plane/revolution",
+        "plane/revolution-gyrostat",
+        "plane/spherical-inertia",
+        "plane/ellipsoid",
+        "plane/ellipsoid-mb-mu",
+        "plane/spheroid",
+        "sphere/balanced-ball",
+        "sphere/borisov-mamaev-ball",
+        "sphere/borisov-mamaev-ball-potential",
+        "sphere/equal-sphere",
+        "sphere/symmetric-ball",
+        "sphere/symmetric-ball-gyrostat",
+        "sphere/body-of-revolution",
+        "sphere/body-of-revolution-gyrostat",
+        "sphere/disk",
+        "sphere/ellipsoid",
+        "flat-base/base-through-centre",
+        "flat-base/symmetric-base",
+        "flat-base/symmetric-base-gyrostat",
+        "flat-base/symmetric-base-through-centre-gyrostat",
+        "surface/sphere",
+        "surface/ellipsoid",
+        "surface/revolution",
+        "surface/rotating-sphere",
+        "surface/circular-cylinder",
+        "skate/nonholonomic",
+        "suslov/vakonomic-top",
+    ];
+
+    /// A body that preserves phase volume itself.
+    const HOMOGENEOUS: &str = "title = \"homogeneous ball\"\nsystem = \"rubber-plane\"\n[parameters]\n\
+        m = \"0.5..2\"\nR = \"1..3\"\nI = \"spherical(0.5..3)\"\n[body]\nshape = \"ball\"\n";
+
+    #[test]
+    fn no_family_is_dead() {
+        let options = Options::default();
+        let mut missing: Vec<String> = Vec::new();
+        let mut cases = vec![Case::parse(HOMOGENEOUS, &[]).expect("a case")];
+        for name in BODIES {
+            let path =
+                format!("{}/cases/{name}.toml", concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+            cases.push(Case::read(path.as_ref(), &[]).1.expect(name));
+        }
+        let recognised = |case: Case| {
+            let geometry = Geometry::of(&case, &options).expect("judged");
+            (case, geometry)
+        };
+        let bodies: Vec<(Case, Geometry)> = cases.into_iter().map(recognised).collect();
+        for family in family::all() {
+            let mut proved: Vec<String> = Vec::new();
+            let mut stated: Vec<String> = Vec::new();
+            for (case, geometry) in &bodies {
+                let axes: Vec<Option<&axis::Axis>> = match family.around {
+                    true => geometry.axes.iter().map(Some).collect(),
+                    false => vec![None],
+                };
+                for axis in axes {
+                    if !family.applies(&case.system, |fact| geometry.has_about(fact, axis)) {
+                        continue;
+                    }
+                    let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
+                    let question = Question::of(&family, &geometry.bindings);
+                    let found = question.ask(case, &options).expect("judged");
+                    let found = found.unwrap_or_else(|| {
+                        panic!("{} can be asked of {}", family.name, case.title)
+                    });
+                    // By place, since the name of an axis is part of the name of a claim.
+                    for (number, finding) in found.iter().enumerate() {
+                        let claim = format!("{number}");
+                        if finding.claim.verdict == Verdict::Proved && !proved.contains(&claim) {
+                            proved.push(claim.clone());
+                        }
+                        if !stated.contains(&claim) {
+                            stated.push(claim);
+                        }
+                    }
+                }
+            }
+            if stated.is_empty() || proved.len() < stated.len() {
+                missing.push(format!("{}: {proved:?} of {stated:?}", family.name));
+            }
+        }
+        assert!(missing.is_empty(), "claims that are proved of no body:\n{}", missing.join("\n"));
+    }
+}

@@ -1,0 +1,92 @@
+//! Results of the search beyond the families, found and excluded.
+
+use serde::Serialize;
+
+use super::question::{Finding, define};
+use crate::{CountReport, Effort, Excluded, Found, search};
+use liouville::case::Case;
+use liouville::mechanics::System;
+use liouville::verdict::{ClaimReport, Options};
+
+/// Degree in the velocities up to which integrals are counted: a fraction of a second.
+const DEGREE: u32 = 4;
+
+/// Time in seconds above which a count is left out.
+const SECONDS: f64 = 2.0;
+
+/// Outcome of a search.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Unknown {
+    /// Numbers of integrals, degree by degree.
+    pub counts: Vec<CountReport>,
+    /// Families excluded by theorems.
+    pub excluded: Vec<Excluded>,
+    /// Parts that could not be carried out, with reasons.
+    pub remarks: Vec<String>,
+    /// Invariants found, as claims with verdicts.
+    #[serde(skip)]
+    pub findings: Vec<Finding>,
+}
+
+impl Unknown {
+    /// Runs the search; its failures become remarks.
+    pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
+        let effort = Effort {
+            degree: DEGREE,
+            blind: true,
+            seconds: SECONDS,
+            options: *options,
+            ..Effort::default()
+        };
+        // The families contain the symmetry fields of bodies.
+        let is_body = !matches!(
+            case.model.system,
+            System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
+        );
+        let is_new = |one: &Found| !one.trivial && (!is_body || one.kind != "symmetry-field");
+        match search(case, &effort, progress) {
+            Ok(report) => Self {
+                counts: report.counts,
+                excluded: report.excluded,
+                remarks: report.remarks,
+                findings: report
+                    .found
+                    .into_iter()
+                    .filter(is_new)
+                    .map(|one| found(case, one))
+                    .collect(),
+            },
+            Err(error) => Self { remarks: vec![error.to_string()], ..Self::default() },
+        }
+    }
+
+    /// Returns the degree up to which there is no integral independent of the energy.
+    pub fn excluded_to(&self) -> Option<u32> {
+        // Powers of the energy are integrals: a count below their number is wrong and proves
+        // nothing.
+        if self.counts.iter().any(|count| count.dimension < count.known) {
+            return None;
+        }
+        let empty = self.counts.iter().take_while(|count| count.dimension == count.known);
+        empty.last().map(|count| count.degree)
+    }
+}
+
+/// Makes a finding from a result of the search, with the names that the search added.
+fn found(case: &Case, found: Found) -> Finding {
+    let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
+    let claim = ClaimReport {
+        name: format!("{} found by search", found.kind),
+        formula: Some(found.formula),
+        kind: found.kind,
+        source: "found by the search".to_string(),
+        place: "level".to_string(),
+        expect: "open",
+        verdict: found.verdict,
+        agrees: true,
+        cell: None,
+        note: None,
+        evidence: found.evidence,
+    };
+    Finding::found(case, claim, names)
+}
