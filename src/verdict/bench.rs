@@ -1,6 +1,10 @@
 //! A case under judgement: its graph, the evaluation of parts of it, and the checks common to all
 //! cases.
 
+use std::cell::RefCell;
+
+use rustc_hash::FxHashMap;
+
 use super::field::{Answer, Field, Query};
 use super::finding::{Look, are_zero};
 use super::judge::{JudgeError, Options};
@@ -24,6 +28,21 @@ pub struct Bench<'a> {
     pub options: &'a Options,
     pub graph: &'a Graph,
     pub inputs: usize,
+    /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
+    pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
+}
+
+impl<'a> Bench<'a> {
+    /// Puts a recorded case on the bench.
+    pub fn new(
+        case: &'a Case,
+        common: &'a Common,
+        options: &'a Options,
+        graph: &'a Graph,
+        inputs: usize,
+    ) -> Self {
+        Self { case, common, options, graph, inputs, missed: RefCell::default() }
+    }
 }
 
 impl Bench<'_> {

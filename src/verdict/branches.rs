@@ -20,6 +20,20 @@ impl Bench<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let Some(solution) = sampler.solution() else { return Ok(None) };
+        let known = self.missed.borrow().get(sampler.kept()).cloned();
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let missed = self.find_missed_part(sampler, solution)?;
+        self.missed.borrow_mut().insert(sampler.kept().to_vec(), missed.clone());
+        Ok(missed)
+    }
+
+    fn find_missed_part(
+        &self,
+        sampler: &Sampler,
+        solution: &Solution,
+    ) -> Result<Option<String>, Fault> {
         let mut open = Vec::new();
         for (index, pivot) in sampler.pivots().iter().enumerate() {
             if !self.is_number(sampler, pivot.slope)? && !self.is_number(sampler, pivot.whole)? {

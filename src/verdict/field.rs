@@ -211,7 +211,7 @@ mod tests {
         })
         .expect("records");
         let options = Options::default();
-        let bench = Bench { case, common: &common, options: &options, graph: &graph, inputs };
+        let bench = Bench::new(case, &common, &options, &graph, inputs);
         let mut found = Vec::new();
         for (claim, residual) in case.claims.iter().zip(residuals) {
             // A claim of independence fails where the residual does vanish.

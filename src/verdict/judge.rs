@@ -177,7 +177,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
             case.claims.iter().map(|claim| Recorded::new(claim, &jet)).collect();
         (recorded, Common::of(&jet))
     })?;
-    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
+    let bench = Bench::new(case, &common, options, &graph, inputs);
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&Place> = Vec::new();

@@ -90,7 +90,7 @@ pub fn mutate(
         }
         (candidates, Common::of(&jet))
     })?;
-    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
+    let bench = Bench::new(case, &common, options, &graph, inputs);
     let mut report = MutationReport::default();
     let mut places: Vec<&Place> = Vec::new();
     for candidate in &candidates {
@@ -220,7 +220,7 @@ fn depends(
     if rows.len() == known_rows {
         return Ok(true);
     }
-    let bench = Bench { case, common: &common, options, graph: &graph, inputs };
+    let bench = Bench::new(case, &common, options, &graph, inputs);
     let sampler = Sampler::new(case, &claim.place, options.seed)?;
     let ranks = Field::new(&bench, &sampler).ranks(&rows, &[known_rows, rows.len()])?;
     Ok(ranks.is_some_and(|ranks| ranks[0] == ranks[1]))

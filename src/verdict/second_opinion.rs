@@ -286,8 +286,7 @@ mod tests {
         })
         .expect("records");
         let options = Options::default();
-        let bench =
-            Bench { case: &case, common: &common, options: &options, graph: &graph, inputs };
+        let bench = Bench::new(&case, &common, &options, &graph, inputs);
         let sampler = Sampler::new(&case, &claim.place, 1).expect("samples");
         assert!(bench.has_cells(&sampler, &item), "{identity} has cells");
         bench.contradiction(&sampler, &item).expect("looks").map(|(_, (residual, _))| residual)

@@ -5,8 +5,7 @@
 //! enclosure that excludes 0 fails, and there is no tolerance to choose.
 //!
 //! ```
-//! use liouville_testing::VectorField;
-//! use liouville::{field, quantity};
+//! use liouville_testing::{VectorField, field, quantity};
 //! use num_dual::DualNum;
 //! use proptest::prelude::*;
 //!
@@ -39,9 +38,8 @@
 //! A body outside the catalogue is a type with a support function; [`Rolling`] provides its field:
 //!
 //! ```
-//! use liouville_testing::quantity;
 //! use liouville::scalar::Scalar;
-//! use liouville_testing::{Body, Failure, On, Rolling, RollingLevel, VectorField};
+//! use liouville_testing::{Body, Failure, On, Rolling, RollingLevel, VectorField, quantity};
 //!
 //! /// Everything within `margin` of an ellipsoid with semi-axes a, ½, ½.
 //! struct Rounded {

@@ -11,8 +11,8 @@
 //! numbers: they have no error bounds.
 //!
 //! ```
-//! use liouville::engine::{Engine, Means};
-//! use liouville::graph::{Tape, record};
+//! use liouville_graph::engine::{Engine, Means};
+//! use liouville_graph::graph::{Tape, record};
 //!
 //! let (graph, norm) = record(2, |x| x[0] * x[0] + x[1] * x[1])?;
 //! let engine = Engine::new(&Tape::new(&graph, &[norm]), Means::Quickest);
@@ -21,7 +21,7 @@
 //! runner.inputs()[1].0 = [2.0; 64];
 //! runner.run();
 //! assert_eq!(runner.output(0).0[3], 13.0);
-//! # Ok::<(), liouville::graph::Fault>(())
+//! # Ok::<(), liouville_graph::graph::Fault>(())
 //! ```
 
 mod interpreter;

@@ -93,6 +93,19 @@ impl Rational {
 
     /// Returns the exact value of a finite f64 (a dyadic rational); `None` for NaN and infinities.
     pub fn from_f64(value: f64) -> Option<Self> {
+        const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
+        let exponent = (value.to_bits() >> FRACTION & 0x7ff) as i32;
+        let mantissa = (value.to_bits() & ((1 << FRACTION) - 1) | 1 << FRACTION) as i64;
+        // value = ±mantissa 2^power, with an odd mantissa; 0, subnormal and infinite apart.
+        let power = exponent - 1075 + mantissa.trailing_zeros() as i32;
+        if (1..0x7ff).contains(&exponent) && (-62..=10).contains(&power) {
+            let odd = mantissa >> mantissa.trailing_zeros();
+            let signed = if value < 0.0 { -odd } else { odd };
+            return Some(Self(match power {
+                0.. => Form::Small(signed << power, 1),
+                _ => Form::Small(signed, 1 << -power),
+            }));
+        }
         BigRational::from_float(value).map(Self::from_big)
     }
 
@@ -334,6 +347,23 @@ mod tests {
         assert_eq!(read("-2.50e1"), Rational::from(-25), "exponents shift the point");
         assert_eq!(read("−3/7"), Rational::new(-3, 7), "the typographic minus is a minus");
         assert_eq!(read("1e-3"), Rational::new(1, 1000), "negative exponents divide");
+    }
+
+    #[test]
+    fn numbers_of_f64_are_what_their_bits_say() {
+        let mut bits = 1u64;
+        let random = std::iter::repeat_with(|| {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            f64::from_bits(bits)
+        });
+        let near_one = (0..4000).map(|k| (f64::from(k) - 2000.0) / f64::from(k % 64 + 1));
+        let ends = [0.0, -0.0, 5e-324, f64::MIN_POSITIVE, f64::MAX, 2f64.powi(63), 2f64.powi(-62)];
+        let beyond = [2f64.powi(62), -(2f64.powi(63)), 2f64.powi(-63), 3.0 * 2f64.powi(-62)];
+        for value in random.take(4000).chain(near_one).chain(ends).chain(beyond) {
+            let slow = BigRational::from_float(value).map(Rational::from_big);
+            assert_eq!(Rational::from_f64(value), slow, "{value:e}");
+        }
+        assert_eq!(Rational::from_f64(f64::INFINITY), None, "no number");
     }
 
     #[test]
