@@ -294,10 +294,12 @@ impl<const N: usize> Domain for Prime<N> {
     }
 }
 
-/// Whether a number is prime, by Miller's test with the bases that decide every number below 2^64.
+/// Whether a number is prime, by Miller's test with the bases that decide every number below 2^64
+/// (J. Sinclair, 2011).
 pub fn is_prime(candidate: u64) -> bool {
-    const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    if let Some(divisor) = BASES.iter().find(|base| candidate.is_multiple_of(**base)) {
+    const SMALL: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    const BASES: [u64; 7] = [2, 325, 9375, 28178, 450_775, 9_780_504, 1_795_265_022];
+    if let Some(divisor) = SMALL.iter().find(|base| candidate.is_multiple_of(**base)) {
         return candidate == *divisor;
     }
     if candidate < 41 {
@@ -309,8 +311,9 @@ pub fn is_prime(candidate: u64) -> bool {
     let m = Modulus::new(candidate);
     let (minus_one, twos) = (m.sub(0, m.one), (candidate - 1).trailing_zeros());
     BASES.iter().all(|base| {
-        let mut x = m.power(m.integer(*base), (candidate - 1) >> twos);
-        if x == m.one || x == minus_one {
+        let base = base % candidate;
+        let mut x = m.power(m.integer(base), (candidate - 1) >> twos);
+        if base == 0 || x == m.one || x == minus_one {
             return true;
         }
         (1..twos).any(|_| {
@@ -331,6 +334,12 @@ mod tests {
         let small: Vec<u64> = (0..50).filter(|n| is_prime(*n)).collect();
         assert_eq!(small, [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47]);
         assert!(is_prime(MERSENNE), "2^61 - 1");
+        let mut sieve = vec![true; 100_000];
+        for n in 2..317 {
+            (n * n..sieve.len()).step_by(n).for_each(|multiple| sieve[multiple] = false);
+        }
+        let wrong = (2..sieve.len()).find(|n| is_prime(*n as u64) != sieve[*n]);
+        assert_eq!(wrong, None, "the sieve of Eratosthenes knows better");
         // A strong pseudoprime to the first nine bases, and a Carmichael number.
         assert!(!is_prime(3_825_123_056_546_413_051), "149491 · 747451 · 34233211");
         assert!(!is_prime(2_147_483_647 * 1_073_741_789), "(2^31 - 1)(2^30 - 35)");
