@@ -62,7 +62,7 @@ impl Judged {
         }
         Err(Failed::from(format!(
             "expected: {}, verdict: {}\n{:#?}",
-            claim.expect,
+            claim.expect.word(),
             claim.verdict.word(),
             claim.evidence
         )))

@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use liouville::case::{Case, Setting};
-use liouville::verdict::{ClaimReport, Options, Verdict, Witness, evaluate, judge, read_state};
+use liouville::verdict::{
+    ClaimReport, Method, Options, Verdict, Witness, evaluate, judge, read_state,
+};
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("the catalogue is a folder").flatten() {
@@ -41,7 +43,8 @@ fn all_witnesses_are_reproduced() {
         let report = judge(&case, &Options::default()).expect("it can be judged");
         // Dependent functions, and residuals that are constant, are refuted without a state.
         let refuted = |claim: &&ClaimReport| {
-            let by_a_state = claim.kind != "independent" && claim.evidence.method != "folding";
+            let by_a_state =
+                claim.kind != "independent" && claim.evidence.method != Method::Folding;
             claim.verdict == Verdict::Refuted && by_a_state
         };
         for claim in report.claims.iter().filter(refuted) {

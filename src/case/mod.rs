@@ -37,6 +37,7 @@ mod variables;
 mod velocities;
 mod weights;
 
+use serde::Serialize;
 use std::path::Path;
 
 use crate::claim::absence::Absence;
@@ -165,7 +166,8 @@ pub struct AbsenceClaim {
 }
 
 /// Expectation of a claim by the author of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Expect {
     /// The claim is true.
     Holds,

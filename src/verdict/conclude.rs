@@ -92,7 +92,7 @@ pub fn report(
         kind: claim.kind.name(),
         source: claim.source.clone(),
         place,
-        expect: claim.expect.word(),
+        expect: claim.expect,
         verdict,
         agrees,
         cell: claim.cell.clone(),

@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::case::Expect;
 use crate::proof::Certificate;
 
 /// Verdict on a claim.
@@ -123,12 +124,68 @@ impl fmt::Display for Proof {
     }
 }
 
+/// Method by which a claim was decided: a rung of the ladder, or what decides claims without one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Method {
+    /// No rung has looked at the claim.
+    #[default]
+    #[serde(rename = "")]
+    Unsettled,
+    /// The residual became a constant, 0 or another, while it was recorded.
+    #[serde(rename = "folding")]
+    Folding,
+    /// Enclosures in f64.
+    #[serde(rename = "ball")]
+    Ball,
+    /// Enclosures in f64 at points found by Newton's method, where the level set has no
+    /// parametrisation.
+    #[serde(rename = "ball at numerical states")]
+    NumericalBall,
+    /// An identity tested modulo random primes.
+    #[serde(rename = "prime field")]
+    PrimeField,
+    /// Enclosures in double-double.
+    #[serde(rename = "double-double ball")]
+    DoubleDoubleBall,
+    /// Enclosures in higher precision.
+    #[serde(rename = "ball of many bits")]
+    PreciseBall,
+    /// Numbers from motions.
+    #[serde(rename = "motion")]
+    Motion,
+    /// A rank modulo a prime, an upper bound on a number of invariants.
+    #[serde(rename = "count")]
+    Count,
+}
+
+impl Method {
+    /// Returns the name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Unsettled => "",
+            Method::Folding => "folding",
+            Method::Ball => "ball",
+            Method::NumericalBall => "ball at numerical states",
+            Method::PrimeField => "prime field",
+            Method::DoubleDoubleBall => "double-double ball",
+            Method::PreciseBall => "ball of many bits",
+            Method::Motion => "motion",
+            Method::Count => "count",
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.pad(self.name())
+    }
+}
+
 /// Result of one rung of the ladder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rung {
-    /// Name of the rung: `folding`, `ball`, `prime field`, `double-double ball`,
-    /// `ball of many bits`.
-    pub rung: &'static str,
+    /// The rung.
+    pub rung: Method,
     /// Description of the result.
     pub found: String,
 }
@@ -150,12 +207,8 @@ pub struct Measurement {
 /// Evidence for a verdict.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// Rung that decided the claim. `folding`: the residual became a constant, 0 or another, while
-    /// it was recorded. `ball`, `double-double ball`, `ball of many bits`: enclosures in f64, in
-    /// double-double, in higher precision. `ball at numerical states`: where the level set has no
-    /// parametrisation. `prime field`: an identity tested modulo random primes. `motion`: numbers
-    /// from motions. `count`: a rank modulo a prime, an upper bound on a number of invariants.
-    pub method: &'static str,
+    /// Method that decided the claim.
+    pub method: Method,
     /// Proof, if there is one.
     #[serde(flatten)]
     pub proof: Option<Proof>,
@@ -225,7 +278,7 @@ pub struct ClaimReport {
     #[serde(rename = "where")]
     pub place: String,
     /// Expectation of the file.
-    pub expect: &'static str,
+    pub expect: Expect,
     /// Verdict on the claim.
     pub verdict: Verdict,
     /// Whether the verdict agrees with the expectation; always for a claim declared open.

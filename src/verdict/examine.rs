@@ -1,7 +1,7 @@
 //! Evaluation of one residual by the enclosures of a block of states.
 
 use super::bench::Bench;
-use super::evidence::{Verdict, Witness};
+use super::evidence::{Method, Verdict, Witness};
 use super::finding::{Finding, undecide};
 use super::recorded::{Recorded, Span};
 use super::run::Values;
@@ -29,9 +29,9 @@ impl Bench<'_> {
         bits: u32,
         finding: &mut Finding,
     ) {
-        if finding.evidence.method.is_empty() {
+        if finding.evidence.method == Method::Unsettled {
             let numerical = sampler.is_numerical();
-            finding.evidence.method = if numerical { "ball at numerical states" } else { "ball" };
+            finding.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
         }
         if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, finding) {
             return;
@@ -110,7 +110,7 @@ pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
         undecide(finding, reason);
     } else if finding.is_zero {
         finding.settled = Some(Verdict::Proved);
-        finding.evidence.method = "prime field";
+        finding.evidence.method = Method::PrimeField;
     } else if finding.is_nonzero() {
         undecide(
             finding,

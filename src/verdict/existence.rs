@@ -3,7 +3,7 @@
 
 use super::antiderivative_value;
 use super::bench::Bench;
-use super::evidence::{Verdict, Witness};
+use super::evidence::{Method, Verdict, Witness};
 use super::examine::Seen;
 use super::field::Where;
 use super::finding::Finding;
@@ -108,7 +108,7 @@ impl Bench<'_> {
         if exists && finding.settled.is_none() {
             let kind = item.claim.kind.name();
             finding.settled = Some(Verdict::Refuted);
-            finding.evidence.method = "prime field";
+            finding.evidence.method = Method::PrimeField;
             finding.evidence.reason = Some(format!(
                 "modulo a prime the residual of this {kind} is not 0, so it is no identity"
             ));
@@ -150,7 +150,7 @@ impl Bench<'_> {
             existing[0]
         };
         let Some(index) = known.or_else(|| (0..PRECISE_STATES).find(exists)) else { return false };
-        finding.evidence.method = "ball of many bits";
+        finding.evidence.method = Method::PreciseBall;
         for bits in BITS {
             let domain = Precise::new(bits);
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
@@ -194,9 +194,9 @@ impl Bench<'_> {
             let witness = witness::witness(self.case, None, &printed, (mid, rad));
             let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
             finding.evidence.witness = Some(Witness { digits, ..witness });
-            finding.evidence.method = "ball of many bits";
+            finding.evidence.method = Method::PreciseBall;
             finding.settled = Some(Verdict::Refuted);
-            finding.rung("ball of many bits", found);
+            finding.rung(Method::PreciseBall, found);
         }
         true
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::evidence::{Evidence, Independence, Rung, Verdict};
+use super::evidence::{Evidence, Independence, Method, Rung, Verdict};
 use super::field::Where;
 use super::recorded::{Recorded, Span};
 use super::run::Values;
@@ -42,7 +42,7 @@ pub struct Finding {
 
 impl Finding {
     /// Records the result of a rung.
-    pub fn rung(&mut self, rung: &'static str, found: String) {
+    pub fn rung(&mut self, rung: Method, found: String) {
         match self.evidence.climb.last_mut() {
             Some(last) if last.rung == rung => last.found = found,
             _ => self.evidence.climb.push(Rung { rung, found }),
@@ -65,8 +65,8 @@ pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
     let constants: Option<Vec<_>> =
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
     if let Some(constants) = constants {
-        finding.evidence.method = "folding";
-        finding.rung("folding", "the residual is a constant".to_string());
+        finding.evidence.method = Method::Folding;
+        finding.rung(Method::Folding, "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
         if zero && !are_zero(graph, &item.context.quadrature_defects) {
             // The existence of such integrals is not yet decided.

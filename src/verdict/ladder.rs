@@ -10,7 +10,7 @@
 //! ```
 
 use super::bench::Bench;
-use super::evidence::{Proof, Verdict};
+use super::evidence::{Method, Proof, Verdict};
 use super::examine::{Seen, conclude};
 use super::field::{Answer, Field, Query, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
@@ -176,7 +176,7 @@ impl Bench<'_> {
                 && !are_zero(self.graph, defects)
                 && field.test(&[Query::of(defects.clone())])?.iter().any(Answer::is_nonzero)
             {
-                finding.rung("prime field", NO_QUADRATURE.to_string());
+                finding.rung(Method::PrimeField, NO_QUADRATURE.to_string());
                 undecide(finding, NO_QUADRATURE.to_string());
                 continue;
             }
@@ -190,20 +190,20 @@ impl Bench<'_> {
             match answer {
                 Answer::Zero(certificate) => {
                     let proof = Proof::from(certificate);
-                    finding.rung("prime field", proof.to_string());
+                    finding.rung(Method::PrimeField, proof.to_string());
                     finding.evidence.proof = Some(proof);
                     finding.is_zero = true;
                     if finding.undefined.is_none() {
-                        finding.evidence.method = "prime field";
+                        finding.evidence.method = Method::PrimeField;
                         finding.settled = Some(Verdict::Proved);
                     }
                 }
                 Answer::NonZero(found) => {
-                    finding.rung("prime field", "not 0, so no identity".to_string());
+                    finding.rung(Method::PrimeField, "not 0, so no identity".to_string());
                     finding.nonzero = found;
                 }
                 Answer::Silent(reason) => {
-                    finding.rung("prime field", format!("silent: {reason}"));
+                    finding.rung(Method::PrimeField, format!("silent: {reason}"));
                     finding.evidence.silence = Some(reason);
                 }
                 Answer::Partial => {
@@ -212,12 +212,12 @@ impl Bench<'_> {
                          that is written has one",
                         item.claim.kind.name()
                     );
-                    finding.rung("prime field", reason.clone());
+                    finding.rung(Method::PrimeField, reason.clone());
                     finding.partial = Some(reason);
                 }
                 Answer::Void => {
                     let reason = "there is no state at which all that is written has a value";
-                    finding.rung("prime field", reason.to_string());
+                    finding.rung(Method::PrimeField, reason.to_string());
                     finding.evidence.silence = Some(reason.to_string());
                 }
             }
@@ -269,7 +269,7 @@ impl Bench<'_> {
         let domain = TwofoldBall::<LANES>;
         let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
         for ((item, finding), span) in left.iter_mut().zip(&layout.spans) {
-            let method = "double-double ball";
+            let method = Method::DoubleDoubleBall;
             finding.evidence.method = method;
             let existing = layout.existing(&values, span);
             weigh(item, span, &values, &existing, finding);
@@ -292,7 +292,7 @@ impl Bench<'_> {
             let precisions = if finding.is_nonzero() { &BITS[..] } else { &BITS[..1] };
             for bits in precisions {
                 let domain = Precise::new(*bits);
-                finding.evidence.method = "ball of many bits";
+                finding.evidence.method = Method::PreciseBall;
                 for index in 0..PRECISE_STATES {
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
                     let existing = layout.existing(&values, span);

@@ -33,7 +33,7 @@ mod wider;
 mod witness;
 
 pub use evidence::{
-    ClaimReport, Evidence, Independence, Measurement, Proof, Rung, Sign, Verdict, Witness,
+    ClaimReport, Evidence, Independence, Measurement, Method, Proof, Rung, Sign, Verdict, Witness,
 };
 pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
 pub use mutants::{MutantReport, MutationReport};

@@ -133,7 +133,7 @@ fn fates(seed: u64, index: u64) -> Vec<Fate> {
         let weighing = began.elapsed().as_secs_f64();
         let constructs = constructs(&drawn.scene, &made.claim);
         let method = match &told {
-            Told::Report(report) => report.evidence.method,
+            Told::Report(report) => report.evidence.method.name(),
             other => other.word(),
         };
         let (word, on_level) = (told.word(), drawn.scene.level.is_some());

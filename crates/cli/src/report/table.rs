@@ -8,7 +8,7 @@ use comfy_table::{Cell, ContentArrangement, Table, presets};
 use serde::Serialize;
 
 use super::RunReport;
-use liouville::case::TABLE_ROWS;
+use liouville::case::{Expect, TABLE_ROWS};
 use liouville::verdict::Verdict;
 
 /// A table of the paper with a status in each cell.
@@ -53,7 +53,7 @@ struct CellClaim {
     path: String,
     name: String,
     kind: &'static str,
-    expect: &'static str,
+    expect: Expect,
     verdict: Verdict,
     agrees: bool,
 }
@@ -107,7 +107,7 @@ fn status(claims: &[CellClaim]) -> Status {
     match claims {
         [] => Status::Text,
         _ if claims.iter().any(|claim| !claim.agrees) => Status::Contradicts,
-        _ if claims.iter().all(|claim| claim.expect == "open") => Status::Open,
+        _ if claims.iter().all(|claim| claim.expect == Expect::Open) => Status::Open,
         _ => Status::Agrees,
     }
 }
@@ -155,7 +155,7 @@ impl CellClaim {
     fn mark(&self) -> &'static str {
         match (self.agrees, self.expect) {
             (false, _) => "✗",
-            (true, "open") => "?",
+            (true, Expect::Open) => "?",
             (true, _) => "✓",
         }
     }

@@ -3,7 +3,10 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::{Outcome, RunReport, diagnostic};
-use liouville::verdict::{CaseReport, ClaimReport, Independence, Measurement, Sign, Verdict};
+use liouville::case::Expect;
+use liouville::verdict::{
+    CaseReport, ClaimReport, Independence, Measurement, Method, Sign, Verdict,
+};
 
 /// Decimal places of measured numbers in the table, and with `-v`.
 const SHOWN: f64 = 10.0;
@@ -90,9 +93,8 @@ fn claims(report: &CaseReport, style: Style) -> String {
             });
         }
         let expected = match claim.expect {
-            "open" => "open".to_string(),
-            expect if claim.agrees => expect.to_string(),
-            expect => format!("expected: {expect}"),
+            expect if expect == Expect::Open || claim.agrees => expect.word().to_string(),
+            expect => format!("expected: {}", expect.word()),
         };
         table.add_row(vec![
             Cell::new("   "),
@@ -157,7 +159,7 @@ fn remark(claim: &ClaimReport) -> String {
                     Some(index) => format!("{shown} at state {index}"),
                     None => format!("{shown} at a state that was looked for"),
                 });
-                if evidence.method != "ball" {
+                if evidence.method != Method::Ball {
                     words.push(evidence.method.to_string());
                 }
             } else {
@@ -195,7 +197,7 @@ fn details(report: &CaseReport) -> String {
             out.push_str(&format!("      formula   {formula}\n"));
         }
         let evidence = &claim.evidence;
-        if evidence.measured.is_empty() && evidence.method != "count" {
+        if evidence.measured.is_empty() && evidence.method != Method::Count {
             out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
         }
         for (index, found) in evidence.measured.iter().enumerate() {

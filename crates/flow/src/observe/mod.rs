@@ -21,7 +21,7 @@ use crate::FlowError;
 use liouville::case::{Case, Expect, MotionClaim};
 use liouville::claim::motion::Motion;
 use liouville::verdict::{
-    self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Trust, Verdict,
+    self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
 
 pub use density::evidence_against_density;
@@ -67,7 +67,7 @@ fn report(
             (Verdict::Undecided, Evidence { reason, ..Evidence::default() })
         }
     };
-    evidence.method = "motion";
+    evidence.method = Method::Motion;
     let enough = options.trust != Trust::Proof;
     if verdict == Verdict::Confirmed && !enough {
         evidence.reason = Some("a proof was asked for, and motions are only observed".to_string());
@@ -83,7 +83,7 @@ fn report(
         kind: claim.kind.name(),
         source: claim.source.clone(),
         place: format!("from {}", claim.kind.beginning().text()),
-        expect: claim.expect.word(),
+        expect: claim.expect,
         verdict,
         agrees,
         cell: None,

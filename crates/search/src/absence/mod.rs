@@ -24,7 +24,7 @@ use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::mechanics::Draw;
 use liouville::verdict::{
-    self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Trust, Verdict,
+    self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
 
 /// A count that may take longer, in seconds, is left out.
@@ -184,7 +184,7 @@ fn generated(class: &str, names: &[String]) -> String {
 }
 
 fn report(claim: &AbsenceClaim, outcome: Outcome) -> ClaimReport {
-    let mut evidence = Evidence { method: "count", ..Evidence::default() };
+    let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
     let verdict = match outcome {
         Outcome::Excluded { theorem, counted } => {
             (evidence.theorem, evidence.remark) = (Some(theorem), Some(counted));
@@ -210,7 +210,7 @@ fn report(claim: &AbsenceClaim, outcome: Outcome) -> ClaimReport {
         kind: claim.kind.name(),
         source: claim.source.clone(),
         place: "level".to_string(),
-        expect: claim.expect.word(),
+        expect: claim.expect,
         verdict,
         agrees,
         cell: claim.cell.clone(),

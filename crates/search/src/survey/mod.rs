@@ -120,7 +120,7 @@ pub fn survey(
     let claimed: Vec<Finding> = own
         .claims
         .into_iter()
-        .filter(|claim| claim.expect != Expect::Fails.word())
+        .filter(|claim| claim.expect != Expect::Fails)
         .map(|claim| Finding::claimed(case, claim))
         .collect();
     progress("the geometry");

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::question::{Finding, define};
 use crate::{CountReport, Effort, Excluded, Found, search};
 use liouville::case::Case;
+use liouville::case::Expect;
 use liouville::mechanics::System;
 use liouville::verdict::{ClaimReport, Options};
 
@@ -81,7 +82,7 @@ fn found(case: &Case, found: Found) -> Finding {
         kind: found.kind,
         source: "found by the search".to_string(),
         place: "level".to_string(),
-        expect: "open",
+        expect: Expect::Open,
         verdict: found.verdict,
         agrees: true,
         cell: None,
