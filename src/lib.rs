@@ -72,3 +72,27 @@ pub mod level;
 pub mod mechanics;
 pub mod sweep;
 pub mod verdict;
+
+/// The names that most programs need.
+///
+/// ```
+/// use liouville::prelude::*;
+///
+/// let case = Case::parse(
+///     "title = \"oscillator\"\nsystem = \"field\"\n[state]\nx = \"-2..2\"\nv = \"-2..2\"\n\
+///      [field]\n\"x'\" = \"v\"\n\"v'\" = \"-x\"\n[[claim]]\nintegral = \"x^2 + v^2\"\n",
+///     &[],
+/// )?;
+/// let report = judge(&case, &Options::default())?;
+/// assert_eq!(report.claims[0].verdict, Verdict::Proved);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub mod prelude {
+    pub use crate::case::{Case, CaseError, Expect, Setting};
+    pub use crate::graph::{Evaluator, Expr, Graph, Tape, record};
+    pub use crate::number::rational::Rational;
+    pub use crate::scalar::Scalar;
+    pub use crate::verdict::{
+        CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict, evaluate, judge,
+    };
+}

@@ -8,6 +8,7 @@
 //! modulo p is never above the rank in characteristic 0, so that an empty answer is a theorem about
 //! generic parameters.
 
+use crate::streams::Stream;
 use rustc_hash::FxHashMap;
 
 use super::echelon::Echelon;
@@ -17,7 +18,6 @@ use super::series::exponents;
 use super::{Effort, Halt, SearchError};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::proof::Chance;
 
 /// Largest number of points drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
@@ -74,7 +74,7 @@ fn count_to_order(
     order: u32,
     effort: &Effort,
 ) -> Result<Count, SearchError> {
-    let mut chance = Chance::new(effort.options.seed, 40);
+    let mut chance = Stream::Jets.under(effort.options.seed);
     let modulus = chance.prime(&[], &[]);
     let weight = modulus.rational(weight).ok_or(SearchError::NoSeries)?;
     let mut taylor = Taylor::new(local, modulus, order);

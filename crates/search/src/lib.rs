@@ -28,6 +28,7 @@ mod multipliers;
 mod products;
 mod second_opinion;
 mod series;
+mod streams;
 pub mod survey;
 mod symmetries;
 mod terms;

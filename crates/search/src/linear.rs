@@ -4,6 +4,7 @@
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::sign;
+use crate::streams::Stream;
 use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Expr, Graph, Tape};
@@ -47,7 +48,7 @@ impl Functions {
         }
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(graph, functions, &fixed)?;
-        let mut chance = Chance::new(seed, 41);
+        let mut chance = Stream::Relations.under(seed);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
         Ok(Self { graph, outputs, draws: sampler.recipes().to_vec(), modulus, chance })
     }

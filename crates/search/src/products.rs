@@ -1,5 +1,6 @@
 //! Products of known integrals, and their number in each degree in the velocities.
 
+use crate::streams::Stream;
 use num_dual::Dual;
 
 use super::SearchError;
@@ -12,7 +13,6 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::Chance;
 use liouville::verdict::Verdict;
 
 /// Highest degree that is recognised.
@@ -141,7 +141,7 @@ pub fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, Sear
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
-    let mut chance = Chance::new(seed, 42);
+    let mut chance = Stream::Products.under(seed);
     let modulus = chance.prime(&[3, 5], &[2, 3]);
     let tape = Tape::new(&graph, &[slope]);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; POINTS]));
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn degrees_come_from_slopes_of_logarithms() {
-        let m = Chance::new(1, 42).prime(&[3, 5], &[2, 3]);
+        let m = Stream::Products.under(1).prime(&[3, 5], &[2, 3]);
         let of = |slope: &dyn Fn(u64) -> u64| {
             let slopes: Vec<u64> = (0..POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
             polynomial_degree(&slopes, &m)

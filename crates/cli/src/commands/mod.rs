@@ -188,5 +188,7 @@ pub fn width() -> u16 {
     if !std::io::stdout().is_terminal() {
         return WIDE;
     }
-    std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok()).unwrap_or(WIDE).clamp(60, 240)
+    let asked = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
+    let of_terminal = || terminal_size::terminal_size().map(|(width, _)| width.0);
+    asked.or_else(of_terminal).unwrap_or(WIDE).clamp(60, 240)
 }

@@ -1,6 +1,7 @@
 //! Sign changes of the state that preserve or reverse the motion: every integral is a sum of
 //! integrals that they multiply by ±1, so that a linear system decomposes into blocks.
 
+use crate::streams::Stream;
 use std::collections::BTreeMap;
 
 use super::super::SearchError;
@@ -11,7 +12,6 @@ use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::Chance;
 use liouville::verdict::Sampler;
 
 /// Number of states at which a symmetry is tested.
@@ -46,7 +46,7 @@ impl Characters {
         let sampler = Sampler::new(case, &Place::level(model), seed)?;
         let fixed = vec![None; sampler.recipes().len()];
         let (made, outputs) = sampler.compose(&identity, &[same], &fixed)?;
-        let mut chance = Chance::new(seed, 57);
+        let mut chance = Stream::Characters.under(seed);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
         let tape = Tape::new(&made, &outputs.concat());
         let mut states = Evaluator::new(&tape, Prime::new([modulus; LANES]));

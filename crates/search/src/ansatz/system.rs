@@ -4,6 +4,7 @@
 //! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
 //! and all columns follow from them.
 
+use crate::streams::Stream;
 use num_dual::Dual;
 
 use super::super::SearchError;
@@ -17,7 +18,6 @@ use liouville::mechanics::calculus::Jet;
 use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
-use liouville::proof::Chance;
 use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
@@ -173,8 +173,9 @@ impl System {
     /// Makes choice `index` of the parameters, modulo the prime with index `prime`; `None` where no
     /// state has a value.
     pub fn at(&self, prime: u64, index: u64) -> Option<At> {
-        let modulus = Chance::new(self.seed, 60 + prime).prime(&[3, 5], &[2, 3]);
-        let mut chance = Chance::new(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15), 58);
+        let modulus = Stream::Moduli.numbered(self.seed, prime).prime(&[3, 5], &[2, 3]);
+        let mut chance =
+            Stream::Equations.under(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for _ in 0..POINTS {
             let parameters = random(&self.parameters, &modulus, &mut chance);
             let mut at = At { modulus, parameters, coordinates: Vec::new() };
@@ -200,7 +201,7 @@ impl System {
         blocks: usize,
         look: &mut dyn FnMut(&[u64]) -> bool,
     ) -> bool {
-        let mut chance = Chance::new(self.seed.wrapping_add(stream), 59);
+        let mut chance = Stream::Combinations.under(self.seed.wrapping_add(stream));
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; LANES]));
         for _ in 0..blocks {
             let inputs: Vec<[u64; LANES]> = (0..self.inputs)

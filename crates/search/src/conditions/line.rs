@@ -2,6 +2,7 @@
 
 use super::polynomial::{Polynomial, Ring};
 use super::residual::{LANES, Residual, Seen};
+use crate::streams::Stream;
 use liouville::graph::Evaluator;
 use liouville::number::prime::{Modulus, Prime};
 use liouville::proof::Chance;
@@ -54,7 +55,7 @@ impl<'r> Lines<'r> {
     ///
     /// Draws under a root stay fixed along a line if the residual is not a fraction otherwise.
     pub fn new(residual: &'r Residual, seed: u64) -> Option<Self> {
-        let mut chance = Chance::new(seed, 43);
+        let mut chance = Stream::Lines.under(seed);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
         let evaluator = residual.evaluator(modulus);
         let free: Vec<bool> = residual.free().collect();

@@ -9,6 +9,7 @@ use super::polynomial::{Polynomial, Ring};
 use crate::expansion::Taylor;
 use crate::jets::{Asked, Equations, RowKey};
 use crate::local::Local;
+use crate::streams::Stream;
 use crate::{Effort, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, Origin, Recipe};
@@ -113,7 +114,7 @@ struct Minors<'l> {
 
 impl<'l> Minors<'l> {
     fn new(local: &'l Local, asked: Asked, draw: usize, round: u64, effort: &'l Effort) -> Self {
-        let mut chance = Chance::new(effort.options.seed + round, 46);
+        let mut chance = Stream::Minors.under(effort.options.seed + round);
         let modulus = chance.prime(&[], &[]);
         let small = |chance: &mut Chance| 2 + modulus.to_integer(chance.element(&modulus)) % 97;
         let parameters = local.parameters(&modulus, &mut chance);

@@ -3,6 +3,7 @@
 use super::coordinates::components;
 use crate::SearchError;
 use crate::local::random;
+use crate::streams::Stream;
 use crate::terms::recorded;
 use liouville::case::{Case, Claim};
 use liouville::claim::Place;
@@ -73,7 +74,7 @@ impl Residual {
 
     /// Returns the components that differ between draws, and from those before them.
     fn varying(&self, seed: u64) -> Vec<usize> {
-        let mut chance = Chance::new(seed, 44);
+        let mut chance = Stream::Residuals.under(seed);
         let modulus = chance.prime(&[3, 5], &[2, 3]);
         let mut evaluator = self.evaluator(modulus);
         let mut point = || {

@@ -7,6 +7,7 @@ use super::residual::{LANES, Residual};
 use super::variety::{monomial, power, simple};
 use crate::echelon::Echelon;
 use crate::series::exponents;
+use crate::streams::Stream;
 use crate::{Effort, Halt, SearchError};
 use liouville::number::prime::Modulus;
 use liouville::proof::Chance;
@@ -33,7 +34,7 @@ pub fn conditions(
     residual: &Residual,
     effort: &Effort,
 ) -> Result<(Vec<String>, usize), SearchError> {
-    let mut chance = Chance::new(effort.options.seed, 45);
+    let mut chance = Stream::SmallPolynomials.under(effort.options.seed);
     let found = points(residual, PRIMES[0], &mut chance, &effort.halt)?;
     let again = points(residual, PRIMES[1], &mut chance, &effort.halt)?;
     let (first, second) = (Modulus::new(PRIMES[0]), Modulus::new(PRIMES[1]));

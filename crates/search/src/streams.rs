@@ -1,0 +1,42 @@
+//! Streams of random numbers of the searches: one for each purpose, disjoint from those of proofs.
+
+use liouville::proof::Chance;
+
+/// Purpose of random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// Points at which Taylor coefficients are taken.
+    Jets = 40,
+    /// Points for relations between terms.
+    Relations = 41,
+    /// Points and lines for products of known integrals.
+    Products = 42,
+    /// Lines in the space of parameters.
+    Lines = 43,
+    /// Points for residuals on a variety.
+    Residuals = 44,
+    /// Points for small polynomials.
+    SmallPolynomials = 45,
+    /// Choices of minors.
+    Minors = 46,
+    /// Points for the characters of an ansatz.
+    Characters = 57,
+    /// Points for the equations of an ansatz.
+    Equations = 58,
+    /// Combinations of the equations of an ansatz.
+    Combinations = 59,
+    /// Primes of an ansatz; each of its moduli has the next stream.
+    Moduli = 60,
+}
+
+impl Stream {
+    /// Makes the random numbers for this purpose under a seed.
+    pub fn under(self, seed: u64) -> Chance {
+        Chance::new(seed, self as u64)
+    }
+
+    /// Makes the random numbers of stream `number` from this one on.
+    pub fn numbered(self, seed: u64, number: u64) -> Chance {
+        Chance::new(seed, self as u64 + number)
+    }
+}
