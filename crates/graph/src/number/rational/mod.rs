@@ -2,20 +2,18 @@
 //!
 //! `0.1` is 1/10 and stays so until a number domain asks for its own image of it.
 
-use std::cmp::Ordering;
-use std::fmt;
-use std::str::FromStr;
+mod operators;
+mod text;
+
+#[cfg(test)]
+mod tests;
+
+pub use text::RationalError;
 
 use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, Signed, ToPrimitive};
-
-/// Largest power of ten in a literal; beyond it no f64 could hold the value.
-const MAX_EXPONENT: i64 = 1000;
-/// Length of the longest literal that is read; exact arithmetic on longer ones costs more than any
-/// case needs.
-const MAX_DIGITS: usize = 4000;
 
 /// An exact rational number of any size.
 ///
@@ -29,22 +27,6 @@ pub struct Rational(Form);
 enum Form {
     Small(i64, i64),
     Big(Box<BigRational>),
-}
-
-/// The reason why a text is not a number.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RationalError {
-    /// Not of the form `12`, `-0.5`, `1e-3` or `3/7`.
-    #[error("`{0}` is not a number: write 12, -0.5, 1e-3 or 3/7")]
-    Malformed(String),
-    /// A zero denominator, as in `1/0`.
-    #[error("`{0}` divides by zero")]
-    ZeroDenominator(String),
-    /// An exponent past ±1000 or more than 4000 digits.
-    #[error(
-        "this number is too long: at most {MAX_DIGITS} digits and exponents within ±{MAX_EXPONENT}"
-    )]
-    TooLong,
 }
 
 impl Rational {
@@ -195,213 +177,8 @@ impl Rational {
     }
 }
 
-macro_rules! operators {
-    ($($trait:ident $method:ident $checked:expr;)*) => {$(
-        impl std::ops::$trait for &Rational {
-            type Output = Rational;
-            fn $method(self, other: &Rational) -> Rational {
-                if let (Form::Small(a, b), Form::Small(c, d)) = (&self.0, &other.0) {
-                    let [a, b, c, d] = [*a, *b, *c, *d].map(i128::from);
-                    // Products of 64-bit parts fit 127 bits; only a sum of two may overflow.
-                    if let Some((n, d)) = $checked(a, b, c, d) {
-                        return Rational::reduced(n, d);
-                    }
-                }
-                Rational::from_big(std::ops::$trait::$method(self.to_big(), other.to_big()))
-            }
-        }
-    )*};
-}
-
-operators! {
-    Add add |a: i128, b: i128, c: i128, d: i128| {
-        (a * d).checked_add(c * b).map(|n| (n, b * d))
-    };
-    Sub sub |a: i128, b: i128, c: i128, d: i128| {
-        (a * d).checked_sub(c * b).map(|n| (n, b * d))
-    };
-    Mul mul |a: i128, b: i128, c: i128, d: i128| Some((a * c, b * d));
-}
-
-impl std::ops::Neg for &Rational {
-    type Output = Rational;
-    fn neg(self) -> Rational {
-        match &self.0 {
-            Form::Small(n, d) => Rational::reduced(-i128::from(*n), i128::from(*d)),
-            Form::Big(value) => Rational::from_big(-&**value),
-        }
-    }
-}
-
-impl Ord for Rational {
-    fn cmp(&self, other: &Self) -> Ordering {
-        match (&self.0, &other.0) {
-            (Form::Small(a, b), Form::Small(c, d)) => {
-                (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
-            }
-            _ => self.to_big().cmp(&other.to_big()),
-        }
-    }
-}
-
-impl PartialOrd for Rational {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 impl From<i64> for Rational {
     fn from(value: i64) -> Self {
         Self(Form::Small(value, 1))
-    }
-}
-
-impl FromStr for Rational {
-    type Err = RationalError;
-
-    /// Reads `12`, `-0.5`, `1e-3`, `3/7`, with `−` or `-` as the sign and `_` between digits.
-    fn from_str(text: &str) -> Result<Self, RationalError> {
-        let clean: String = text
-            .trim()
-            .chars()
-            .filter(|c| *c != '_')
-            .map(|c| if c == '−' { '-' } else { c })
-            .collect();
-        if clean.len() > MAX_DIGITS {
-            return Err(RationalError::TooLong);
-        }
-        match clean.split_once('/') {
-            None => decimal(&clean, text),
-            Some((above, below)) => {
-                let below = decimal(below.trim(), text)?;
-                let inverse = below
-                    .recip()
-                    .ok_or_else(|| RationalError::ZeroDenominator(text.to_string()))?;
-                Ok(&decimal(above.trim(), text)? * &inverse)
-            }
-        }
-    }
-}
-
-fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
-    let malformed = || RationalError::Malformed(text.to_string());
-    let (mantissa, exponent) = match clean.split_once(['e', 'E']) {
-        None => (clean, 0),
-        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i64>().map_err(|_| malformed())?),
-    };
-    if exponent.abs() > MAX_EXPONENT {
-        return Err(RationalError::TooLong);
-    }
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let (sign, whole) = match whole.strip_prefix(['-', '+']) {
-        Some(rest) => (if whole.starts_with('-') { -1 } else { 1 }, rest),
-        None => (1, whole),
-    };
-    let digits = format!("{whole}{fraction}");
-    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-        return Err(malformed());
-    }
-    let integer: BigInt = digits.parse().map_err(|_| malformed())?;
-    let shift = exponent - fraction.len() as i64;
-    let scale = BigRational::from_integer(BigInt::from(10)).pow(shift as i32);
-    Ok(Rational::from_big(BigRational::from_integer(integer * sign) * scale))
-}
-
-/// Largest number of decimal places in a printed terminating decimal.
-const MAX_PLACES: u32 = 6;
-
-impl fmt::Display for Rational {
-    /// Prints a terminating decimal of up to six places as a decimal, anything else as a fraction.
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (n, d) = match &self.0 {
-            Form::Small(n, d) => (i128::from(*n), *d),
-            Form::Big(value) if value.is_integer() => return write!(out, "{}", value.numer()),
-            Form::Big(value) => return write!(out, "{}/{}", value.numer(), value.denom()),
-        };
-        // n/d = (n 10^k/d)/10^k is a decimal of k places when d divides 10^k.
-        match (0..=MAX_PLACES).find(|places| 10i64.pow(*places) % d == 0) {
-            None => write!(out, "{n}/{d}"),
-            Some(0) => write!(out, "{n}"),
-            Some(places) => {
-                let scale = i128::from(10i64.pow(places));
-                let digits = (n.abs() * (scale / i128::from(d))) as u128;
-                let (whole, fraction) = (digits / scale as u128, digits % scale as u128);
-                let sign = if n < 0 { "-" } else { "" };
-                write!(out, "{sign}{whole}.{fraction:0>width$}", width = places as usize)
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(text: &str) -> Rational {
-        text.parse().expect("a number")
-    }
-
-    #[test]
-    fn decimals_are_exact() {
-        assert_eq!(read("0.1"), Rational::new(1, 10), "0.1 is 1/10, not the nearest f64");
-        assert_eq!(read("-2.50e1"), Rational::from(-25), "exponents shift the point");
-        assert_eq!(read("−3/7"), Rational::new(-3, 7), "the typographic minus is a minus");
-        assert_eq!(read("1e-3"), Rational::new(1, 1000), "negative exponents divide");
-    }
-
-    #[test]
-    fn numbers_of_f64_are_what_their_bits_say() {
-        let mut bits = 1u64;
-        let random = std::iter::repeat_with(|| {
-            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            f64::from_bits(bits)
-        });
-        let near_one = (0..4000).map(|k| (f64::from(k) - 2000.0) / f64::from(k % 64 + 1));
-        let ends = [0.0, -0.0, 5e-324, f64::MIN_POSITIVE, f64::MAX, 2f64.powi(63), 2f64.powi(-62)];
-        let beyond = [2f64.powi(62), -(2f64.powi(63)), 2f64.powi(-63), 3.0 * 2f64.powi(-62)];
-        for value in random.take(4000).chain(near_one).chain(ends).chain(beyond) {
-            let slow = BigRational::from_float(value).map(Rational::from_big);
-            assert_eq!(Rational::from_f64(value), slow, "{value:e}");
-        }
-        assert_eq!(Rational::from_f64(f64::INFINITY), None, "no number");
-    }
-
-    #[test]
-    fn nonsense_is_refused() {
-        for text in ["", "-", "1.2.3", "x", "1e", "nan", "inf", "1/", "0x10"] {
-            assert!(text.parse::<Rational>().is_err(), "`{text}` is no number");
-        }
-        assert_eq!("1/0".parse::<Rational>(), Err(RationalError::ZeroDenominator("1/0".into())));
-        assert_eq!("1e999999999".parse::<Rational>(), Err(RationalError::TooLong));
-    }
-
-    #[test]
-    fn printing_reads_back() {
-        for text in ["0.125", "-0.05", "3/7", "12", "-1/3", "0.000001", "1/10000000"] {
-            let value = read(text);
-            assert_eq!(value.to_string(), text, "the shortest exact form");
-            assert_eq!(read(&value.to_string()), value, "and it reads back");
-        }
-    }
-
-    #[test]
-    fn small_and_large_parts_agree() {
-        let large = read("9223372036854775807");
-        let sum = &large + &large;
-        assert_eq!(sum.to_string(), "18446744073709551614", "overflow moves to big integers");
-        assert_eq!(&sum - &large, large, "and comes back");
-        assert_eq!(read("-9223372036854775808").abs().to_string(), "9223372036854775808");
-        let tiny = read("1e-30");
-        assert_eq!(&(&tiny * &read("1e30")), &Rational::from(1), "products reduce");
-        assert!(tiny > Rational::from(0) && tiny < Rational::new(1, i64::MAX), "order is exact");
-        assert_eq!(Rational::new(-6, -4), Rational::new(3, 2), "lowest terms, positive below");
-    }
-
-    #[test]
-    fn rounding_to_f64_knows_when_it_is_exact() {
-        assert_eq!(read("0.5").to_f64(), (0.5, true));
-        assert_eq!(read("0.1").to_f64(), (0.1, false));
-        let odd = (1u64 << 53) + 1;
-        assert_eq!(read(&odd.to_string()).to_f64(), ((odd - 1) as f64, false), "ties to even");
     }
 }
