@@ -1,6 +1,7 @@
 //! Claims of absence: what a case says not to be there.
 
-use super::claims::{Context, Entries, cell, expect, name, statements};
+use super::claims::{Context, cell, expect, name, statements};
+use super::entries::Entries;
 use super::error::Mistake;
 use super::section::Section;
 use super::{AbsenceClaim, claims};

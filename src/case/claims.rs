@@ -1,20 +1,13 @@
 //! The tables `[[claim]]`: statement, place, and expectation.
 
-use std::ops::Range;
-
-use toml::de::DeValue;
-
-use super::complex;
+use super::entries::{Entries, other, place_of};
 use super::error::{Mistake, Problem};
-use super::field::sides;
-use super::formulas::formula;
-use super::section::{Section, Text};
+use super::section::Section;
 use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::absence::ABSENCES;
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
-use crate::claim::{Complex, Kind, Place, Reader, STATEMENTS};
-use crate::formula::{Formula, Type, canonical_name, excerpt};
-use crate::mechanics::{Model, Reach, Vocabulary};
+use crate::claim::{Kind, Place, Reader, STATEMENTS};
+use crate::mechanics::Model;
 
 /// Keys common to all claims.
 const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
@@ -84,11 +77,6 @@ pub fn read(
     }
 }
 
-/// Place of a key's value, or of its table.
-fn place_of(section: &Section<'_>, key: &'static str) -> Range<usize> {
-    section.value(key).map_or(section.span.clone(), |value| value.span())
-}
-
 /// The mistake of changing a number on which sizes and indices depend.
 fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
     let span = place_of(section, key);
@@ -148,10 +136,6 @@ pub fn statements(section: &Section<'_>, given: usize) -> Mistake {
     Mistake::at(section.span.clone(), Problem::Other { message, remedy })
 }
 
-fn other(text: &Text, message: String, remedy: &str) -> Mistake {
-    Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
-}
-
 fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     let given: Vec<&str> =
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
@@ -174,161 +158,6 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
         [key] => Kind::read(key, &entries).unwrap_or_else(|| Err(statements(section, 0))),
         _ => Err(statements(section, given.len())),
     }
-}
-
-/// Entries of a claim in a case file.
-pub struct Entries<'e, 's> {
-    /// Its table.
-    pub section: &'e Section<'s>,
-    /// The case that it is about.
-    pub model: &'e Model,
-}
-
-impl Reader for Entries<'_, '_> {
-    type Error = Mistake;
-
-    fn model(&self) -> &Model {
-        self.model
-    }
-
-    fn text(&self, key: &'static str) -> Result<Option<String>, Mistake> {
-        Ok(self.section.text(key)?.map(|text| text.value))
-    }
-
-    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, Mistake> {
-        if self.section.value(key).is_none() {
-            return Ok(None);
-        }
-        let texts = self.section.texts(key)?;
-        Ok(Some(texts.into_iter().map(|text| text.value).collect()))
-    }
-
-    fn formula_in(
-        &self,
-        key: &'static str,
-        kind: Option<Type>,
-        scope: &Vocabulary,
-    ) -> Result<Option<Formula>, Mistake> {
-        let Some(text) = self.section.text(key)? else { return Ok(None) };
-        formula(&text, scope, &format!("`{key}`"), kind, Reach::Phase).map(Some)
-    }
-
-    fn list_in(
-        &self,
-        key: &'static str,
-        scope: &Vocabulary,
-    ) -> Result<Option<Vec<Formula>>, Mistake> {
-        if self.section.value(key).is_none() {
-            return Ok(None);
-        }
-        let texts = self.section.texts(key)?;
-        let read = |text: &Text| formula(text, scope, "an entry", None, Reach::Phase);
-        texts.iter().map(read).collect::<Result<_, _>>().map(Some)
-    }
-
-    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Mistake> {
-        if self.section.value(key).is_none() {
-            return Ok(None);
-        }
-        let texts = self.section.texts(key)?;
-        let read = |text: &Text| complex::read(text, &self.model.vocabulary);
-        texts.iter().map(read).collect::<Result<_, _>>().map(Some)
-    }
-
-    fn equation(&self, key: &'static str) -> Result<(Formula, Formula), Mistake> {
-        let text = self.section.text(key)?.ok_or_else(|| self.missing(key))?;
-        let Some((left, right, second)) = sides(&text.value) else {
-            let message = format!("`{key}` has two sides");
-            return Err(other(&text, message, "write \"A = B\""));
-        };
-        let read = |side: &str, start: usize| {
-            Formula::parse(side, &self.model.vocabulary).map_err(|error| {
-                let span = error.span();
-                let place = text.locate(start + span.start..start + span.end);
-                Mistake::at(place, Problem::Formula(error))
-            })
-        };
-        Ok((read(left, 0)?, read(right, second)?))
-    }
-
-    fn table_in(
-        &self,
-        key: &'static str,
-        scope: &Vocabulary,
-    ) -> Result<Option<Vec<(String, Formula)>>, Mistake> {
-        let section = self.section.section(key)?;
-        section.map(|section| formulas_of(&section, scope)).transpose()
-    }
-
-    fn table_inside(
-        &self,
-        key: &'static str,
-        inner: &'static str,
-        known: &[&'static str],
-        scope: &Vocabulary,
-    ) -> Result<Option<Vec<(String, Formula)>>, Mistake> {
-        let Some(outer) = self.section.section(key)? else { return Ok(None) };
-        outer.allow(known);
-        outer.section(inner)?.map(|section| formulas_of(&section, scope)).transpose()
-    }
-
-    fn text_inside(
-        &self,
-        key: &'static str,
-        inner: &'static str,
-        remedy: &str,
-    ) -> Result<Option<String>, Mistake> {
-        if self.section.value(key).is_none() {
-            return Ok(None);
-        }
-        let Ok(Some(table)) = self.section.section(key) else {
-            let message = format!("`{key}` does not say what is excluded");
-            return Err(self.complaint(key, message, remedy));
-        };
-        table.allow(&[inner]);
-        match table.value(inner) {
-            None => Err(self.complaint(key, format!("`{key}` has no `{inner}`"), remedy)),
-            Some(value) => Ok(Some(match value.get_ref() {
-                DeValue::Integer(number) => number.to_string(),
-                DeValue::Float(number) => number.to_string(),
-                DeValue::String(text) => excerpt(&format!("\"{text}\"")),
-                _ => inner.to_string(),
-            })),
-        }
-    }
-
-    fn complaint_inside(
-        &self,
-        key: &'static str,
-        inner: &'static str,
-        message: String,
-        remedy: &str,
-    ) -> Mistake {
-        let table = self.section.section(key).ok().flatten();
-        let own = table.and_then(|table| Some(table.value(inner)?.span()));
-        let span = own.unwrap_or_else(|| place_of(self.section, key));
-        Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
-    }
-
-    fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
-        let span = place_of(self.section, key);
-        Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
-    }
-}
-
-/// Entries of a table of formulas: name and formula.
-fn formulas_of(
-    section: &Section<'_>,
-    scope: &Vocabulary,
-) -> Result<Vec<(String, Formula)>, Mistake> {
-    let mut entries = Vec::new();
-    for (key, value) in section.entries() {
-        let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
-        let text = section.as_text(key.get_ref(), value)?;
-        let read = formula(&text, scope, &format!("`{name}`"), None, Reach::Phase)?;
-        entries.push((name, read));
-    }
-    Ok(entries)
 }
 
 /// Where the claim comes from: the source of the case unless it names its own.
@@ -390,7 +219,7 @@ pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     }
 }
 
-/// What the file expects of the claim.
+/// Expectation that the file states for the claim.
 pub fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
     let Some(text) = section.text("expect")? else { return Ok(Expect::Holds) };
     match text.value.as_str() {

@@ -10,6 +10,7 @@ mod build;
 mod charts;
 mod claims;
 mod complex;
+mod entries;
 mod error;
 mod family;
 mod feedback;

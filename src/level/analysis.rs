@@ -5,34 +5,20 @@
 //! are free. The graph shows which entries of the equations' derivatives are free of which
 //! components.
 
-use num_traits::Zero;
-
-use super::equation::{Equation, Point};
+use super::equation::Equation;
+use super::look::{Look, MOST_COMPONENTS, Set, bit, members};
 use super::quadric::Quadric;
 use super::solution::Solution;
 use super::steps::{Step, choices};
-use crate::graph::{Expr, Graph, Step as Node, record};
+use crate::graph::Expr;
 use crate::mechanics::{Model, Origin, components};
-use crate::number::rational::Rational;
 
 /// Largest number of equations of a level.
 const MOST_EQUATIONS: usize = 16;
-const MOST_COMPONENTS: usize = 96;
 /// Largest number of equations that are solved together.
 const MOST_TOGETHER: usize = 6;
 /// Largest number of choices of unknowns examined in one block.
 const MOST_CHOICES: usize = 400;
-
-/// Set of components of the state, as bits.
-type Set = u128;
-
-fn bit(component: usize) -> Set {
-    1 << component
-}
-
-fn members(set: Set) -> Vec<usize> {
-    (0..Set::BITS as usize).filter(|k| set >> k & 1 == 1).collect()
-}
 
 /// Finds steps that solve the kept equations of a model; `None` if there are none.
 pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
@@ -58,147 +44,6 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
         Search::of(model, looks(true).filter(|_| has_roots)?).steps()
     })?;
     Some(Solution { steps })
-}
-
-/// An equation with the derivatives that the analysis needs.
-struct Look {
-    equation: Equation,
-    graph: Graph,
-    /// Components of the state that each node depends on.
-    sets: Vec<Set>,
-    /// Components of the free parameters that the equation depends on.
-    parameters: Vec<usize>,
-    value: Expr,
-    slopes: Vec<Expr>,
-    /// Second derivatives by pairs of the components that the equation contains.
-    bends: Vec<(usize, usize, Expr)>,
-    parameter_slopes: Vec<(usize, Expr)>,
-}
-
-impl Look {
-    fn at(model: &Model, equation: Equation) -> Option<Self> {
-        let (free, dimension) = (model.free_components(), model.dimension());
-        let within = |inputs: &[Expr]| {
-            let (parameters, state) = inputs.split_at(free);
-            Point { model, parameters: parameters.to_vec(), state: state.to_vec() }
-        };
-        let (plain, value) =
-            record(free + dimension, |inputs| within(inputs).value(equation)).ok()?;
-        let reached = plain.reached([value]);
-        let used: Vec<usize> = plain
-            .steps()
-            .zip(reached)
-            .filter_map(|(step, reached)| match step {
-                Node::Input(input) if reached => Some(input),
-                _ => None,
-            })
-            .collect();
-        let own: Vec<usize> = used
-            .iter()
-            .filter(|k| **k >= free && **k < free + dimension)
-            .map(|k| k - free)
-            .collect();
-        let parameters: Vec<usize> = used.iter().copied().filter(|k| *k < free).collect();
-        let pairs: Vec<(usize, usize)> = own
-            .iter()
-            .flat_map(|i| own.iter().filter(move |j| i <= *j).map(|j| (*i, *j)))
-            .collect();
-        let (graph, (value, slopes, bends, parameter_slopes)) =
-            record(free + dimension, |inputs| {
-                let point = within(inputs);
-                let mut slopes = vec![Expr::zero(); dimension];
-                for (component, slope) in own.iter().zip(point.slopes(equation, &own)) {
-                    slopes[*component] = slope;
-                }
-                let bend = |(i, j): &(usize, usize)| (*i, *j, point.bend(equation, *i, *j));
-                let parameter = |k: &usize| (*k, point.parameter_slope(equation, *k));
-                (
-                    point.value(equation),
-                    slopes,
-                    pairs.iter().map(bend).collect(),
-                    parameters.iter().map(parameter).collect(),
-                )
-            })
-            .ok()?;
-        let sets = sets(&graph, free);
-        Some(Self { equation, graph, sets, parameters, value, slopes, bends, parameter_slopes })
-    }
-
-    fn set(&self, value: Expr) -> Set {
-        self.sets[self.graph.place(value)]
-    }
-
-    fn is_zero(&self, value: Expr) -> bool {
-        self.graph.constant_value(value).is_some_and(Rational::is_zero)
-    }
-
-    /// Returns the components that the equation contains.
-    fn contained(&self) -> Set {
-        self.set(self.value)
-    }
-
-    /// Whether the equation is jointly linear in some components.
-    fn is_linear_in(&self, set: Set) -> bool {
-        members(set).into_iter().all(|k| self.set(self.slopes[k]) & set == 0)
-    }
-
-    /// Whether the equation is of degree at most 2 jointly in some components.
-    fn is_quadratic_in(&self, set: Set) -> bool {
-        let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
-        self.bends.iter().filter(inside).all(|(_, _, bend)| self.set(*bend) & set == 0)
-    }
-
-    /// Returns the equation as a quadric with constant coefficients in all components that it
-    /// contains.
-    fn quadric(&self, components: &[usize]) -> Option<Quadric> {
-        if !self.parameters.is_empty() || !self.is_quadratic_in(self.contained()) {
-            return None;
-        }
-        let constant = |value: Expr| self.graph.constant_value(value).cloned();
-        let n = components.len();
-        let mut bends = vec![vec![Rational::from(0); n]; n];
-        for (i, j, bend) in &self.bends {
-            let place = |k: &usize| components.iter().position(|own| own == k);
-            let (i, j, bend) = (place(i)?, place(j)?, constant(*bend)?);
-            (bends[i][j], bends[j][i]) = (bend.clone(), bend);
-        }
-        let [value, slopes @ ..] = &self.at_origin(components)?[..] else { return None };
-        Some(Quadric { constant: value.clone(), slopes: slopes.to_vec(), bends })
-    }
-
-    /// Returns the value and the slopes at the origin.
-    fn at_origin(&self, components: &[usize]) -> Option<Vec<Rational>> {
-        let wanted: Vec<Expr> =
-            [self.value].into_iter().chain(components.iter().map(|k| self.slopes[*k])).collect();
-        let reached = self.graph.reached(wanted.iter().copied());
-        let (graph, found) = record(self.graph.inputs(), |inputs| {
-            let zeros = vec![Expr::zero(); inputs.len()];
-            let values = self.graph.replay(&reached, &zeros, |_, _, _| None);
-            wanted
-                .iter()
-                .map(|value| values[self.graph.place(*value)])
-                .collect::<Option<Vec<Expr>>>()
-        })
-        .ok()?;
-        found?.into_iter().map(|value| graph.constant_value(value).cloned()).collect()
-    }
-}
-
-/// Finds the components of the state that each step depends on; their inputs follow the free
-/// parameters.
-fn sets(graph: &Graph, free: usize) -> Vec<Set> {
-    let mut sets: Vec<Set> = Vec::with_capacity(graph.len());
-    for step in graph.steps() {
-        let set = match step {
-            Node::Input(input) => match input.checked_sub(free) {
-                Some(component) if component < MOST_COMPONENTS => bit(component),
-                _ => 0,
-            },
-            step => step.arguments().fold(0, |set, argument| set | sets[argument]),
-        };
-        sets.push(set);
-    }
-    sets
 }
 
 /// The search for an order of solution.

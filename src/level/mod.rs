@@ -14,6 +14,7 @@
 
 mod analysis;
 mod equation;
+mod look;
 mod quadric;
 mod solution;
 mod steps;

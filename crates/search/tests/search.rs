@@ -1,11 +1,16 @@
 //! Searches: the results of the papers are found with their formulas hidden, counted, excluded, and
 //! bounded by conditions on the parameters.
 
+#[path = "search/brackets.rs"]
+mod brackets;
+#[path = "search/conditions.rs"]
+mod conditions;
+
 use std::path::Path;
 
 use liouville::case::{Case, Setting};
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Halt, Hamiltonians, Report, Wanted, search};
+use liouville_search::{Effort, Halt, Report, search};
 
 fn effort(degree: u32) -> Effort {
     Effort { degree, ..Effort::default() }
@@ -187,73 +192,6 @@ fn a_force_that_is_no_potential_makes_no_false_theorem() {
 }
 
 #[test]
-fn conditions_on_parameters_are_found() {
-    let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Existence);
-    let ellipsoid = case(
-        "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nB = 'diag(1..3)'\n\
-         I = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
-    );
-    let report = search(&ellipsoid, &wanted, &mut |_| {}).expect("it can be searched");
-    // (3.8), expanded.
-    let condition = "B11*I1*I2 − B11*I1*I3 − B22*I1*I2 + B22*I2*I3 + B33*I1*I3 − B33*I2*I3 − m*B11*B22*I1 + \
-                     m*B11*B22*I2 + m*B11*B33*I1 − m*B11*B33*I3 − m*B22*B33*I2 + m*B22*B33*I3 = 0";
-    let equations = &report.conditions[0].equations;
-    assert!(equations.iter().any(|equation| equation == condition), "{equations:?}");
-
-    let report = searched("sphere/unbalanced-ball", &wanted);
-    let equations = &report.conditions[0].equations;
-    assert!(equations.iter().any(|equation| equation == "1 − R*k = 0"), "{equations:?}");
-
-    let flat = case(
-        "title = 'x'\nsystem = 'flat-base'\n[parameters]\nm = '0.5..2'\nk = '0.2..1'\nz = '0.2..1'\n\
-         I = 'inertia(0.5..5)'\n[body]\nheight = 'z'\n",
-    );
-    let report = search(&flat, &wanted, &mut |_| {}).expect("it can be searched");
-    let mut equations = report.conditions[0].equations.clone();
-    equations.sort();
-    assert_eq!(equations, ["I1 = I2", "k = 0", "m = 0", "z = 0"], "the base of (4.5)");
-
-    wanted.degree = 2;
-    let report = searched("sphere/balanced-ball", &wanted);
-    let by_k =
-        report.conditions.iter().find(|c| c.of == "more integrals of degree 2, by the value of k");
-    let equations = &by_k.expect("there are two values").equations;
-    // κ = 1/(1 + kR) = 1, a plane, and κ = −1
-    assert_eq!(equations, &["k = 0", "k*R = -2"]);
-}
-
-#[test]
-fn conditions_of_codimension_two_are_met_in_small_fields() {
-    let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Existence);
-    let ellipsoid = case(
-        "title = 'x'\nsystem = 'rubber-sphere'\n[parameters]\nm = '0.5..2'\nk = '0.1..0.3'\n\
-         B = 'diag(1..3)'\nI = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
-    );
-    let report = search(&ellipsoid, &wanted, &mut |_| {}).expect("it can be searched");
-    let equations = &report.conditions[0].equations;
-    // I = mB + μE, and the bodies of revolution
-    let homogeneous = "I1 − I2 − m*B11 + m*B22 = 0 and I1 − I3 − m*B11 + m*B33 = 0";
-    assert!(equations.iter().any(|equation| equation.contains(homogeneous)), "{equations:?}");
-    assert!(equations.iter().any(|equation| equation == "B11 = B22 and I1 = I2"), "{equations:?}");
-}
-
-#[test]
-fn a_claim_that_fails_in_general_is_given_its_condition() {
-    let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Claim("F2 of κ = −1".to_string()));
-    let report = searched("sphere/balanced-ball", &wanted);
-    assert_eq!(report.conditions[0].equations, ["2 + R*k = 0"]);
-    wanted.conditions = Some(Wanted::Claim("no such claim".to_string()));
-    let path =
-        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sphere/balanced-ball.toml"));
-    let read = Case::read(path, &[]).1.expect("a case of the catalogue");
-    let error = search(&read, &wanted, &mut |_| {}).expect_err("there is none");
-    assert!(error.to_string().contains("no such claim"), "{error}");
-}
-
-#[test]
 fn potentials_and_rotors_that_keep_an_integral_are_found_and_proved() {
     // Numbers of potentials and rotors in the ansatz.
     let cases = [
@@ -360,69 +298,4 @@ fn densities_that_depend_on_the_velocities_are_counted_and_found() {
     let forced = searched("plane/ellipsoid-generic", &effort(1));
     let theorem = &forced.excluded.last().expect("a theorem").theorem;
     assert!(theorem.contains("for every gyrostat and every potential"), "{theorem}");
-}
-
-/// Searches a field of two or more variables for brackets; returns the report and the brackets.
-fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (Report, Vec<String>) {
-    let wanted = Effort { poisson: Some(hamiltonians), ..effort(0) };
-    let case = case(&format!("title = 'x'\nsystem = 'field'\ncheck-weights = false\n{body}"));
-    let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
-    let own = report.found.iter().filter(|found| found.kind == "bracket");
-    assert!(own.clone().all(|found| found.verdict == Verdict::Proved), "{:?}", report.found);
-    let texts = own.map(|found| found.formula.clone()).collect();
-    (report, texts)
-}
-
-#[test]
-fn a_top_has_two_brackets() {
-    let top = "[parameters]\na = '1..2'\nb = '1..2'\nc = '1..2'\n[state]\nM = 'vector(-1..1)'\n[field]\n\
-               M = 'M × [a*M1, b*M2, c*M3]'\n[[claim]]\nintegral = '(a*M1² + b*M2² + c*M3²)/2'\n\
-               [[claim]]\nintegral = '(M,M)/2'\n";
-    let (report, brackets) = bracketed(top, Hamiltonians::Given("(a*M1²+b*M2²+c*M3²)/2".into()));
-    assert_eq!(brackets, ["{M1,M2} = −M3, {M1,M3} = M2, {M2,M3} = −M1"]);
-    let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
-    assert!(with.contains(&&("Casimir", "(M,M)/2".to_string())), "{with:?}");
-    // The integrals change places: the coefficients are parameters, up to multiples of hat(M).
-    let (_, brackets) = bracketed(top, Hamiltonians::Given("(M,M)/2".into()));
-    assert_eq!(brackets, ["{M1,M3} = −b*M2 + c*M2, {M2,M3} = a*M1 − c*M1"]);
-}
-
-#[test]
-fn canonical_and_quadratic_brackets_are_found() {
-    let state = "[state]\nx = '1..2'\ny = '1..2'\npx = '1..2'\npy = '1..2'\n";
-    let henon_heiles = format!(
-        "{state}[field]\nx = 'px'\ny = 'py'\npx = '−x − 2*x*y'\npy = '−y − x² + y²'\n[[claim]]\n\
-         integral = '(px² + py² + x² + y²)/2 + x²*y − y³/3'\n"
-    );
-    let (_, brackets) = bracketed(&henon_heiles, Hamiltonians::Known);
-    assert_eq!(brackets, ["{x,px} = 1, {y,py} = 1"]);
-    let volterra = "[parameters]\na = '1..2'\nb = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\
-                    x = 'x*(a − y)'\ny = 'y*(x − b)'\n";
-    let hamiltonian = Hamiltonians::Given("a*log(y) + b*log(x) − x − y".into());
-    let (_, brackets) = bracketed(volterra, hamiltonian);
-    assert_eq!(brackets, ["{x,y} = x*y"]);
-}
-
-#[test]
-fn brackets_are_excluded() {
-    let damped = "[parameters]\nc = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\nx = 'y'\ny = '−x − c*y'\n";
-    // Of degree 4 alone; and in three variables, where P ∂H = 0 has solutions.
-    let quartic = "[state]\nx = '1..2'\ny = '1..2'\n[field]\nx = 'x²*y²'\ny = '−x²*y²'\n";
-    let spatial = "[state]\nx = '1..2'\ny = '1..2'\nz = '1..2'\n[field]\nx = 'x²*y²'\ny = '−x²*y²'\nz = '0'\n";
-    for (body, hamiltonian) in [(damped, "(x² + y²)/2"), (quartic, "x + y"), (spatial, "x + y")] {
-        let (report, brackets) = bracketed(body, Hamiltonians::Given(hamiltonian.into()));
-        assert!(brackets.is_empty(), "{hamiltonian}: {brackets:?}");
-        let theorem = report.excluded.iter().find(|one| one.ansatz.starts_with("brackets"));
-        let theorem = &theorem.expect("a theorem").theorem;
-        assert!(theorem.contains("no skew P") && theorem.contains(hamiltonian), "{theorem}");
-    }
-}
-
-#[test]
-fn a_tensor_that_fails_jacobi_is_mended() {
-    // {x,z} = z, {y,z} = 1 alone fails Jacobi's identity; {x,y} is free, as P ∂z does not contain
-    // it.
-    let body = "[state]\nx = '1..2'\ny = '1..2'\nz = '1..2'\n[field]\nx = 'z'\ny = '1'\nz = '0'\n";
-    let (_, brackets) = bracketed(body, Hamiltonians::Given("z".into()));
-    assert_eq!(brackets, ["{x,y} = −y, {x,z} = z, {y,z} = 1"]);
 }

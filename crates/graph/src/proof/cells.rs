@@ -13,7 +13,7 @@ use crate::graph::{Expr, Fault, Graph, record};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::domain::Fact;
+use super::fact::Fact;
 use super::rewrite::{Rewrite, conditions};
 use super::trial::{Certificate, Finding, both};
 

@@ -15,7 +15,7 @@
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `explore`, `cells`, `rewrite` | the cells of signs, and proofs on each |
-//! | `domain`, `classes`, `extent` | signs of values over the ranges of the inputs |
+//! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod bounds;
@@ -30,6 +30,7 @@ mod domain;
 mod elimination;
 mod explore;
 mod extent;
+mod fact;
 mod lower;
 mod nested;
 mod numbers;
@@ -52,9 +53,10 @@ use std::sync::Arc;
 pub use bounds::Source;
 pub use chance::Chance;
 pub use coprime::{are_coprime, are_polynomials};
-pub use domain::{Fact, is_nowhere_zero, sign};
+pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
+pub use fact::Fact;
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use trial::Certificate;

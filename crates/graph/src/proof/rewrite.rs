@@ -7,7 +7,7 @@ use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
-use super::domain::Fact;
+use super::fact::Fact;
 use super::nested::Written;
 use super::squares::Square;
 

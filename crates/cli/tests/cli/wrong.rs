@@ -1,0 +1,240 @@
+//! Wrong input: what the program says of it, and its exit code.
+
+use predicates::str::contains;
+
+use crate::{GOOD, folder, liouville};
+
+/// Each case: the mistake, the message, and the remedy it offers.
+#[test]
+fn wrong_input_gets_a_clear_message_and_exit_code_2() {
+    let head = "title = 'x'\nsystem = 'rubber-plane'\n";
+    let body = "[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n[body]\nshape = 'ball'\n";
+    let claim = |text: &str| format!("{head}{body}[[claim]]\nintegral = '{text}'\n");
+    let field = |text: &str| format!("title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\n{text}");
+    let lagrangian = |system: &str, text: &str| {
+        let state = "x = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n";
+        format!("title = 'x'\nsystem = '{system}'\n[state]\n{state}[lagrangian]\n{text}\n")
+    };
+    let turning = |claim: &str| field(&format!("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n{claim}\n"));
+    let skate = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\"]";
+    let twice = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\", \"2*x*y' = 2*x'\"]";
+    let quasi = "kinetic = 'y²'\nquasi-velocities = ['y']\nalgebra = 'so(4)'";
+    let exists = |more: &str, kind: &str| {
+        format!("{head}{body}{more}[[claim]]\n{kind}-density = 'exists'\n")
+    };
+    let moved = "[state]\ns = '-1..1'\n[field]\n\"s'\" = '2*s'\n";
+    let twisted = exists("", "position")
+        .replace("shape = 'ball'", "contact = 'vec(−γ2*(1 + γ1), γ1*(1 + γ1), 0)'");
+    let bent = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '1..2'\nu = '1..2'\n[field]\n\"x'\" = 'u²'\n\
+                [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
+    let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
+    let cases: Vec<(&str, String, &str, &str)> = vec![
+        ("empty", String::new(), "the file is empty", "writing-a-case"),
+        ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
+        ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
+        ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "unknown system", "rubber-plane"),
+        (
+            "key",
+            format!("titel = 'x'\n{head}{body}"),
+            "unknown key `titel`",
+            "did you mean `title`",
+        ),
+        ("unknown-name", claim("Jtild*ω"), "unknown name", ""),
+        ("times", claim("2*m*R(γ,ω)"), "missing `*`", "write `R*(γ,ω)`"),
+        ("kinds", claim("ω3 + γ"), "scalar", ""),
+        ("bracket", claim("((γ,ω)"), "bracket", ""),
+        ("weights", claim("(γ,γ) + ω3"), "unequal weight", "check-weights"),
+        (
+            "vector",
+            claim("γ").replace("integral", "density"),
+            "should be a scalar, but this is a vector",
+            "",
+        ),
+        ("deep", claim(&deep), "nested too deeply", ""),
+        ("nan", format!("{head}{}", body.replace("m = 1", "m = nan")), "is not a number", ""),
+        ("range", format!("{head}{}", body.replace("m = 1", "m = '2..1'")), "is empty", ""),
+        (
+            "singular",
+            format!("{head}{}", body.replace("m = 1", "m = 0").replace("[1, 2, 2.5]", "[0, 0, 0]")),
+            "equations of motion are undefined",
+            "singular inertia",
+        ),
+        (
+            "unreachable",
+            field("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[level]\nequations = ['x² + y² = -1']\n"),
+            "no state on the level set",
+            "[level]",
+        ),
+        (
+            "leaves",
+            field("[field]\n\"x'\" = '1'\n\"y'\" = 'x'\n[level]\nequations = ['x² + y² = 1']\n"),
+            "the level set is not invariant",
+            "correct the equation",
+        ),
+        (
+            "criterion",
+            field("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n[[claim]]\nanalytic-density = 'exists'\n"),
+            "decided by a criterion",
+            "",
+        ),
+        (
+            "damped",
+            exists("moment = '−ω'\n", "analytic"),
+            "`moment` depends on `ω`",
+            "state a density instead",
+        ),
+        ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
+        ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
+        ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
+        (
+            "bent",
+            bent.into(),
+            "the rate of `x` is not linear in the velocities",
+            "other quasi-velocities",
+        ),
+        (
+            "block",
+            turning("[variables]\nX = 'x'\nY = 'y'\n[poisson]\n'X,Y' = '1'\n'Y,X' = '1'"),
+            "the block Y,X is given already",
+            "follows from skewness",
+        ),
+        (
+            "own-potential",
+            format!("{head}{body}potential = 'U'"),
+            "`potential` depends on `U`, which it determines",
+            "by γ, h and the parameters",
+        ),
+        (
+            "own-surface",
+            format!("{head}[let]\nw = '2*h'\n{body}").replace("shape = 'ball'", "support = 'w'"),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-surface-of-a-ball",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsupport = 'h'"
+                .into(),
+            "`support` depends on `h`, which it determines",
+            "by γ and the parameters",
+        ),
+        (
+            "own-reaction",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\nconstraints = ['μ = 0']"),
+            "each side may depend on the state and parameters only, not on `μ`",
+            "",
+        ),
+        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names nothing that is moved", "image"),
+        ("no-map", turning("[[claim]]\nmap = {}\nfield = {}"), "names no new variable", "give one"),
+        (
+            "no-time",
+            turning("[[claim]]\nsymmetry = { x = '0*x', y = '0*y' }\ntime = '1 − 1'"),
+            "`time` is 0",
+            "t → λt",
+        ),
+        (
+            "moving-time",
+            turning("[[claim]]\nsymmetry = { x = 'x', y = 'y' }\ntime = '1 + x − x'"),
+            "`time` depends on the state",
+            "write λ by numbers and parameters",
+        ),
+        (
+            "surface",
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 2\nmu = 1\n[body]\nsurface = '(r,γ)'"
+                .into(),
+            "may depend on r and parameters only, not on `γ`",
+            "",
+        ),
+        (
+            "own-energy",
+            lagrangian("nonholonomic", "kinetic = \"x'² + y'²\"\npotential = 'energy'"),
+            "may depend on the state and parameters only",
+            "",
+        ),
+        (
+            "feedback",
+            format!("{head}{body}moment = \"ω'\""),
+            "feedback.toml:9:10",
+            "by the state, r, r' and γ'",
+        ),
+        (
+            "tiny-range",
+            field("[field]\n").replace("x = '-1..1'", "x = '-1e-400..1e-400'"),
+            "beyond the numbers that f64 can hold",
+            "-2..2",
+        ),
+        (
+            "singular-level",
+            turning("[level]\nequations = ['(x² + y²)^3 = 0']"),
+            "no state on the level set",
+            "may not all vanish",
+        ),
+        ("no-level", turning("[level]\nequations = ['1 = 0']"), "on no state variable", "remove"),
+        (
+            "open-level",
+            turning("[level]\nequations = ['y = ∫(x, x)']"),
+            "contains an ∫, whose constant is open",
+            "write the antiderivative out",
+        ),
+        (
+            "open-point",
+            turning("[[claim]]\nfixed-point = { x = '∫(1, 2)' }"),
+            "a point has no ∫ in it",
+            "write the antiderivative out",
+        ),
+        (
+            "open-slope",
+            turning("[parameters]\ne = '1..2'\n[[claim]]\nlimit = '∫(e*x, x)'\nequals = '∫(0*x, x)'\nslope = '0'\nparameter = 'e'"),
+            "the slope of an ∫ by a parameter is open",
+            "write the antiderivative out",
+        ),
+        ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
+        ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
+        ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
+        ("algebra", lagrangian("nonholonomic", quasi), "is no algebra that is known", "so(3)"),
+        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [variables]"),
+        (
+            "two",
+            turning("[[claim]]\nintegral = 'x'\ndensity = '1'"),
+            "this claim makes 2 statements",
+            "a [[claim]] for each",
+        ),
+        ("rate", field("[field]\n\"x'\" = 'y'\n"), "has no rate for `y`", "y'"),
+    ];
+    for (name, text, message, remedy) in cases {
+        let path = folder("wrong", &[(&format!("{name}.toml"), &text)]);
+        liouville(&["check", path.to_str().expect("UTF-8")])
+            .assert()
+            .code(2)
+            .stdout(contains(message))
+            .stdout(contains(remedy));
+    }
+    liouville(&["check", "no-such-folder"]).assert().code(2).stdout(contains("cannot read"));
+    let huge = format!("#{}", "x".repeat(5 << 20));
+    let path = folder("huge", &[("huge.toml", &huge)]);
+    liouville(&["check", path.to_str().expect("UTF-8")]).assert().code(2).stdout(contains("bytes"));
+}
+
+#[test]
+fn eval_refuses_what_it_does_not_understand() {
+    let path = folder("eval", &[("good.toml", GOOD)]).join("good.toml");
+    let path = path.to_str().expect("UTF-8");
+    let refused = [
+        (vec!["--set", "q=1"], "there is no parameter `q`"),
+        (vec!["--set", "m"], "not of the form name=value"),
+        (vec!["--state", "ω=[1,2]"], "has 3 components"),
+        (vec!["--state", "ω=[1,2,3]"], "no value for `γ`"),
+        (vec!["--state", "ω=[1,2,x] γ=[0,0,1]"], "is not a number"),
+        (vec!["--state", "v=[1,2,3]"], "is no state variable"),
+    ];
+    for (options, message) in refused {
+        let mut arguments = vec!["eval", path];
+        arguments.extend(&options);
+        liouville(&arguments).assert().code(2).stderr(contains(message));
+    }
+    let bare = "title = 'x'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '-x'\n";
+    let path = folder("bare", &[("bare.toml", bare)]).join("bare.toml");
+    liouville(&["eval", path.to_str().expect("UTF-8"), "--set", "x=1"])
+        .assert()
+        .code(2)
+        .stderr(contains("this case has no parameters"));
+}

@@ -1,0 +1,119 @@
+//! Regular motion and chaos: exponents, vectors, planes of starts.
+
+use liouville::case::{Case, Setting};
+use liouville::number::rational::Rational;
+use liouville_flow::{
+    Axis, Character, Coordinate, Launch, PlaneRequest, Variational, plane, section_starts,
+};
+
+use crate::catalogue;
+
+#[test]
+fn exponents_tell_regular_motion_from_chaos() {
+    let exponents = |file: &str, at: [f64; 2], time: f64| {
+        let case = catalogue(file);
+        let plan = case.section.as_ref().expect("a [section]");
+        let starts = section_starts(&case, &plan.g0, &plan.energy, &[at], 1).expect("a chart");
+        let start = starts.into_iter().next().expect("one").expect("a state");
+        Variational::new(&case.model, &start).and_then(|motion| motion.exponents(time))
+    };
+    let regular = exponents("figures/fig-3.toml", [1.0, 0.3], 1000.0).expect("no singularity");
+    assert_eq!(regular.character, Character::Regular, "{regular:?}");
+    assert!(regular.largest.mean < 0.004, "falls like (ln t)/t: {regular:?}");
+    let chaos =
+        exponents("figures/fig-14.toml", [1.26685, 0.42875], 1500.0).expect("no singularity");
+    assert_eq!(chaos.character, Character::ConservativeChaos, "{chaos:?}");
+    assert!((chaos.largest.mean - 0.104).abs() < 3.0 * (chaos.largest.error + 0.006), "{chaos:?}");
+    let back = exponents("figures/fig-14.toml", [1.26685, 0.42875], -1500.0);
+    let back = back.expect("no singularity").largest;
+    assert!((back.mean - 0.104).abs() < 3.0 * (back.error + 0.006), "a measure is kept: {back:?}");
+}
+
+#[test]
+fn vectors_align_in_chaos_and_stay_apart_on_tori() {
+    let class = |file: &str, at: [f64; 2], time: f64| {
+        let case = catalogue(file);
+        let plan = case.section.as_ref().expect("a [section]");
+        let starts = section_starts(&case, &plan.g0, &plan.energy, &[at], 1).expect("a chart");
+        let parameters = starts[0].as_ref().expect("a state").parameters.clone();
+        let motion = Variational::all(&case.model, &parameters, &starts).expect("a program");
+        let both = [time, -time].map(|time| motion.exponents(time).expect("no singularity"));
+        (both[0].class(&both[1]), both[0].alignment.expect("two vectors"))
+    };
+    let (regular, apart) = class("figures/fig-3.toml", [1.0, 0.3], 600.0);
+    assert_eq!(regular, Character::Regular, "a torus");
+    assert!(apart.index > 1e-3 && apart.since.is_none(), "like 1/t: {apart:?}");
+    let (chaos, aligned) = class("figures/fig-14.toml", [1.26685, 0.42875], 600.0);
+    assert_eq!(chaos, Character::ConservativeChaos, "a measure is kept");
+    assert!(aligned.index < 1e-8 && aligned.since.is_some(), "one direction is left: {aligned:?}");
+}
+
+/// Makes an axis of a plane of starts in figure 14, or of parameters.
+fn axis(coordinate: Coordinate, from: f64, to: f64, count: usize) -> Axis {
+    let read = |value| Rational::from_f64(value).expect("finite");
+    Axis { coordinate, from: read(from), to: read(to), count }
+}
+
+#[test]
+fn a_chart_agrees_with_the_exact_exponents_and_does_not_depend_on_threads() {
+    let case = catalogue("figures/fig-14.toml");
+    let plan = case.section.as_ref().expect("a [section]");
+    let (g0, energy) = (plan.g0.clone(), plan.energy.clone());
+    let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [0.0, 0.0] };
+    let axes = [axis(Coordinate::L, 0.2, 5.0, 3), axis(Coordinate::Z, -0.8, 1.2, 3)];
+    let request = PlaneRequest { axes, launch, time: 400.0, seed: 1 };
+    let found = plane(&case, &request, 1, &|| ()).expect("a plane");
+    let again = plane(&case, &request, 3, &|| ()).expect("a plane");
+    assert_eq!(found, again, "bit for bit");
+    let points: Vec<[f64; 2]> = (0..9)
+        .map(|k| [(k % 3, 0), (k / 3, 1)].map(|(k, i)| request.axes[i].value(k).to_f64().0))
+        .collect();
+    let starts = section_starts(&case, &g0, &energy, &points, 1).expect("a chart");
+    for (found, start) in found.iter().zip(starts) {
+        let Ok(start) = start else { panic!("all of them have a state") };
+        let exact = Variational::new(&case.model, &start).and_then(|one| one.exponents(400.0));
+        let (found, exact) = (found.as_ref().expect("a motion"), exact.expect("a motion"));
+        let (a, b) = (found.largest, exact.largest);
+        // Chaotic motions diverge by rounding, and regular ones agree closely.
+        let bound = if exact.character == Character::Regular { 0.002 } else { 0.1 };
+        assert!((a.mean - b.mean).abs() < bound, "{a:?} and {b:?}");
+    }
+}
+
+#[test]
+fn a_chart_of_parameters_has_the_motions_of_its_points() {
+    let case = catalogue("figures/fig-8.toml");
+    let index = |name: &str| case.model.parameters.iter().position(|one| one.name == name);
+    let parameter = |name: &str, component| Coordinate::Parameter {
+        index: index(name).expect("a parameter"),
+        component,
+    };
+    let plan = case.section.as_ref().expect("a [section]");
+    let (g0, energy) = (plan.g0.clone(), plan.energy.clone());
+    let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [3.4, 0.4] };
+    let axes = [axis(parameter("c", 2), 0.0, 1.0, 2), axis(parameter("a_g", 0), 4.0, 28.0, 2)];
+    let request = PlaneRequest { axes, launch, time: 20.0, seed: 1 };
+    let found = plane(&case, &request, 2, &|| ()).expect("a plane");
+    for (k, found) in found.iter().enumerate() {
+        let (c3, a_g) = ([0.25, 0.75][k % 2], [10.0, 22.0][k / 2]);
+        let set = |name: &str, value: String| Setting { name: name.to_string(), value };
+        let settings = [set("c", format!("[1,1.5,{c3}]")), set("a_g", a_g.to_string())];
+        let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+            .join("cases/figures/fig-8.toml");
+        let case = Case::read(&path, &settings).1.expect("a case");
+        let start = section_starts(&case, &g0, &energy, &[[3.4, 0.4]], 1).expect("a chart");
+        match start.into_iter().next().expect("one") {
+            Err(problem) => assert_eq!(found.as_ref().err(), Some(&problem), "no state there"),
+            Ok(start) => {
+                let exact = Variational::new(&case.model, &start);
+                let exact = exact.and_then(|one| one.exponents(20.0)).expect("a motion");
+                let found = found.as_ref().expect("a motion");
+                let apart = (found.largest.mean - exact.largest.mean).abs();
+                assert!(apart < 1e-4, "{k}: {found:?} and {exact:?}");
+                let apart = (found.divergence.mean - exact.divergence.mean).abs();
+                assert!(apart < 1e-5, "{k}: {found:?} and {exact:?}");
+            }
+        }
+    }
+    assert!(found[2].is_err() || found[3].is_err(), "22·m·|c| is above the energy somewhere");
+}

@@ -1,0 +1,174 @@
+//! Arithmetic modulo one prime.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::ToPrimitive;
+
+use crate::number::rational::Rational;
+
+/// Marks a lane without a value; every residue is smaller.
+pub const UNDEFINED: u64 = u64::MAX;
+
+/// Arithmetic modulo an odd prime below 2^62, on residues in Montgomery form: x stands for x·2^64.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Modulus {
+    prime: u64,
+    /// -p⁻¹ mod 2^64
+    negative_inverse: u64,
+    /// 2^64 mod p, the image of 1.
+    one: u64,
+    /// 2^128 mod p, which turns an integer into its image.
+    square: u64,
+}
+
+impl Modulus {
+    /// Makes the field of `prime` elements; `prime` must be odd and below 2^62.
+    pub fn new(prime: u64) -> Self {
+        // Newton's iteration doubles the number of correct low bits; p is its own inverse mod 8.
+        let mut inverse = prime;
+        for _ in 0..5 {
+            inverse = inverse.wrapping_mul(2u64.wrapping_sub(prime.wrapping_mul(inverse)));
+        }
+        let wide = u128::from(prime);
+        let one = ((1u128 << 64) % wide) as u64;
+        let square = (u128::from(one) * u128::from(one) % wide) as u64;
+        Self { prime, negative_inverse: inverse.wrapping_neg(), one, square }
+    }
+
+    /// Returns the prime.
+    pub fn prime(&self) -> u64 {
+        self.prime
+    }
+
+    /// Returns the image of 1.
+    pub fn one(&self) -> u64 {
+        self.one
+    }
+
+    /// Returns the image of an integer below 2^64.
+    pub fn integer(&self, value: u64) -> u64 {
+        self.mul(value % self.prime, self.square)
+    }
+
+    /// Returns the least non-negative integer with this image.
+    pub fn to_integer(&self, x: u64) -> u64 {
+        self.mul(x, 1)
+    }
+
+    /// Returns the image of a rational number, `None` where p divides its denominator.
+    pub fn rational(&self, value: &Rational) -> Option<u64> {
+        let (numerator, denominator) = value.small_parts().map_or_else(
+            || {
+                let (numerator, denominator) = value.parts();
+                let modulus = BigInt::from(self.prime);
+                let image = |x: &BigInt| x.mod_floor(&modulus).to_u64().unwrap_or(0);
+                (image(&numerator), image(&denominator))
+            },
+            |(n, d)| {
+                let above = n.unsigned_abs() % self.prime;
+                let above = if n < 0 && above > 0 { self.prime - above } else { above };
+                (above, d.unsigned_abs() % self.prime)
+            },
+        );
+        match denominator {
+            0 => None,
+            1 => Some(self.integer(numerator)),
+            _ => Some(self.mul(self.integer(numerator), self.inverse(self.integer(denominator)))),
+        }
+    }
+
+    /// Computes x + y.
+    #[inline(always)]
+    pub fn add(&self, x: u64, y: u64) -> u64 {
+        let sum = x + y;
+        sum.min(sum.wrapping_sub(self.prime))
+    }
+
+    /// Computes x - y.
+    #[inline(always)]
+    pub fn sub(&self, x: u64, y: u64) -> u64 {
+        let difference = x.wrapping_sub(y);
+        difference.min(difference.wrapping_add(self.prime))
+    }
+
+    /// Computes x y.
+    #[inline(always)]
+    pub fn mul(&self, x: u64, y: u64) -> u64 {
+        let product = u128::from(x) * u128::from(y);
+        let factor = (product as u64).wrapping_mul(self.negative_inverse);
+        // product + factor p is divisible by 2^64 and below 2^64 · 2p.
+        let sum = ((product + u128::from(factor) * u128::from(self.prime)) >> 64) as u64;
+        sum.min(sum.wrapping_sub(self.prime))
+    }
+
+    /// Computes x^n.
+    pub fn power(&self, x: u64, n: u64) -> u64 {
+        let mut result = self.one;
+        for bit in (0..64 - n.leading_zeros()).rev() {
+            result = self.mul(result, result);
+            if n >> bit & 1 == 1 {
+                result = self.mul(result, x);
+            }
+        }
+        result
+    }
+
+    /// Computes 1/x for x ≠ 0.
+    pub fn inverse(&self, x: u64) -> u64 {
+        self.power(x, self.prime - 2)
+    }
+
+    /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined
+    /// values.
+    pub fn inverses(&self, x: &[u64], out: &mut [u64]) {
+        let is_unit = |x: u64| x != 0 && x != UNDEFINED;
+        let mut product = self.one;
+        for (x, out) in x.iter().zip(out.iter_mut()) {
+            *out = product;
+            if is_unit(*x) {
+                product = self.mul(product, *x);
+            }
+        }
+        let mut rest = self.inverse(product);
+        for (x, out) in x.iter().zip(out).rev() {
+            if is_unit(*x) {
+                *out = self.mul(rest, *out);
+                rest = self.mul(rest, *x);
+            } else {
+                *out = UNDEFINED;
+            }
+        }
+    }
+
+    /// Returns the root of x that is itself a square, if x is a nonzero square (for p = 3 mod 4).
+    pub fn root(&self, x: u64) -> Option<u64> {
+        // x^((p-3)/4): times x it is the root, and times the root it is χ(x).
+        let power = self.power(x, (self.prime - 3) / 4);
+        let root = self.mul(power, x);
+        (self.mul(power, root) == self.one).then_some(root)
+    }
+
+    /// Whether x is a nonzero square.
+    pub fn is_square(&self, x: u64) -> bool {
+        self.power(x, (self.prime - 1) / 2) == self.one
+    }
+
+    /// Computes x^(a/b) for x ≠ 0 and b prime to p - 1, hence odd: the root is unique.
+    pub fn odd_power(&self, x: u64, exponent: &Rational) -> Option<u64> {
+        let (above, below) = exponent.parts();
+        let order = BigInt::from(self.prime - 1);
+        let inverse = below.modinv(&order)?;
+        let exponent = (above * inverse).mod_floor(&order).to_u64()?;
+        (x != 0).then(|| self.power(x, exponent))
+    }
+
+    /// Computes x^n; `None` for 0 to a negative power.
+    pub(super) fn integer_power(&self, x: u64, exponent: i64) -> Option<u64> {
+        let power = self.power(x, exponent.unsigned_abs());
+        match (exponent < 0, power) {
+            (false, _) => Some(power),
+            (true, 0) => None,
+            (true, _) => Some(self.inverse(power)),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Signs and bounds of values over the real inputs at which given values exist and have given
+//! signs, and emptiness of such sets of inputs.
+//!
+//! Bounds are propagated from step to step of a graph in intervals, forwards from the inputs and
+//! backwards from the facts. Two rules go beyond interval arithmetic:
+//!
+//! - values that are equal, or opposite, at random points of prime fields (see [`Classes`]) share
+//!   their bounds;
+//! - the signs of xy and y determine the sign of x, where y is not 0 at one of these points: its
+//!   zeros then have no interior, and x has this sign everywhere else, thus everywhere in the
+//!   closure.
+//!
+//! Without the proviso the second rule is wrong: y + |y| is 0 for all y < 0, and x (y + |y|) ≥ 0
+//! says nothing about x there.
+
+mod bounds;
+mod search;
+
+#[cfg(test)]
+mod tests;
+
+pub use search::{is_nowhere_zero, point, sign};
+
+use crate::graph::{Graph, Step};
+
+use super::classes::Classes;
+use super::extent::Extent;
+use super::fact::Fact;
+
+/// Largest number of parts of the box on which one value is bounded.
+const MOST_PARTS: usize = 64;
+
+/// The real inputs within some extents at which facts hold.
+pub struct Region<'r> {
+    /// Graph of the computation.
+    pub graph: &'r Graph,
+    /// Extents of the inputs in order; further inputs are unbounded.
+    pub inputs: &'r [Extent],
+    /// Places, and the signs of their values.
+    pub facts: &'r [(usize, Fact)],
+    /// Equal and opposite values.
+    pub classes: &'r Classes,
+}
+
+impl Region<'_> {
+    /// Whether the region is known to be empty.
+    pub fn is_empty(&self) -> bool {
+        let reached = self.reached(&[]);
+        self.is_empty_on(&reached)
+    }
+
+    /// Whether the region is shown to be empty by bounds on the whole of it.
+    pub fn is_empty_at_sight(&self) -> bool {
+        self.bounds(&self.reached(&[]), &self.whole()).is_none()
+    }
+
+    fn is_empty_on(&self, reached: &[usize]) -> bool {
+        let mut parts = vec![(self.whole(), 0)];
+        let mut looked = 0;
+        let used = self.inputs_of(reached);
+        while let Some((part, depth)) = parts.pop() {
+            looked += 1;
+            if self.bounds(reached, &part).is_none() {
+                continue;
+            }
+            match self.cut(&used, part, depth) {
+                Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
+                _ => return false,
+            }
+        }
+        true
+    }
+
+    /// Finds the sign of the value at a place over the region, wherever it exists, where 0 counts
+    /// as either sign; `None` if unknown.
+    pub fn sign(&self, place: usize) -> Option<bool> {
+        let reached = self.reached(&[place]);
+        let used = self.inputs_of(&reached);
+        let mut known: Option<bool> = None;
+        let mut parts = vec![(self.whole(), 0)];
+        let mut looked = 0;
+        while let Some((part, depth)) = parts.pop() {
+            looked += 1;
+            let Some(bounds) = self.bounds(&reached, &part) else { continue };
+            let extent = bounds[place];
+            match (extent.sign(), known) {
+                _ if extent.is_empty() => {}
+                (Some(sign), Some(before)) if sign != before => return None,
+                (Some(sign), _) => known = Some(sign),
+                (None, _) => match self.cut(&used, part, depth) {
+                    Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
+                    _ => return None,
+                },
+            }
+        }
+        known
+    }
+
+    /// Marks the places whose sign follows from bounds on the whole region.
+    pub fn at_sight(&self, outputs: &[usize]) -> Vec<bool> {
+        let reached = self.reached(outputs);
+        let mut known = vec![false; self.graph.len()];
+        if let Some(bounds) = self.bounds(&reached, &self.whole()) {
+            reached.iter().for_each(|place| known[*place] = bounds[*place].sign().is_some());
+        }
+        known
+    }
+
+    /// Lists the places that the facts and some others need, in order.
+    fn reached(&self, others: &[usize]) -> Vec<usize> {
+        let facts = self.facts.iter().map(|(place, _)| *place);
+        let places: Vec<usize> = facts.chain(others.iter().copied()).collect();
+        let reached = self.graph.reached_from(&places);
+        (0..reached.len()).filter(|place| reached[*place]).collect()
+    }
+
+    fn inputs_of(&self, reached: &[usize]) -> Vec<usize> {
+        let input = |place: &usize| match self.graph.step(*place) {
+            Step::Input(input) => Some(input),
+            _ => None,
+        };
+        reached.iter().filter_map(input).collect()
+    }
+
+    fn whole(&self) -> Vec<Extent> {
+        let mut whole = self.inputs.to_vec();
+        whole.resize(self.graph.inputs().max(self.inputs.len()), Extent::ALL);
+        whole
+    }
+
+    /// Halves a part along one input after the other.
+    fn cut(
+        &self,
+        used: &[usize],
+        part: Vec<Extent>,
+        depth: usize,
+    ) -> Option<[(Vec<Extent>, usize); 2]> {
+        let input = *used.get(depth % used.len().max(1))?;
+        let (low, high) = part[input].halves()?;
+        let (mut lower, mut upper) = (part.clone(), part);
+        (lower[input], upper[input]) = (low, high);
+        Some([(upper, depth + 1), (lower, depth + 1)])
+    }
+}

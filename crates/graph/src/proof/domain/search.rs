@@ -1,0 +1,92 @@
+//! Questions about boxes of inputs: a point where values are positive, a common zero, a sign.
+
+use std::collections::VecDeque;
+
+use crate::graph::{Expr, Graph, Step};
+use crate::proof::classes::Classes;
+use crate::proof::extent::Extent;
+use crate::proof::fact::Fact;
+use crate::proof::rewrite::conditions;
+
+use super::Region;
+
+/// Largest number of parts of the box used to show that a value does not vanish.
+const MOST_PIECES: usize = 1 << 12;
+/// Largest number of parts of a box that are searched for a point.
+const MOST_BOXES: usize = 1 << 12;
+
+/// Searches for a point inside the extents of some inputs at which some values are positive,
+/// whatever the others do; `None` if none is found.
+pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
+    let facts: Vec<(usize, Fact)> = positive.iter().map(|place| (*place, Fact::Positive)).collect();
+    let classes = Classes::default();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    let reached = region.reached(&[]);
+    let used = region.inputs_of(&reached);
+    let mut open = VecDeque::from([(region.whole(), 0)]);
+    for _ in 0..MOST_BOXES {
+        let (part, depth) = open.pop_front()?;
+        if region.bounds(&reached, &part).is_none() {
+            continue;
+        }
+        let mut bounds = vec![Extent::ALL; graph.len()];
+        region.forward(&reached, &part, &mut bounds);
+        if positive.iter().all(|place| bounds[*place].excludes_zero()) {
+            return part.iter().map(|extent| extent.inside()).collect();
+        }
+        open.extend(region.cut(&used, part, depth).into_iter().flatten());
+    }
+    None
+}
+
+/// Whether some values are known to have no common zero inside the extents of the inputs where
+/// others are not negative.
+pub fn is_nowhere_zero(
+    graph: &Graph,
+    inputs: &[Extent],
+    not_negative: &[Expr],
+    values: &[Expr],
+) -> bool {
+    let classes = Classes::default();
+    let fact = |value: &Expr| (graph.place(*value), Fact::NotNegative);
+    let facts: Vec<(usize, Fact)> = not_negative.iter().map(fact).collect();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    let places: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
+    let reached = region.reached(&places);
+    let used = region.inputs_of(&reached);
+    let mut open = vec![region.whole()];
+    for _ in 0..MOST_PIECES {
+        let Some(mut part) = open.pop() else { return true };
+        let Some(bounds) = region.bounds(&reached, &part) else { continue };
+        let vanishes =
+            |place: &usize| !bounds[*place].excludes_zero() && !bounds[*place].is_empty();
+        if !places.iter().all(vanishes) {
+            continue;
+        }
+        // Start from the part of the inputs that the facts allow, the largest piece first.
+        for at in &reached {
+            if let Step::Input(input) = graph.step(*at) {
+                part[input] = part[input].common(bounds[*at]);
+            }
+        }
+        let spread = |input: &&usize| part[**input].spread();
+        let widest = used.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
+        let Some((input, (low, high))) =
+            widest.and_then(|input| Some((*input, part[*input].halves()?)))
+        else {
+            return false;
+        };
+        let mut upper = part.clone();
+        (part[input], upper[input]) = (low, high);
+        open.extend([upper, part]);
+    }
+    open.is_empty()
+}
+
+/// Finds the sign of a value at all inputs inside their extents at which some values exist, where 0
+/// counts as either sign; `None` if unknown.
+pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) -> Option<bool> {
+    let facts = conditions(graph, &graph.reached(required.iter().copied()));
+    let classes = Classes::default();
+    Region { graph, inputs, facts: &facts, classes: &classes }.sign(graph.place(value))
+}

@@ -1,0 +1,101 @@
+//! Tests of regions: signs, emptiness and points.
+
+use num_dual::DualNum;
+
+use super::*;
+use crate::graph::{Expr, record};
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// Finds the sign over all inputs between these ends, where some values are not negative.
+fn sign_where(
+    ends: &[(i64, i64)],
+    build: impl FnOnce(&[Expr]) -> (Expr, Vec<Expr>),
+) -> Option<bool> {
+    let (graph, (value, facts)) = record(ends.len(), build).expect("records");
+    let end = |n: i64| Rational::from(n);
+    let inputs: Vec<Extent> =
+        ends.iter().map(|(low, high)| Extent::between(&end(*low), &end(*high))).collect();
+    let facts: Vec<(usize, Fact)> =
+        facts.into_iter().map(|fact| (graph.place(fact), Fact::NotNegative)).collect();
+    let classes = Classes::default();
+    let region = Region { graph: &graph, inputs: &inputs, facts: &facts, classes: &classes };
+    region.sign(graph.place(value))
+}
+
+fn sign_of(ends: &[(i64, i64)], build: impl FnOnce(&[Expr]) -> Expr) -> Option<bool> {
+    sign_where(ends, |x| (build(x), Vec::new()))
+}
+
+fn number(text: &str) -> Expr {
+    Expr::rational(&text.parse().expect("a number"))
+}
+
+#[test]
+fn a_sign_is_known_over_the_whole_box() {
+    assert_eq!(sign_of(&[(1, 2)], |x| x[0]), Some(true));
+    assert_eq!(sign_of(&[(-2, -1)], |x| x[0]), Some(false));
+    assert_eq!(sign_of(&[(-2, 2)], |x| x[0] - number("1.9999999999")), None, "at the end");
+    assert_eq!(sign_of(&[(0, 2)], |x| x[0]), Some(true), "0 goes with either sign");
+    assert_eq!(sign_of(&[(1, 2), (3, 4)], |x| x[0] - x[1]), Some(false));
+}
+
+#[test]
+fn squares_and_roots_are_positive() {
+    assert_eq!(sign_of(&[], |_| Expr::input() * number("2")), None, "any number");
+    assert_eq!(sign_of(&[(-2, 2)], |x| x[0] * x[0]), Some(true));
+    assert_eq!(sign_of(&[(-2, 2)], |x| (x[0] * x[0] + 1.0).recip()), Some(true));
+    assert_eq!(sign_of(&[(-2, 2)], |x| x[0].exp() * x[0].sqrt()), Some(true));
+    assert_eq!(sign_of(&[(-2, 2)], |x| -x[0].modulus()), Some(false));
+    assert_eq!(sign_of(&[(-2, -1)], |x| x[0].sqrt()), None, "there is no such value");
+}
+
+#[test]
+fn parts_tell_what_the_whole_hides() {
+    let parabola = |x: &[Expr]| x[0] * x[0] - x[0] + 1.0;
+    assert_eq!(sign_of(&[(-2, 2)], parabola), Some(true), "x² − x + 1 > 0");
+    let touching = |x: &[Expr]| x[0] * x[0] - x[0] + number("0.24");
+    assert_eq!(sign_of(&[(-2, 2)], touching), None, "x² − x + 0.24 has two zeros");
+}
+
+#[test]
+fn facts_decide_signs() {
+    let quotient = |x: &[Expr]| -(x[0] * x[1].recip());
+    let factor = |x: &[Expr]| (x[1], vec![quotient(x)]);
+    assert_eq!(sign_where(&[(-2, -1)], |x| (x[0].recip(), Vec::new())), Some(false));
+    assert_eq!(sign_where(&[(-2, -1), (-9, 9)], |x| (x[1], Vec::new())), None, "any number");
+    assert_eq!(sign_where(&[(-2, -1), (-9, 9)], factor), Some(true), "−x/y > 0 for x < 0");
+    let sum = |x: &[Expr]| (x[0] + x[1], vec![x[0] - 1.0, x[1]]);
+    assert_eq!(sign_where(&[(-9, 9), (-9, 9)], sum), Some(true), "x ≥ 1, y ≥ 0");
+}
+
+#[test]
+fn a_product_says_nothing_of_a_factor_whose_other_may_vanish() {
+    let build = |x: &[Expr]| {
+        let other = x[1] + x[1].modulus();
+        (x[0], vec![x[0] * other.modulus()])
+    };
+    assert_eq!(sign_where(&[(-2, 2), (-2, 2)], build), None, "y + |y| = 0 for y < 0");
+}
+
+#[test]
+fn contradictions_are_seen() {
+    let (graph, facts) = record(2, |x| [x[0] - x[1], x[1] - x[0] - 1.0]).expect("records");
+    let inputs = [Extent::between(&Rational::from(0), &Rational::from(1)); 2];
+    let facts = facts.map(|fact| (graph.place(fact), Fact::Positive));
+    let classes = Classes::default();
+    let region = Region { graph: &graph, inputs: &inputs, facts: &facts, classes: &classes };
+    assert!(region.is_empty(), "x > y and y > x + 1");
+    let one = &facts[..1];
+    let region = Region { graph: &graph, inputs: &inputs, facts: one, classes: &classes };
+    assert!(!region.is_empty(), "x > y alone");
+    let inside = point(&graph, &inputs, &[facts[0].0]).expect("a point");
+    assert!(inside[0] > inside[1], "{inside:?}");
+}
+
+#[test]
+fn numbers_beyond_f64_have_no_sign_by_accident() {
+    let power = |x: &[Expr]| -(x[0].powi(1_000_000) - 1.0);
+    assert_eq!(sign_of(&[(0, 2)], power), None, "1 − x^1000000 has both signs");
+    assert_eq!(sign_of(&[(2, 3)], power), Some(false));
+}

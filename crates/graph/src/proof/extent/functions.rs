@@ -1,0 +1,99 @@
+//! Enclosures of functions and powers.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use crate::number::Function;
+use crate::number::rational::Rational;
+
+use super::Extent;
+
+impl Extent {
+    /// Applies an increasing function that is defined above `least`.
+    fn rising(self, least: f64, f: impl Fn(f64) -> f64) -> Self {
+        if self.high < least {
+            return Self::EMPTY;
+        }
+        let (low, high) = (f(self.low.max(least)), f(self.high));
+        let once = Self::outward(low, high);
+        Self::outward(once.low, once.high)
+    }
+
+    /// Computes f(x).
+    pub fn unary(self, function: Function) -> Self {
+        match function {
+            Function::Neg => self.negated(),
+            Function::Abs => self.modulus(),
+            Function::Recip => self.reciprocal(),
+            Function::Sqrt => self.rising(0.0, f64::sqrt).within(true),
+            Function::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
+            Function::Ln => self.rising(0.0, libm::log),
+            Function::Sin => self.sine(),
+            Function::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
+            Function::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
+        }
+    }
+
+    /// Computes sin x.
+    fn sine(self) -> Self {
+        /// Largest argument that is reduced to one turn.
+        const FAR: f64 = 1e6;
+        /// More than the rounding of the turns of an argument below that.
+        const SLACK: f64 = 1e-8;
+        let Self { low, high } = self;
+        if self.is_empty() {
+            return self;
+        }
+        if !(low >= -FAR && high <= FAR) {
+            return Self::SIGN;
+        }
+        let ends = [libm::sin(low), libm::sin(high)];
+        let once = Self::outward(ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let mut found = Self::outward(once.low, once.high);
+        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the
+        // trough.
+        let passes = |quarter: f64| {
+            let turns = |x: f64| (x - quarter * FRAC_PI_2) / TAU;
+            turns(low - SLACK).ceil() <= turns(high + SLACK).floor()
+        };
+        if passes(1.0) {
+            found.high = 1.0;
+        }
+        if passes(3.0) {
+            found.low = -1.0;
+        }
+        found.common(Self::SIGN)
+    }
+
+    /// Computes x^q.
+    pub fn power(self, exponent: &Rational) -> Self {
+        /// Largest power that is multiplied out.
+        const MOST: u64 = 64;
+        match exponent.to_integer() {
+            // Roots and powers of positive numbers are positive.
+            None if self.high < 0.0 => Self::EMPTY,
+            None => Self::POSITIVE,
+            Some(n) if n.unsigned_abs() <= MOST => {
+                let power = self.whole_power(n.unsigned_abs());
+                if n < 0 { power.reciprocal() } else { power }
+            }
+            Some(n) if n % 2 == 0 => Self::POSITIVE,
+            Some(_) => self.sign().map_or(Self::ALL, |positive| Self::ALL.within(positive)),
+        }
+    }
+
+    /// Computes x^n.
+    fn whole_power(self, n: u64) -> Self {
+        match n {
+            _ if self.is_empty() => self,
+            0 => Self { low: 1.0, high: 1.0 },
+            n if n % 2 == 0 => self.square().whole_power(n / 2),
+            // An odd power increases.
+            n => {
+                let (low, high) =
+                    (Self { high: self.low, ..self }, Self { low: self.high, ..self });
+                let end = |x: Self| x.square().whole_power(n / 2).times(x);
+                Self { low: end(low).low, high: end(high).high }
+            }
+        }
+    }
+}

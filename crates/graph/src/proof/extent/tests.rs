@@ -1,0 +1,75 @@
+//! Tests of intervals: what they must contain.
+
+use super::*;
+
+#[test]
+fn ends_are_rounded_outwards_and_only_where_they_are_rounded() {
+    let between = |low: f64, high: f64| Extent { low, high };
+    let two = between(2.0, 2.0);
+    assert_eq!(two.plus(between(-2.0, 2.0)), between(0.0, 4.0), "exact ends stay");
+    let third = Extent::at(&Rational::new(1, 3));
+    assert!(third.low < third.high, "1/3 is no f64");
+    let one = third.times(between(3.0, 3.0));
+    assert!(one.low <= 1.0 && one.high >= 1.0 && one.low < one.high, "{one:?}");
+    let tiny = between(1e-300, 1e-300);
+    assert!(tiny.times(tiny).sign() == Some(true) && tiny.square().high > 0.0, "underflow");
+    assert_eq!(between(1e300, 1e300).square().high, f64::INFINITY, "overflow");
+    assert!(between(1e300, 1e300).square().low < f64::INFINITY, "to both sides");
+}
+
+#[test]
+fn sines_and_powers_hold_their_values() {
+    let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+    let mut chance = crate::proof::chance::Chance::new(6, 0);
+    let mut share = || (chance.element(&modulus) >> 9) as f64 / (1u64 << 52) as f64;
+    for round in 0..4000 {
+        let low = 40.0 * share() - 20.0;
+        let high = low + share() * if round % 2 == 0 { 0.5 } else { 8.0 };
+        let extent = Extent { low, high };
+        let at = low + share() * (high - low);
+        let inside = |extent: Extent, value: f64| {
+            extent.low <= value + 1e-12 * value.abs() && value <= extent.high + 1e-12 * value.abs()
+        };
+        assert!(inside(extent.unary(Function::Sin), at.sin()), "sin {at} in {extent:?}");
+        assert!(inside(extent.unary(Function::Cos), at.cos()), "cos {at} in {extent:?}");
+        assert!(inside(extent.unary(Function::Atan), at.atan()), "atan {at} in {extent:?}");
+        for n in [-3, -2, -1, 0, 1, 2, 3, 5, 8, 13] {
+            let power = extent.power(&Rational::from(n));
+            assert!(inside(power, at.powi(n as i32)), "{at}^{n} in {extent:?}: {power:?}");
+        }
+    }
+    let narrow = Extent { low: 0.3, high: 1.0 };
+    assert!(narrow.unary(Function::Cos).low > 0.54, "cos is positive from 0.3 to 1");
+    let odd = Extent { low: -2.0, high: 3.0 }.power(&Rational::from(3));
+    assert!(odd.low >= -8.0 - 1e-12 && odd.high <= 27.0 + 1e-12, "{odd:?}");
+}
+
+#[test]
+fn random_results_lie_inside() {
+    use crate::number::exact::square_root;
+    let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+    let mut chance = crate::proof::chance::Chance::new(5, 0);
+    let mut number = || {
+        let drawn = modulus.to_integer(chance.element(&modulus));
+        let (mantissa, exponent) = ((drawn >> 8) as i64 - (1 << 52), (drawn & 63) as i32 - 40);
+        libm::scalbn(mantissa as f64, exponent)
+    };
+    let exact = |x: f64| Rational::from_f64(x).expect("finite");
+    for _ in 0..5000 {
+        let (x, y) = (number(), number());
+        let (a, b) = (Extent { low: x, high: x }, Extent { low: y, high: y });
+        let inside = |extent: Extent, value: Rational| {
+            exact(extent.low) <= value && value <= exact(extent.high)
+        };
+        assert!(inside(a.plus(b), &exact(x) + &exact(y)), "{x} + {y}");
+        assert!(inside(a.times(b), &exact(x) * &exact(y)), "{x} · {y}");
+        assert!(inside(a.square(), &exact(x) * &exact(x)), "{x}²");
+        if let Some(inverse) = exact(x).recip() {
+            assert!(inside(a.reciprocal(), inverse), "1/{x}");
+        }
+        let square = &exact(x) * &exact(x);
+        let (root, (near, _)) = (square_root(&square), square.to_f64());
+        let of = Extent { low: near.next_down(), high: near.next_up() };
+        assert!(inside(of.unary(Function::Sqrt), root.expect("a square")), "√{x}²");
+    }
+}

@@ -1,0 +1,184 @@
+//! Sparse polynomials with rational coefficients, for square roots of radicands.
+//!
+//! A graph is read as a quotient of polynomials in its inputs and in further variables (other
+//! roots, symbols). Large ones are given up: the aim is to find b in √(x² + 2x + 1) = |x + 1|, not
+//! a normal form.
+
+mod fraction;
+mod monomial;
+
+#[cfg(test)]
+mod tests;
+
+pub use fraction::{Fraction, fraction};
+
+use std::collections::BTreeMap;
+
+use crate::graph::Expr;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+use monomial::Monomial;
+
+/// Largest number of terms of a polynomial.
+const MOST_TERMS: usize = 400;
+/// Largest number of products of terms in reading one graph.
+pub const MOST_WORK: usize = 400_000;
+/// Largest size in bits of a coefficient.
+const MOST_BITS: u64 = 2048;
+
+/// A polynomial with rational coefficients, none of them 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polynomial {
+    terms: BTreeMap<Monomial, Rational>,
+}
+
+impl Polynomial {
+    /// Makes a constant polynomial.
+    pub fn constant(value: &Rational) -> Self {
+        let mut polynomial = Self::default();
+        polynomial.add_term(Monomial::default(), value);
+        polynomial
+    }
+
+    /// Makes a variable.
+    pub fn variable(number: u32) -> Self {
+        Self { terms: [(Monomial(vec![(number, 1)]), Rational::from(1))].into() }
+    }
+
+    /// Returns the value of a constant polynomial.
+    pub fn number(&self) -> Option<Rational> {
+        match self.leading() {
+            None => Some(Rational::from(0)),
+            Some((monomial, value)) => monomial.0.is_empty().then(|| value.clone()),
+        }
+    }
+
+    /// Number of terms.
+    pub fn size(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether the polynomial is 0.
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    fn add_term(&mut self, monomial: Monomial, coefficient: &Rational) {
+        let sum = match self.terms.get(&monomial) {
+            Some(own) => own + coefficient,
+            None => coefficient.clone(),
+        };
+        if sum.is_zero() {
+            self.terms.remove(&monomial);
+        } else {
+            self.terms.insert(monomial, sum);
+        }
+    }
+
+    /// Computes p + q.
+    pub fn plus(&self, other: &Self) -> Self {
+        let mut sum = self.clone();
+        other.terms.iter().for_each(|(monomial, value)| sum.add_term(monomial.clone(), value));
+        sum
+    }
+
+    /// Computes c p.
+    pub fn scaled(&self, factor: &Rational) -> Self {
+        let scaled = |(monomial, value): (&Monomial, &Rational)| (monomial.clone(), value * factor);
+        let terms = self.terms.iter().map(scaled);
+        Self { terms: terms.filter(|(_, value)| !value.is_zero()).collect() }
+    }
+
+    /// Computes p q; `None` if it is too large.
+    pub fn times(&self, other: &Self, work: &mut usize) -> Option<Self> {
+        *work = work.checked_sub(self.terms.len() * other.terms.len())?;
+        let mut product = Self::default();
+        for (a, x) in &self.terms {
+            for (b, y) in &other.terms {
+                product.add_term(a.times(b), &(x * y));
+            }
+        }
+        product.checked()
+    }
+
+    fn checked(self) -> Option<Self> {
+        let fits = self.terms.len() <= MOST_TERMS
+            && self.terms.values().all(|value| value.bits() <= MOST_BITS);
+        fits.then_some(self)
+    }
+
+    fn leading(&self) -> Option<(&Monomial, &Rational)> {
+        self.terms.last_key_value()
+    }
+
+    /// Returns c and a monic b with p = c b².
+    pub fn square(&self) -> Option<(Rational, Self)> {
+        let (monomial, scale) = self.leading()?;
+        let head = monomial.root()?;
+        let target = self.scaled(&scale.recip()?);
+        let mut root = Self { terms: [(head.clone(), Rational::from(1))].into() };
+        let mut rest = target.plus(&root.times(&root, &mut { MOST_WORK })?.negated());
+        let half = Rational::new(1, 2);
+        // Each step removes the leading term of the rest, with the next term of the root.
+        for _ in 0..MOST_TERMS {
+            let Some((monomial, value)) = rest.leading() else {
+                return Some((scale.clone(), root));
+            };
+            let next = monomial.over(&head)?;
+            if next >= head {
+                return None;
+            }
+            let term = Self { terms: [(next, value * &half)].into() };
+            // (b + t)² = b² + (2b + t) t
+            let doubled = root.scaled(&Rational::from(2)).plus(&term);
+            rest = rest.plus(&doubled.times(&term, &mut { MOST_WORK })?.negated());
+            root = root.plus(&term);
+        }
+        None
+    }
+
+    fn negated(&self) -> Self {
+        self.scaled(&Rational::from(-1))
+    }
+
+    /// Returns p₀ and p₁ with p = p₀ + p₁ y for the variable y, whose square is `square`.
+    pub fn split(&self, variable: u32, square: &Self) -> Option<[Self; 2]> {
+        let mut parts = [Self::default(), Self::default()];
+        let mut work = MOST_WORK;
+        for (monomial, value) in &self.terms {
+            let exponent = monomial.0.iter().find(|(v, _)| *v == variable).map_or(0, |(_, e)| *e);
+            let without = monomial.0.iter().copied().filter(|(v, _)| *v != variable).collect();
+            let mut term = Self { terms: [(Monomial(without), value.clone())].into() };
+            for _ in 0..exponent / 2 {
+                term = term.times(square, &mut work)?;
+            }
+            let part = &mut parts[exponent as usize % 2];
+            *part = part.plus(&term);
+        }
+        let [even, odd] = parts;
+        Some([even.checked()?, odd.checked()?])
+    }
+
+    /// Returns the variables that occur.
+    pub fn variables(&self) -> Vec<u32> {
+        let mut all: Vec<u32> =
+            self.terms.keys().flat_map(|monomial| monomial.0.iter().map(|(v, _)| *v)).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Records the value from the values of the variables.
+    pub fn value(&self, of: &impl Fn(u32) -> Option<Expr>) -> Option<Expr> {
+        let mut sum = Expr::rational(&Rational::from(0));
+        for (monomial, coefficient) in self.terms.iter().rev() {
+            let mut term = Expr::rational(coefficient);
+            for (variable, exponent) in &monomial.0 {
+                term *= of(*variable)?.power(&Rational::from(i64::from(*exponent)));
+            }
+            sum += term;
+        }
+        Some(sum)
+    }
+}

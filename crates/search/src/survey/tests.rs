@@ -1,0 +1,94 @@
+//! Tests that every family of invariants is found in some body.
+
+use super::*;
+
+/// Bodies of the catalogue, with at least one for each family.
+const BODIES: [&str; 33] = [
+    "plane/spherical-inertia-ball",
+    "plane/balanced-ball-gravity",
+    "plane/balanced-ball",
+    "plane/balanced-ball-gyrostat",
+    "plane/balanced-ball-brun",
+    "plane/unbalanced-ball",
+    "plane/revolution",
+    "plane/revolution-gyrostat",
+    "plane/spherical-inertia",
+    "plane/ellipsoid",
+    "plane/ellipsoid-mb-mu",
+    "plane/spheroid",
+    "sphere/balanced-ball",
+    "sphere/borisov-mamaev-ball",
+    "sphere/borisov-mamaev-ball-potential",
+    "sphere/equal-sphere",
+    "sphere/symmetric-ball",
+    "sphere/symmetric-ball-gyrostat",
+    "sphere/body-of-revolution",
+    "sphere/body-of-revolution-gyrostat",
+    "sphere/disk",
+    "sphere/ellipsoid",
+    "flat-base/base-through-centre",
+    "flat-base/symmetric-base",
+    "flat-base/symmetric-base-gyrostat",
+    "flat-base/symmetric-base-through-centre-gyrostat",
+    "surface/sphere",
+    "surface/ellipsoid",
+    "surface/revolution",
+    "surface/rotating-sphere",
+    "surface/circular-cylinder",
+    "skate/nonholonomic",
+    "suslov/vakonomic-top",
+];
+
+/// A body that preserves phase volume itself.
+const HOMOGENEOUS: &str = "title = \"homogeneous ball\"\nsystem = \"rubber-plane\"\n[parameters]\n\
+    m = \"0.5..2\"\nR = \"1..3\"\nI = \"spherical(0.5..3)\"\n[body]\nshape = \"ball\"\n";
+
+#[test]
+fn no_family_is_dead() {
+    let options = Options::default();
+    let mut missing: Vec<String> = Vec::new();
+    let mut cases = vec![Case::parse(HOMOGENEOUS, &[]).expect("a case")];
+    for name in BODIES {
+        let path = format!("{}/cases/{name}.toml", concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+        cases.push(Case::read(path.as_ref(), &[]).1.expect(name));
+    }
+    let recognised = |case: Case| {
+        let geometry = Geometry::of(&case, &options).expect("judged");
+        (case, geometry)
+    };
+    let bodies: Vec<(Case, Geometry)> = cases.into_iter().map(recognised).collect();
+    for family in family::all() {
+        let mut proved: Vec<String> = Vec::new();
+        let mut stated: Vec<String> = Vec::new();
+        for (case, geometry) in &bodies {
+            let axes: Vec<Option<&axis::Axis>> = match family.around {
+                true => geometry.axes.iter().map(Some).collect(),
+                false => vec![None],
+            };
+            for axis in axes {
+                if !family.applies(&case.system, |fact| geometry.has_about(fact, axis)) {
+                    continue;
+                }
+                let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
+                let question = Question::of(&family, &geometry.bindings);
+                let found = question.ask(case, &options).expect("judged");
+                let found = found
+                    .unwrap_or_else(|| panic!("{} can be asked of {}", family.name, case.title));
+                // By place, since the name of an axis is part of the name of a claim.
+                for (number, finding) in found.iter().enumerate() {
+                    let claim = format!("{number}");
+                    if finding.claim.verdict == Verdict::Proved && !proved.contains(&claim) {
+                        proved.push(claim.clone());
+                    }
+                    if !stated.contains(&claim) {
+                        stated.push(claim);
+                    }
+                }
+            }
+        }
+        if stated.is_empty() || proved.len() < stated.len() {
+            missing.push(format!("{}: {proved:?} of {stated:?}", family.name));
+        }
+    }
+    assert!(missing.is_empty(), "claims that are proved of no body:\n{}", missing.join("\n"));
+}

@@ -1,0 +1,98 @@
+//! Draws tried until they lead to a state.
+
+use crate::graph::Evaluator;
+use crate::number::ball::{Ball, Balls};
+use crate::number::mixed::{Mixed, Number};
+use crate::number::rational::Rational;
+
+use super::{LANES, Sampler};
+
+/// Number of draws tried for a state that has to lie in given ranges.
+const ATTEMPTS: u32 = 64;
+
+/// Bits in which a state that f64 cannot decide is looked at.
+const EXACT_BITS: u32 = 256;
+
+impl Sampler {
+    /// Finds, for each of some states, the first attempt at which the draws lead to a state, by
+    /// enclosures in f64; the first of all if none does. With few parameter sets, each state uses
+    /// those of its set.
+    pub(super) fn attempts(&self, start: u64, lanes: usize, sets: Option<usize>) -> Vec<u32> {
+        let mut attempts = vec![0; lanes];
+        if !self.is_guarded {
+            return attempts;
+        }
+        let mut evaluator = Evaluator::new(&self.tape, Ball::<LANES>);
+        for first in (0..lanes).step_by(LANES) {
+            let own = &mut attempts[first..lanes.min(first + LANES)];
+            let mut open: Vec<usize> = (0..own.len()).collect();
+            for attempt in 0..ATTEMPTS {
+                let numbers: Vec<Vec<(f64, bool)>> = open
+                    .iter()
+                    .map(|lane| self.nearest(start + (first + lane) as u64, attempt, sets))
+                    .collect();
+                let last = open.len() - 1;
+                let column = |k: usize| Balls::about(|lane| numbers[lane.min(last)][k]);
+                let columns: Vec<Balls<LANES>> = (0..self.draws.len()).map(column).collect();
+                evaluator.run(&columns);
+                let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
+                let mut left = Vec::new();
+                for (place, lane) in open.iter().enumerate() {
+                    let index = start + (first + lane) as u64;
+                    match exists(place) || self.exists_exactly(index, attempt, sets) {
+                        true => own[*lane] = attempt,
+                        false => left.push(*lane),
+                    }
+                }
+                open = left;
+                if open.is_empty() {
+                    break;
+                }
+            }
+        }
+        attempts
+    }
+
+    /// Whether the draws lead to a state in exact numbers. Only these know that √(y + |y|) exists
+    /// for y < 0, so they are asked where a modulus is involved.
+    fn exists_exactly(&self, index: u64, attempt: u32, sets: Option<usize>) -> bool {
+        if !self.has_moduli {
+            return false;
+        }
+        let domain = Mixed::new(EXACT_BITS);
+        let made = self.made_in(&domain, &[self.drawn_numbers(index, attempt, sets)]);
+        made.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
+    }
+
+    /// Returns the draws of a state, with the parameters of its set if there are few.
+    pub(super) fn drawn_numbers(
+        &self,
+        index: u64,
+        attempt: u32,
+        sets: Option<usize>,
+    ) -> Vec<Rational> {
+        let mut own = self.draws.attempt(self.seed, index, attempt);
+        if let Some(sets) = sets {
+            let set = (index % LANES as u64) as usize * sets / LANES;
+            let shared = self.draws.state(self.seed, set as u64);
+            own[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
+        }
+        own
+    }
+
+    /// Returns the draws of a state in f64, with the parameters of its set if there are few.
+    pub(super) fn nearest(
+        &self,
+        index: u64,
+        attempt: u32,
+        sets: Option<usize>,
+    ) -> Vec<(f64, bool)> {
+        let mut own = self.draws.nearest(self.seed, index, attempt);
+        if let Some(sets) = sets {
+            let set = (index % LANES as u64) as usize * sets / LANES;
+            let shared = self.draws.nearest(self.seed, set as u64, 0);
+            own[..self.parameter_draws].copy_from_slice(&shared[..self.parameter_draws]);
+        }
+        own
+    }
+}

@@ -1,0 +1,83 @@
+//! Values of other graphs as functions of draws.
+
+use crate::graph::{Expr, Fault, Graph, literally, record};
+use crate::number::rational::Rational;
+use crate::proof::Group;
+use crate::scalar::Scalar;
+
+use super::Sampler;
+
+impl Sampler {
+    /// Composes values of `graph`, a function of parameters and states, with the map from draws,
+    /// replacing the draws in `fixed` by constants.
+    ///
+    /// Further inputs of `graph` (antiderivatives) follow the draws.
+    pub fn compose(
+        &self,
+        graph: &Graph,
+        groups: &[Vec<Expr>],
+        fixed: &[Option<Rational>],
+    ) -> Result<(Graph, Vec<Vec<Expr>>), Fault> {
+        let (composed, values) = record(self.draws.len(), |draws| {
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
+            let reached = graph.reached(groups.iter().flatten().copied());
+            let values = graph.replay(&reached, &inputs, |_, _, _| None);
+            let group = |group: &Vec<Expr>| {
+                group.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            };
+            groups.iter().map(group).collect::<Option<Vec<Vec<Expr>>>>()
+        })?;
+        values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
+    }
+
+    /// Composes groups of values; states, too, are defined wherever the values matter.
+    pub fn compose_groups(
+        &self,
+        graph: &Graph,
+        groups: &[Group],
+        fixed: &[Option<Rational>],
+    ) -> Result<(Graph, Vec<Group>), Fault> {
+        let (composed, groups) = record(self.draws.len(), |draws| {
+            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
+            let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
+                graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
+            };
+            let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
+            // √x √x is x where x ≥ 0, and the required value is undefined elsewhere.
+            let required = literally(|| {
+                values_of(&mut groups.iter().flat_map(|group| &group.required).copied())
+            });
+            let all = |some: &[Expr], values: &[Option<Expr>]| {
+                some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+            };
+            let group = |group: &Group| {
+                let mut required = all(&group.required, &required)?;
+                required.extend(&inputs[..self.made.len()]);
+                Some(Group { outputs: all(&group.outputs, &outputs)?, required })
+            };
+            groups.iter().map(group).collect::<Option<Vec<Group>>>()
+        })?;
+        groups.map(|groups| (composed, groups)).ok_or(Fault::ForeignValue)
+    }
+
+    /// Records parameters, states and further inputs of `graph` as functions of draws, with all
+    /// intermediate values.
+    fn inputs_from(
+        &self,
+        graph: &Graph,
+        draws: &[Expr],
+        fixed: &[Option<Rational>],
+    ) -> Option<(Vec<Expr>, Vec<Option<Expr>>)> {
+        let draws: Vec<Expr> = draws
+            .iter()
+            .zip(fixed)
+            .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
+            .collect();
+        let reached = self.graph.reached(self.made.iter().copied());
+        let values = self.graph.replay(&reached, &draws, |_, _, _| None);
+        let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+        let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
+        inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
+        Some((inputs, values))
+    }
+}

@@ -1,0 +1,207 @@
+//! Sampling of states at a place: random draws, from which the number domain computes parameters
+//! and a state.
+
+mod attempts;
+mod compose;
+mod draw;
+mod maker;
+mod print;
+mod ranges;
+
+pub use maker::Maker;
+pub use ranges::extent;
+
+use std::sync::Arc;
+
+use crate::case::Case;
+use crate::claim::Place;
+use crate::graph::{Expr, Fault, Graph, Step, Tape, literally, record};
+use crate::level::{self, Pivot, Solution};
+use crate::mechanics::{Chart, Draw, Draws};
+use crate::number::Function;
+use crate::number::rational::Rational;
+use crate::proof::{Extent, Source};
+
+use super::newton::Newton;
+use super::{JudgeError, coverage};
+
+use ranges::{guarded, ranges};
+
+/// Number of states in one run of a tape.
+pub const LANES: usize = 64;
+
+/// A sampler of the inputs of a case's tapes at one place.
+#[derive(Clone)]
+pub struct Sampler {
+    seed: u64,
+    draws: Draws,
+    recipes: Vec<Draw>,
+    /// Parameters and state as functions of the draws.
+    graph: Arc<Graph>,
+    made: Vec<Expr>,
+    /// Solution of the level, with the values that must not vanish, or a part of it is missed.
+    solution: Option<Arc<Solution>>,
+    pivots: Arc<[Pivot]>,
+    /// Number of draws for the parameters.
+    parameter_draws: usize,
+    dimension: usize,
+    /// Whether each level equation holds at the states.
+    kept: Vec<bool>,
+    /// Tape for parameters and state, undefined where they are out of range.
+    tape: Tape,
+    /// Tape for parameters and state wherever they exist.
+    unguarded: Tape,
+    /// Whether some draws lead to no state.
+    is_guarded: bool,
+    /// Whether the states are made with moduli.
+    has_moduli: bool,
+    newton: Option<Newton>,
+}
+
+impl Sampler {
+    /// Makes a sampler of states at `place`.
+    pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
+        let (model, kept) = (&case.model, &place.kept);
+        let some = kept.iter().any(|kept| *kept);
+        let is_charted = match &case.chart {
+            Chart::Rolling | Chart::Sphere | Chart::Free => true,
+            // A chart of the whole level does not give its equations separately.
+            Chart::Given(_) => kept.iter().all(|kept| *kept),
+            Chart::Equations => false,
+        };
+        let solution = match is_charted || !some {
+            true => None,
+            false => level::solve(model, kept),
+        };
+        let newton = (some && !is_charted && solution.is_none())
+            .then(|| Newton::new(model, kept))
+            .transpose()?;
+        let mut draws = model.parameter_draws();
+        let parameter_draws = draws.len();
+        draws.extend(match &solution {
+            Some(solution) => solution.draws(&case.free_draws),
+            None => case.chart.draws(&case.free_draws, kept),
+        });
+        let (graph, (made, guarded, pivots)) = record(draws.len(), |inputs| {
+            let (parameters, state) = model.make_parameters(inputs);
+            let Some(solution) = &solution else {
+                let mut made = parameters;
+                let point = literally(|| case.chart.point(model, kept, &made, state));
+                made.extend(point);
+                return (made.clone(), made, Vec::new());
+            };
+            let solved = solution.point(model, parameters, state);
+            let bounds = ranges(case, solution, &solved.made);
+            let facts = solved.facts.iter().map(|(value, _)| *value).chain(bounds);
+            let guarded = guarded(&solved.made, facts);
+            (solved.made, guarded, solved.pivots)
+        })?;
+        let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
+        let is_guarded = solution.is_some();
+        let reached = graph.reached(guarded.iter().copied());
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(Function::Abs, _));
+        let has_moduli = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
+        let dimension = model.dimension();
+        let (recipes, draws) = (draws.clone(), Draws::new(&draws));
+        let (graph, pivots) = (Arc::new(graph), pivots.into());
+        let solution = solution.map(Arc::new);
+        Ok(Self {
+            seed,
+            draws,
+            recipes,
+            graph,
+            made: guarded,
+            solution,
+            pivots,
+            parameter_draws,
+            dimension,
+            kept: kept.clone(),
+            tape,
+            unguarded,
+            is_guarded,
+            has_moduli,
+            newton,
+        })
+    }
+
+    /// Whether the states are found numerically, with an estimated rather than a proved distance
+    /// from the level.
+    pub fn is_numerical(&self) -> bool {
+        self.newton.is_some()
+    }
+
+    /// Whether each of the level's equations holds at the states.
+    pub fn kept(&self) -> &[bool] {
+        &self.kept
+    }
+
+    /// Returns the range of each drawn number.
+    pub fn extents(&self) -> Vec<Extent> {
+        self.recipes.iter().map(extent).collect()
+    }
+
+    /// Whether some number is drawn from a list of several.
+    pub fn has_lists(&self) -> bool {
+        self.recipes.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
+    }
+
+    /// Makes a sampler of the same states with the listed numbers fixed.
+    pub fn with(&self, fixed: &[Option<Rational>]) -> Self {
+        let one = |(draw, fixed): (&Draw, &Option<Rational>)| match fixed {
+            Some(value) => Draw::OneOf(vec![value.clone()]),
+            None => draw.clone(),
+        };
+        let recipes: Vec<Draw> = self.recipes.iter().zip(fixed).map(one).collect();
+        Self { draws: Draws::new(&recipes), recipes, ..self.clone() }
+    }
+
+    /// Returns the distribution of each number.
+    pub fn recipes(&self) -> &[Draw] {
+        &self.recipes
+    }
+
+    /// Returns the graph from draws to parameters and states.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// Returns the values that must not vanish at a state, or a part of the place is missed.
+    pub fn pivots(&self) -> &[Pivot] {
+        &self.pivots
+    }
+
+    /// Returns the solution of the level, if there is one.
+    pub fn solution(&self) -> Option<&Solution> {
+        self.solution.as_deref()
+    }
+
+    /// Returns parameters and state, as values of [`Self::graph`].
+    pub fn made(&self) -> &[Expr] {
+        &self.made
+    }
+
+    /// Number of draws for the parameters.
+    pub fn parameter_draws(&self) -> usize {
+        self.parameter_draws
+    }
+
+    /// Returns the distribution of each draw in a field.
+    pub fn sources(&self) -> Vec<Source> {
+        let source = |draw: &Draw| match draw {
+            Draw::Sign => Source::Sign,
+            _ => Source::Uniform,
+        };
+        self.recipes.iter().map(source).collect()
+    }
+
+    /// Checks that a parametrisation given by the user fills the level set.
+    pub fn check_coverage(&self, case: &Case) -> Result<(), JudgeError> {
+        let Chart::Given(_) = &case.chart else { return Ok(()) };
+        let dimension = self.dimension.saturating_sub(case.model.level.len());
+        let found = coverage::rank(case, &self.draws, self.parameter_draws, self.seed)?;
+        if found < dimension {
+            return Err(JudgeError::PartialChart { found, dimension });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,86 @@
+//! States in exact numbers, and as text with enough digits to find them again.
+
+use std::cell::LazyCell;
+
+use crate::case::Case;
+use crate::graph::Evaluator;
+use crate::mechanics::{Draw, Origin};
+use crate::number::exact::Exact;
+use crate::number::precise::Precise;
+use crate::number::rational::Rational;
+
+use super::{LANES, Sampler};
+
+/// Number of spare bits in a printed state, followed by the number of spare digits.
+const SPARE_BITS: u32 = 64;
+
+const SPARE_DIGITS: usize = 8;
+
+impl Sampler {
+    /// Computes parameters and state of one state, exact where they are rational.
+    pub fn exact(&self, index: u64) -> Vec<Option<Rational>> {
+        self.exact_from(self.numbers(1, index).swap_remove(0))
+    }
+
+    fn exact_from(&self, values: Vec<Rational>) -> Vec<Option<Rational>> {
+        let mut evaluator = Evaluator::new(&self.unguarded, Exact);
+        evaluator.run(&values.into_iter().map(Some).collect::<Vec<_>>());
+        let state_begins = self.tape.outputs() - self.dimension;
+        evaluator
+            .outputs()
+            .enumerate()
+            .map(|(k, value)| value.clone().filter(|_| self.newton.is_none() || k < state_begins))
+            .collect()
+    }
+
+    /// Prints parameters and state; irrational numbers with enough digits to distinguish states of
+    /// `bits` bits, so that a residual computed in this precision can be reproduced.
+    pub fn printed(&self, index: u64, bits: u32) -> Vec<String> {
+        if bits > f64::MANTISSA_DIGITS {
+            return self.printed_from(&self.numbers(1, index).swap_remove(0), bits);
+        }
+        let start = index - index % LANES as u64;
+        let lane = (index % LANES as u64) as usize;
+        let balls = LazyCell::new(|| self.balls(start));
+        let text = |(k, value): (usize, Option<Rational>)| match value {
+            Some(exact) => exact.to_string(),
+            None => format!("{:?}", balls[k].mid[lane]),
+        };
+        self.exact(index).into_iter().enumerate().map(text).collect()
+    }
+
+    /// Prints a state made from given numbers, with digits for `bits` bits.
+    pub fn printed_from(&self, numbers: &[Rational], bits: u32) -> Vec<String> {
+        let domain = Precise::new(bits + SPARE_BITS);
+        let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
+        let precise = LazyCell::new(|| self.made_from(&domain, numbers));
+        let written = |k: usize| precise[k].as_ref()?.decimal(digits);
+        let text = |(k, value): (usize, Option<Rational>)| match value {
+            Some(exact) => exact.to_string(),
+            None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
+        };
+        self.exact_from(numbers.to_vec()).into_iter().enumerate().map(text).collect()
+    }
+
+    /// Lists the parameters drawn from lists, with the values they have at every state.
+    pub fn listed(&self, case: &Case) -> String {
+        let mut draws = self.recipes.iter();
+        let mut listed = Vec::new();
+        for parameter in case.model.free_parameters() {
+            let Origin::Free(recipe) = &parameter.origin else { continue };
+            let own = draws.by_ref().take(recipe.draws().len());
+            let values: Vec<String> = own
+                .filter_map(|draw| match draw {
+                    Draw::OneOf(values) => Some(values.first()?.to_string()),
+                    _ => None,
+                })
+                .collect();
+            match &values[..] {
+                [] => {}
+                [one] => listed.push(format!("{} = {one}", parameter.name)),
+                all => listed.push(format!("{} from {}", parameter.name, all.join(", "))),
+            }
+        }
+        listed.join(", ")
+    }
+}

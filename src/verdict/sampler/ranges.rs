@@ -1,0 +1,56 @@
+//! Ranges of draws, and guards that leave no state out of range.
+
+use num_dual::DualNum;
+
+use crate::case::Case;
+use crate::graph::{Expr, literally};
+use crate::level::Solution;
+use crate::mechanics::{Draw, Line};
+use crate::number::rational::Rational;
+use crate::proof::Extent;
+use crate::scalar::Scalar;
+
+/// Returns the range of a drawn number.
+pub fn extent(draw: &Draw) -> Extent {
+    match draw {
+        Draw::Within(range) => Extent::between(&range.low, &range.high),
+        Draw::Of(Line::All, _) => Extent::ALL,
+        Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+        // Each value is substituted before anything is proved.
+        Draw::OneOf(_) => Extent::ALL,
+        Draw::Sign => Extent::SIGN,
+    }
+}
+
+/// Returns the distances of components determined by a level from the ends of their ranges.
+pub fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
+    let (parameters, state) = made.split_at(case.model.free_components());
+    let recipes = case.model.parameter_draws();
+    let of_state = solution.components().into_iter().map(|k| (state[k], &case.free_draws[k]));
+    let of_parameters = solution.parameters().into_iter().filter_map(|k| {
+        let draw = case.model.draw_of_component(k).and_then(|draw| recipes.get(draw))?;
+        Some((parameters[k], draw))
+    });
+    let ends = of_state.chain(of_parameters).filter_map(|(value, draw)| match draw {
+        Draw::Within(range) => {
+            let [low, high] = [&range.low, &range.high].map(Expr::rational);
+            Some([value - low, high - value])
+        }
+        _ => None,
+    });
+    ends.flatten().collect()
+}
+
+/// Makes parameters and state undefined where some values are negative: √x is undefined for x < 0.
+pub fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
+    let mut guarded = made.to_vec();
+    literally(|| {
+        let zero = Expr::rational(&Rational::from(0));
+        for fact in facts {
+            if let Some(first) = guarded.last_mut() {
+                *first += zero * fact.sqrt();
+            }
+        }
+    });
+    guarded
+}
