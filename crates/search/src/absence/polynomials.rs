@@ -84,7 +84,7 @@ struct Counting<'a> {
     divergence: usize,
 }
 
-/// What the integrals that are known make up.
+/// The polynomials that known integrals make up.
 struct Space {
     terms: Vec<Term>,
     exponents: Vec<Vec<u32>>,
