@@ -63,7 +63,7 @@ pub fn look(
     }
 }
 
-/// Where no state has a value modulo a prime.
+/// Returns the outcome where no state has a value modulo a prime.
 fn nothing() -> Outcome {
     Outcome::Open(SearchError::NoPoints.to_string())
 }
