@@ -12,7 +12,7 @@ use crate::claim::motion::MOTIONS;
 /// The keys of a claim of absence.
 const COMMON: [&str; 5] = ["name", "source", "expect", "cell", "note"];
 
-/// Is this a claim of absence?
+/// Whether this is a claim of absence.
 pub fn is_about_absence(section: &Section<'_>) -> bool {
     ABSENCES.iter().any(|key| section.value(key).is_some())
 }

@@ -160,7 +160,7 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     }
 }
 
-/// Where the claim comes from: the source of the case unless it names its own.
+/// Source of the claim: that of the case unless it names its own.
 pub fn source(section: &Section<'_>, context: &Context<'_>) -> Result<String, Mistake> {
     Ok(section.text("source")?.map_or(context.source.to_string(), |text| text.value))
 }

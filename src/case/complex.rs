@@ -7,7 +7,7 @@ use crate::claim::Complex;
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Reach, Vocabulary};
 
-/// What stands between the two parts.
+/// Signs between the two parts.
 const SIGNS: [&str; 2] = ["±", "+/-"];
 
 /// Reads `a`, or `a ± b*i`, where a may be left out.

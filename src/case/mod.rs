@@ -154,11 +154,11 @@ pub struct MotionClaim {
 pub struct AbsenceClaim {
     /// Its name; unique in the case.
     pub name: String,
-    /// What is claimed.
+    /// The statement.
     pub kind: Absence,
     /// Equation number, theorem, section.
     pub source: String,
-    /// What the file expects.
+    /// Expected outcome.
     pub expect: Expect,
     /// The row of the paper's table that it fills.
     pub cell: Option<String>,

@@ -70,7 +70,7 @@ impl Block {
     }
 }
 
-/// Where the components of a state variable begin.
+/// Index of the first component of a state variable.
 fn start(model: &Model, variable: usize) -> usize {
     model.state[..variable].iter().map(|before| before.len()).sum()
 }

@@ -116,12 +116,13 @@ macro_rules! kinds {
                 match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
             }
 
-            /// Is it an inequality, which states that are looked at do not make likely?
+            /// Whether the claim is an inequality, which holding at the states tried does not make
+            /// likely.
             pub fn is_inequality(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::IS_INEQUALITY,)* }
             }
 
-            /// Can it be claimed of a map in the place of a flow?
+            /// Whether the claim can be about a map instead of a flow.
             fn is_of_maps(&self) -> bool {
                 match self { $(Kind::$kind(_) => $kind::OF_MAPS,)* }
             }

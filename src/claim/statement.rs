@@ -29,7 +29,7 @@ pub struct Objection {
 }
 
 impl Objection {
-    /// What stands against an ∫ where its value matters.
+    /// Makes the objection to an ∫ where its value matters.
     pub fn open_constant(what: &str) -> Self {
         let message = format!("{what} has no ∫ in it: its constant is open");
         Self { message, remedy: "write the antiderivative out" }
@@ -53,10 +53,10 @@ pub trait Statement: Clone {
     /// Whether the claim is about functions of new variables, and tested at the images of states.
     const AT_IMAGES: bool = false;
 
-    /// Is it an inequality, which states that are looked at do not make likely?
+    /// Whether the claim is an inequality, which holding at the states tried does not make likely.
     const IS_INEQUALITY: bool = false;
 
-    /// Can it be claimed of a map in the place of a flow?
+    /// Whether the claim can be about a map instead of a flow.
     const OF_MAPS: bool = false;
 
     /// Possible reason for a residual that is defined nowhere.

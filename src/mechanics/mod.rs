@@ -180,7 +180,7 @@ impl System {
         !matches!(self, System::Field(_) | System::Map(_))
     }
 
-    /// Is it a map, whose field is the image of the state?
+    /// Whether the system is a map, whose field is the image of the state.
     pub fn is_map(&self) -> bool {
         matches!(self, System::Map(_))
     }

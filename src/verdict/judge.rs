@@ -56,7 +56,7 @@ pub struct CaseReport {
     pub mutants: Option<MutationReport>,
     /// Number of claims about motion that were left out.
     pub motions_left: usize,
-    /// How many claims of absence were left alone.
+    /// Number of claims of absence that were left out.
     pub absences_left: usize,
 }
 

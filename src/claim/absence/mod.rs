@@ -21,7 +21,7 @@ pub trait Absent: Clone {
     /// Makes it from the degree that stands in the file.
     fn of_degree(degree: u32) -> Self;
 
-    /// What is claimed, in a few words.
+    /// Returns the claim in a few words.
     fn text(&self) -> String;
 
     /// Reads it.
@@ -42,7 +42,7 @@ pub trait Absent: Clone {
     }
 }
 
-/// What is claimed not to be there.
+/// A statement that something does not exist.
 #[derive(Clone, Debug)]
 pub enum Absence {
     /// See [`NoIntegral`].
@@ -51,7 +51,7 @@ pub enum Absence {
     NoDensity(NoDensity),
 }
 
-/// What a claim of absence can state: the keys under which the statements stand.
+/// Keys of the statements that a claim of absence can make.
 pub const ABSENCES: &[&str] = &[NoIntegral::NAME, NoDensity::NAME];
 
 impl Absence {
@@ -72,7 +72,7 @@ impl Absence {
         }
     }
 
-    /// What is claimed, in a few words.
+    /// Returns the claim in a few words.
     pub fn text(&self) -> String {
         match self {
             Absence::NoIntegral(claim) => claim.text(),

@@ -64,7 +64,7 @@ fn case(outcome: &Outcome, style: Style) -> String {
     out
 }
 
-/// What claims of absence exclude, which no table has room for.
+/// Prints the theorems of claims of absence, for which no table has room.
 fn theorems(report: &CaseReport) -> String {
     let stated = report.claims.iter().filter_map(|claim| {
         let theorem = claim.evidence.theorem.as_ref()?;

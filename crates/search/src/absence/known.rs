@@ -20,11 +20,11 @@ pub struct Known {
     names: Vec<String>,
 }
 
-/// What is known of a degree.
+/// The polynomials of at most one degree that known integrals make up.
 pub struct Space {
-    /// How many independent polynomials of at most this degree the integrals have.
+    /// Number of independent polynomials among them.
     pub dimension: usize,
-    /// The integrals that they are made of.
+    /// Integrals that they are made of.
     pub names: Vec<String>,
 }
 
@@ -125,7 +125,7 @@ impl Known {
     }
 }
 
-/// Does a parameter have a list of values?
+/// Whether a parameter has a list of values.
 pub fn has_lists(case: &Case) -> bool {
     let draws = case.model.parameter_draws();
     draws.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
@@ -163,7 +163,7 @@ pub fn rank(
     Ok(relations.map(|relations| columns.len() - relations.len()))
 }
 
-/// Does the field contain an ∫, whose value no field knows?
+/// Whether the equations of motion contain an ∫, which has no value in a prime field.
 pub fn contains_integrals(case: &Case) -> Result<bool, SearchError> {
     let (graph, _) = recorded(case, |jet| jet.phase.field().to_vec())?;
     Ok(graph.inputs() > case.model.free_components() + case.model.dimension())

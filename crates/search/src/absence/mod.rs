@@ -32,7 +32,7 @@ const SECONDS: f64 = 20.0;
 /// All that is done for a claim ends after this time.
 const MOST: Duration = Duration::from_secs(60);
 
-/// What became of a claim of absence.
+/// The outcome of a claim of absence.
 enum Outcome {
     /// There is nothing of that kind.
     Excluded {

@@ -63,7 +63,7 @@ pub fn look(
     }
 }
 
-/// Where no state has a value modulo a prime.
+/// Returns the outcome where no state has a value modulo a prime.
 fn nothing() -> Outcome {
     Outcome::Open(SearchError::NoPoints.to_string())
 }
@@ -84,7 +84,7 @@ struct Counting<'a> {
     divergence: usize,
 }
 
-/// What the integrals that are known make up.
+/// The polynomials that known integrals make up.
 struct Space {
     terms: Vec<Term>,
     exponents: Vec<Vec<u32>>,

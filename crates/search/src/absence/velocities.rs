@@ -19,7 +19,7 @@ pub fn look(asked: &Asked<'_>, kind: &Absence) -> Result<Outcome, SearchError> {
     }
 }
 
-/// What the counts bound.
+/// A bound that follows from the counts.
 enum Bound {
     /// Each leading form is a power of the energy.
     Leading,
@@ -27,7 +27,7 @@ enum Bound {
     Integrals(usize),
 }
 
-/// What the counts bound, if they reach the degree.
+/// Reads a bound from the counts, if they reach the degree.
 fn bound(counts: &[CountReport], degree: u32) -> Option<Bound> {
     let own: Vec<&CountReport> = counts.iter().filter(|count| !count.free).collect();
     match own.iter().find(|count| count.degree == degree) {
@@ -172,7 +172,7 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     Ok(Outcome::Open("a density is counted, and not found in closed form".to_string()))
 }
 
-/// Is a density of the positions alone, or some P^(1/α) with P of at most this degree?
+/// Whether a density is of the positions alone, or some P^(1/α) with P of at most this degree.
 fn is_of_class(asked: &Asked<'_>, formula: &str, most: u32) -> Result<bool, SearchError> {
     for alpha in multipliers::WEIGHTS {
         let power = exponent(&[Rational::from(alpha)], &["1"]);
