@@ -111,6 +111,10 @@ pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
     } else if finding.is_zero {
         finding.settled = Some(Verdict::Proved);
         finding.evidence.method = Method::PrimeField;
+    } else if finding.is_nonzero() && item.claim.kind.is_inequality() {
+        let reason = "no state is known at which the rate is positive, and it is not proved that there \
+                      is none; write the rate under `equals` as a sum of terms that are never positive";
+        undecide(finding, reason.to_string());
     } else if finding.is_nonzero() {
         undecide(
             finding,
