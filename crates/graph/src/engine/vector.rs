@@ -1,7 +1,7 @@
 //! Vectors of f64 in registers, one type for each instruction set.
 //!
 //! Arrays are no substitute: a compiler that meets a block of them in a loop over instructions
-//! keeps it in memory. Measured on an AVX-512 machine: see docs/performance.md.
+//! keeps it in memory. Measured on an AVX-512 machine: see docs/dev/experiments.md.
 
 #![allow(unsafe_code, reason = "vector instructions are called after asking for them")]
 

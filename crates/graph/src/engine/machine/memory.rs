@@ -2,7 +2,7 @@
 
 #![allow(
     unsafe_code,
-    reason = "generated instructions are called; measured in docs/performance.md"
+    reason = "generated instructions are called; measured in docs/dev/experiments.md"
 )]
 
 use memmap2::{Mmap, MmapMut};
