@@ -12,9 +12,17 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+/// Commands by purpose.
+const FAMILIES: &str = "\
+By purpose:
+  judge claims      check, eval, table
+  find invariants   search, report
+  follow motions    orbit, section, exponents, chart, periodic
+  measure the tool  bench, stress";
+
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
-#[command(name = "liouville", version, about, max_term_width = 100)]
+#[command(name = "liouville", version, max_term_width = 100, after_help = FAMILIES)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
