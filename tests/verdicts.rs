@@ -124,6 +124,27 @@ fn charts_solved_and_given_agree() {
 }
 
 #[test]
+fn what_holds_everywhere_is_proved_on_a_level_that_nothing_solves() {
+    let text = "title = 'top'\n[parameters]\na = '1..2'\nb = '2..3'\nc = '3..4'\n[state]\np = '-2..2'\n\
+                q = '-2..2'\nr = '-2..2'\nz = '0.1..2'\nw = '0.1..2'\n[field]\n\"p'\" = '(b − c)/a*q*r'\n\
+                \"q'\" = '(c − a)/b*r*p'\n\"r'\" = '(a − b)/c*p*q'\n\"z'\" = '0'\n\"w'\" = '0'\n\
+                [level]\nequations = ['z^5 + w^5 + z*w = 1']\n\
+                [[claim]]\nintegral = 'a*p² + b*q² + c*r²'\n\
+                [[claim]]\nintegral = 'a*p² + b*q² + c*r² + (z^5 + w^5 + z*w − 1)*p'\n\
+                [[claim]]\nidentity = 'z^5 + w^5 + z*w = 1'\n\
+                [[claim]]\nintegral = 'a*p² + b*q² − c*r²'\n";
+    let found = claims(text);
+    let verdicts: Vec<_> = found.iter().map(|claim| claim.verdict).collect();
+    // What holds on the level alone rests on states that were found numerically.
+    use Verdict::{Confirmed, Proved, Refuted};
+    assert_eq!(verdicts, [Proved, Confirmed, Confirmed, Refuted]);
+    assert_eq!(found[0].evidence.method.name(), "prime field");
+    assert!(found[0].evidence.proof.is_some(), "with its error bound");
+    assert_eq!(found[0].evidence.holds, ["everywhere"]);
+    assert!(found[1].evidence.proof.is_none(), "nothing is proved at numerical states");
+}
+
+#[test]
 fn a_part_of_a_parametrised_level_is_sampled_on_that_part() {
     let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\"x'\" = 'y'\n\
                 \"y'\" = '−x'\n\"z'\" = '(x² + y² − 1)*x'\n[level]\nequations = ['x² + y² = 1', 'z = 0']\n\

@@ -1,5 +1,8 @@
 //! Extends the domain on which a proved or confirmed claim holds.
 //!
+//! A claim that was only confirmed at its own place is proved there if the same residual is zero in a
+//! wider one: so it is for levels that nothing solves.
+//!
 //! For a proved claim, only places where the residual is a constant 0, or zero in prime fields, are
 //! added. Enclosures add places for confirmed claims, and never contradict that a claim holds in
 //! one place only.
@@ -7,7 +10,7 @@
 use std::ops::Range;
 
 use super::bench::Bench;
-use super::evidence::Verdict;
+use super::evidence::{Method, Proof, Verdict};
 use super::field::{Answer, Field, Query};
 use super::finding::{Finding, Look};
 use super::judge::{JudgeError, Trust};
@@ -49,7 +52,8 @@ impl Bench<'_> {
                     let residual = extend(&wider.residual);
                     let scale = extend(item.context.scale.as_slice());
                     let (defects, own) = (extend(&wider.defects), extend(&item.requirement));
-                    asked.push((item.claim, finding, residual, scale, defects, own));
+                    let is_same = wider.residual == item.residual && !item.claim.kind.is_negated();
+                    asked.push((item.claim, finding, residual, scale, defects, own, is_same));
                 }
             }
             if asked.is_empty() {
@@ -65,7 +69,7 @@ impl Bench<'_> {
                 continue;
             }
             let mut open = Vec::new();
-            for (claim, finding, residual, scale, defects, own) in asked {
+            for (claim, finding, residual, scale, defects, own, is_same) in asked {
                 let scale = values.range(scale).first().copied();
                 let existing = values.existing(&[common.clone(), own.clone()]);
                 let look = |range: Range<usize>, scale| {
@@ -77,17 +81,23 @@ impl Bench<'_> {
                 if sound && look.has_value() && !look.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
                     let query = Query { outputs: group, requirement: outputs[own].to_vec() };
-                    open.push((claim, finding, query, look.is_zero()));
+                    open.push((claim, finding, query, look.is_zero(), is_same));
                 }
             }
-            let queries: Vec<Query> = open.iter().map(|(_, _, query, _)| query.clone()).collect();
+            let queries: Vec<Query> = open.iter().map(|(_, _, query, ..)| query.clone()).collect();
             let answers = match self.options.trust {
                 Trust::Float => vec![None; queries.len()],
                 _ => Field::new(self, &sampler).test(&queries)?.into_iter().map(Some).collect(),
             };
-            for ((claim, finding, query, is_zero), answer) in open.into_iter().zip(answers) {
+            for ((claim, finding, query, is_zero, is_same), answer) in open.into_iter().zip(answers)
+            {
                 let holds = match answer {
-                    Some(Answer::Zero(_)) => true,
+                    Some(Answer::Zero(certificate)) => {
+                        if is_same && finding.settled == Some(Verdict::Confirmed) {
+                            prove(finding, Proof::from(certificate), place.name(model));
+                        }
+                        true
+                    }
                     Some(Answer::NonZero(_) | Answer::Partial) => false,
                     Some(Answer::Silent(_) | Answer::Void) | None => {
                         let constant = |expr: &Expr| self.graph.constant_value(*expr);
@@ -114,4 +124,13 @@ impl Bench<'_> {
         }
         Ok(())
     }
+}
+
+/// Settles a confirmed claim as proved, by a proof at a place that contains its own.
+fn prove(finding: &mut Finding, proof: Proof, place: String) {
+    finding.rung(Method::PrimeField, format!("{place}: {proof}"));
+    finding.evidence.method = Method::PrimeField;
+    finding.evidence.proof = Some(proof);
+    finding.evidence.silence = None;
+    finding.settled = Some(Verdict::Proved);
 }
