@@ -26,7 +26,9 @@ pub fn members(set: Set) -> Vec<usize> {
 
 /// An equation with the derivatives that the analysis needs.
 pub struct Look {
+    /// The equation.
     pub equation: Equation,
+    /// Graph of its value and derivatives.
     pub graph: Graph,
     /// Components of the state that each node depends on.
     sets: Vec<Set>,

@@ -11,9 +11,9 @@ use crate::number::rational::Rational;
 
 use super::{LANES, Sampler};
 
-/// Number of spare bits in a printed state, followed by the number of spare digits.
+/// Number of spare bits in a printed state.
 const SPARE_BITS: u32 = 64;
-
+/// Number of spare digits in a printed state.
 const SPARE_DIGITS: usize = 8;
 
 impl Sampler {
