@@ -216,11 +216,12 @@ impl Search<'_> {
 
     /// Returns the midpoint of two states, with the listed values of the first.
     fn middle(&self, a: &Numbers, b: &Numbers) -> Numbers {
-        let half = |((a, b), is_range): ((&(f64, bool), &(f64, bool)), &bool)| match is_range {
+        let half = |a: &(f64, bool), b: &(f64, bool), is_range: bool| match is_range {
             true => (a.0 + (b.0 - a.0) / 2.0, true),
             false => *a,
         };
-        a.iter().zip(b).zip(&self.is_range).map(half).collect()
+        let pairs = a.iter().zip(b).zip(&self.is_range);
+        pairs.map(|((a, b), is_range)| half(a, b, *is_range)).collect()
     }
 }
 

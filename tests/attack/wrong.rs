@@ -230,7 +230,7 @@ fn beside(
             let claim = Claim::Independent(vec![f.clone()]);
             let efforts = [1, 6, 30].into_iter();
             let mut surveys = efforts.map(|effort| in_cells(scene, &claim, stream, effort));
-            let Some(mut survey) = surveys.next() else { return None };
+            let mut survey = surveys.next()?;
             // A cell in which it is new may be thin.
             while survey.off == 0 && independence == Independence::Independent {
                 let Some(next) = surveys.next() else { break };
