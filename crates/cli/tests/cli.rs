@@ -240,11 +240,12 @@ fn trust_says_what_is_insisted_on() {
     assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "refuted", "more digits can");
     let numerical = "title = 'circle'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y*(x² + 3*y²)'\n\
          \"y'\" = '−x*(x² + 3*y²)'\n[level]\nequations = ['x^4 + y^4 + 2*x²*y² = 1']\n[[claim]]\n\
-         integral = 'x² + y²'\n";
+         integral = 'x² + y²'\n[[claim]]\nidentity = 'x² + y² = 1'\n";
     let path = folder("numerical", &[("circle.toml", numerical)]).join("circle.toml");
     let path = path.to_str().expect("UTF-8");
     let seen = json(&["check", "--json", path], 0);
-    assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "confirmed", "no chart, no proof");
+    assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "proved", "it holds in the plane");
+    assert_eq!(seen["cases"][0]["claims"][1]["verdict"], "confirmed", "no chart, no proof");
     let seen = json(&["check", "--json", "--trust", "proof", path], 1);
     assert_eq!(seen["summary"]["disagreements"], 1, "which is not enough for a proof");
 }
