@@ -112,7 +112,7 @@ impl Bench<'_> {
         if sampler.is_numerical() {
             warnings.push(
                 "the level set has no parametrisation: states are found numerically, and what holds \
-                 at them is not proved"
+                 at them alone is not proved"
                     .to_string(),
             );
         }
