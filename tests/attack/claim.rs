@@ -176,7 +176,14 @@ impl Claim {
                 Ok(vec![difference(&along(&f, &flow()?)?, &(cofactor * &f.value))?])
             }
             Claim::Density(f) => {
-                let (f, flow) = (place.jet(f)?, flow()?);
+                let flow = flow()?;
+                let is_still =
+                    |rate: &Jet| [&rate.value].into_iter().chain(&rate.slopes).all(is_zero);
+                if flow.iter().all(is_still) {
+                    let inverse = super::real::quotient(&whole(1), &place.value(f)?);
+                    return inverse.map(|_| vec![whole(0)]);
+                }
+                let f = place.jet(f)?;
                 let rate = super::real::quotient(&along(&f, &flow)?, &f.value)?;
                 let diverging =
                     |total: Real, (k, rate): (usize, &Jet)| sum(&total, &rate.slopes[k]);

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::expr::{
-    Expr, Function, Tree, add, modulus, mul, neg, node, of, replaced, root, square, sub, symbol,
-    ten_to, whole,
+    Expr, Function, Tree, add, modulus, mul, neg, node, of, power, replaced, root, square, sub,
+    symbol, ten_to, whole,
 };
 use super::grow::Garden;
 use super::random::Stream;
@@ -92,9 +92,7 @@ fn changed(part: &Tree, garden: &Garden<'_>, stream: &mut Stream) -> Option<Tree
         (Expr::Add(a, b), 3..=4) => Some(sub(a, b)),
         (Expr::Sub(a, b), 3..=4) => Some(add(a, b)),
         (Expr::Mul(a, b), 3..=4) => Some(if stream.once_in(2) { a.clone() } else { b.clone() }),
-        (Expr::Power(a, top, bottom), 3..=5) => {
-            Some(Rc::new(Expr::Power(a.clone(), top + 1, *bottom)))
-        }
+        (Expr::Power(a, top, bottom), 3..=5) => Some(power(a, top + 1, *bottom)),
         (Expr::Number(n), 3..=6) => {
             let mut n = *n;
             n.top += 1;
