@@ -51,7 +51,7 @@ pub struct Claimed {
     pub formula: String,
 }
 
-/// Lists the integrals that a case claims and that hold, component by component, without functions
+/// Lists the integrals that a case claims and that are proved, component by component, without functions
 /// of the energy.
 pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError> {
     if effort.blind {
@@ -68,7 +68,10 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
         all.iter().map(|one| format!("integral = {}", quoted(&one.formula))).collect();
     let mut found = Vec::new();
     for (one, report) in all.into_iter().zip(judged(case, &statements, effort)?) {
-        if holds(&report) && independent(case, &[], &one.formula, effort)?.is_some() {
+        // A theorem rests on what is proved.
+        if report.verdict == Verdict::Proved
+            && independent(case, &[], &one.formula, effort)?.is_some()
+        {
             found.push(one);
         }
     }
