@@ -145,6 +145,19 @@ fn what_holds_everywhere_is_proved_on_a_level_that_nothing_solves() {
 }
 
 #[test]
+fn a_slice_of_a_root_s_domain_is_not_taken_for_its_closure() {
+    // On the sheet x = 0 the root has a value for z < 0, too, and y|z| = −yz there.
+    let text = "title = 'slice'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-1..4'\nw = '-1..1'\n[field]\n\
+                \"x'\" = '0'\n\"y'\" = '0'\n\"z'\" = '0'\n\"w'\" = '0'\n[level]\n\
+                equations = ['(x^5 + x*exp(w))*(x^3 − exp(w)) = 0']\n\
+                [[claim]]\nidentity = 'y*abs(z) + ROOT = y*z + ROOT'\n";
+    for root in ["√(z*x²)", "(z*x²)^(1/3)"] {
+        let found = claims(&text.replace("ROOT", root));
+        assert_ne!(found[0].verdict, Verdict::Proved, "{root}");
+    }
+}
+
+#[test]
 fn a_part_of_a_parametrised_level_is_sampled_on_that_part() {
     let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\"x'\" = 'y'\n\
                 \"y'\" = '−x'\n\"z'\" = '(x² + y² − 1)*x'\n[level]\nequations = ['x² + y² = 1', 'z = 0']\n\

@@ -1,7 +1,7 @@
 //! Extends the domain on which a proved or confirmed claim holds.
 //!
-//! A claim that was only confirmed at its own place is proved there if the same residual is zero in a
-//! wider one: so it is for levels that nothing solves.
+//! A claim that was only confirmed at its own place, such as a level that cannot be solved, is proved
+//! if the same residual is zero in all of space, and no roots limit where it has a value.
 //!
 //! For a proved claim, only places where the residual is a constant 0, or zero in prime fields, are
 //! added. Enclosures add places for confirmed claims, and never contradict that a claim holds in
@@ -14,11 +14,12 @@ use super::evidence::{Method, Proof, Verdict};
 use super::field::{Answer, Field, Query};
 use super::finding::{Finding, Look};
 use super::judge::{JudgeError, Trust};
-use super::recorded::Recorded;
+use super::recorded::{Recorded, Wider};
 use super::run::Doubles;
 use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
-use crate::graph::Expr;
+use crate::graph::{Expr, Step};
+use crate::number::Function;
 use crate::number::ball::Ball;
 
 impl Bench<'_> {
@@ -52,8 +53,8 @@ impl Bench<'_> {
                     let residual = extend(&wider.residual);
                     let scale = extend(item.context.scale.as_slice());
                     let (defects, own) = (extend(&wider.defects), extend(&item.requirement));
-                    let is_same = wider.residual == item.residual && !item.claim.kind.is_negated();
-                    asked.push((item.claim, finding, residual, scale, defects, own, is_same));
+                    let implies_own = self.is_continued(place, item, wider);
+                    asked.push((item.claim, finding, residual, scale, defects, own, implies_own));
                 }
             }
             if asked.is_empty() {
@@ -69,7 +70,7 @@ impl Bench<'_> {
                 continue;
             }
             let mut open = Vec::new();
-            for (claim, finding, residual, scale, defects, own, is_same) in asked {
+            for (claim, finding, residual, scale, defects, own, implies_own) in asked {
                 let scale = values.range(scale).first().copied();
                 let existing = values.existing(&[common.clone(), own.clone()]);
                 let look = |range: Range<usize>, scale| {
@@ -81,7 +82,7 @@ impl Bench<'_> {
                 if sound && look.has_value() && !look.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
                     let query = Query { outputs: group, requirement: outputs[own].to_vec() };
-                    open.push((claim, finding, query, look.is_zero(), is_same));
+                    open.push((claim, finding, query, look.is_zero(), implies_own));
                 }
             }
             let queries: Vec<Query> = open.iter().map(|(_, _, query, ..)| query.clone()).collect();
@@ -89,11 +90,12 @@ impl Bench<'_> {
                 Trust::Float => vec![None; queries.len()],
                 _ => Field::new(self, &sampler).test(&queries)?.into_iter().map(Some).collect(),
             };
-            for ((claim, finding, query, is_zero, is_same), answer) in open.into_iter().zip(answers)
+            for ((claim, finding, query, is_zero, implies_own), answer) in
+                open.into_iter().zip(answers)
             {
                 let holds = match answer {
                     Some(Answer::Zero(certificate)) => {
-                        if is_same && finding.settled == Some(Verdict::Confirmed) {
+                        if implies_own && finding.settled == Some(Verdict::Confirmed) {
                             prove(finding, Proof::from(certificate), place.name(model));
                         }
                         true
@@ -123,6 +125,27 @@ impl Bench<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a residual that is zero in the wider place is zero at the claim's own place, too.
+    ///
+    /// So it is if the wider place is all of space, the residual is the same, and all that counts
+    /// has a value on an open set, where it is continuous. √(z x²) has one for z < 0 on the slice
+    /// x = 0 alone, which no state of space comes near.
+    fn is_continued(&self, place: &Place, item: &Recorded<'_>, wider: &Wider) -> bool {
+        let is_space = place.kept.iter().all(|kept| !kept);
+        let required = self.common.required_at(&item.claim.place.kept);
+        let values = [&wider.residual[..], &wider.defects, &item.requirement, &required].concat();
+        let reached = self.graph.reached(values);
+        let is_root = |step: Step<'_>| match step {
+            Step::Unary(Function::Sqrt, _) => true,
+            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            _ => false,
+        };
+        is_space
+            && wider.residual == item.residual
+            && !item.claim.kind.is_negated()
+            && !self.graph.steps().zip(reached).any(|(step, reached)| reached && is_root(step))
     }
 }
 
