@@ -88,11 +88,14 @@ pub mod verdict;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub mod prelude {
-    pub use crate::case::{Case, CaseError, Expect, Setting};
+    pub use crate::case::{Case, CaseError, ClaimError, Expect, Setting};
+    pub use crate::claim::{Claim, Locus};
+    pub use crate::formula::{Formula, FormulaError};
     pub use crate::graph::{Evaluator, Expr, Graph, Tape, record};
     pub use crate::number::rational::Rational;
     pub use crate::scalar::Scalar;
     pub use crate::verdict::{
-        CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict, evaluate, judge,
+        CaseReport, ClaimReport, ClaimsError, Evidence, JudgeError, Options, Verdict, evaluate,
+        judge,
     };
 }

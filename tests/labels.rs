@@ -19,7 +19,7 @@ fn claims(folder: &Path) -> Vec<(String, Expect, &'static str)> {
         } else if path.extension().is_some_and(|extension| extension == "toml") {
             let case = Case::read(&path, &[]).1.unwrap_or_else(|e| panic!("{path:?}: {e}"));
             let claim =
-                |claim: liouville::case::Claim| (claim.source, claim.expect, claim.kind.name());
+                |claim: liouville::case::PlacedClaim| (claim.source, claim.expect, claim.kind.name());
             found.extend(case.claims.into_iter().map(claim));
         }
     }

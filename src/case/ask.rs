@@ -8,8 +8,7 @@ use super::formulas::formula;
 use super::mistakes::Mistakes;
 use super::parameters::named;
 use super::section::Section;
-use super::{Case, Claim, toml_errors, variables};
-use crate::claim::jets;
+use super::{Case, PlacedClaim, toml_errors, variables};
 use crate::mechanics::{Meaning, Model, Reach};
 
 /// Tables of a question.
@@ -92,16 +91,11 @@ impl Case {
 
     /// Checks that the arbitrary functions, whose degree fits the claims of the file, fit this
     /// claim.
-    fn check_degrees(&self, claim: &Claim, section: &Section<'_>) -> Result<(), Mistake> {
-        let needed = |claim: &Claim| jets(claim.kind.name());
-        let has = self.claims.iter().map(needed).max().unwrap_or_default();
-        if needed(claim) <= has || !self.model.system.has_arbitrary_function() {
-            return Ok(());
-        }
-        let message = "the arbitrary functions of this case have too low a degree for this claim";
-        let remedy = "state a claim of this kind in the case file";
-        Err(section
-            .complaint(Problem::Other { message: message.to_string(), remedy: remedy.to_string() }))
+    fn check_degrees(&self, claim: &PlacedClaim, section: &Section<'_>) -> Result<(), Mistake> {
+        self.check_degree(claim.kind.name()).map_err(|(message, remedy)| {
+            let (message, remedy) = (message.to_string(), remedy.to_string());
+            section.complaint(Problem::Other { message, remedy })
+        })
     }
 }
 

@@ -12,7 +12,7 @@ use super::section::Section;
 use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
-    AbsenceClaim, Case, Claim, Column, MotionClaim, TABLE_ROWS, absences, charts, homogeneous,
+    AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts, homogeneous,
     lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
@@ -212,7 +212,7 @@ fn one_of_field_and_map(root: &Section<'_>, system: &str) {
 /// Claims that can be read, by the way in which they are judged.
 #[derive(Default)]
 struct Stated {
-    claims: Vec<Claim>,
+    claims: Vec<PlacedClaim>,
     motions: Vec<MotionClaim>,
     absences: Vec<AbsenceClaim>,
 }

@@ -3,7 +3,7 @@
 use super::entries::{Entries, other, place_of};
 use super::error::{Mistake, Problem};
 use super::section::Section;
-use super::{Claim, Expect, MotionClaim, SectionPlan, TABLE_ROWS};
+use super::{Expect, MotionClaim, PlacedClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::absence::ABSENCES;
 use crate::claim::motion::{Beginning, MOTIONS, Motion};
 use crate::claim::{Kind, Place, Reader, STATEMENTS};
@@ -46,12 +46,12 @@ pub fn read(
     section: &Section<'_>,
     context: &Context<'_>,
     taken: &[String],
-) -> Result<Claim, Mistake> {
+) -> Result<PlacedClaim, Mistake> {
     let model = context.model;
     let kind = kind(section, context)?;
     let (place, only_there) = place(section, context)?;
     let base = kind.text().unwrap_or_else(|| kind.name().to_string());
-    let claim = Claim {
+    let claim = PlacedClaim {
         name: name(section, base, taken)?,
         source: source(section, context)?,
         place,

@@ -34,11 +34,11 @@ mod state;
 mod synonyms;
 mod systems;
 mod toml_errors;
+mod values;
 mod variables;
 mod velocities;
 mod weights;
 
-use serde::Serialize;
 use std::path::Path;
 
 use crate::claim::absence::Absence;
@@ -46,11 +46,13 @@ use crate::claim::motion::Motion;
 use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
+pub use crate::claim::Expect;
 pub use error::{CaseError, Mistake, Problem};
 pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
+pub use values::ClaimError;
 
 /// Limit on the size of a case file, above that of any real one.
 const MAX_BYTES: u64 = 4 << 20;
@@ -72,7 +74,7 @@ pub struct Case {
     /// Draws of the state's components where no chart makes them.
     pub free_draws: Vec<Draw>,
     /// Claims in the order of the file.
-    pub claims: Vec<Claim>,
+    pub claims: Vec<PlacedClaim>,
     /// Claims about motion in the order of the file.
     pub motions: Vec<MotionClaim>,
     /// The claims of absence in the order of the file.
@@ -113,9 +115,9 @@ pub const TABLE_ROWS: [&str; 9] = [
     "generalisation",
 ];
 
-/// A claim with its expectation.
+/// A claim of a case: its statement at a place, with its expectation.
 #[derive(Clone, Debug)]
-pub struct Claim {
+pub struct PlacedClaim {
     /// Name, unique in the case.
     pub name: String,
     /// Statement of the claim.
@@ -166,29 +168,6 @@ pub struct AbsenceClaim {
     pub note: Option<String>,
 }
 
-/// Expectation of a claim by the author of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Expect {
-    /// The claim is true.
-    Holds,
-    /// The claim is false.
-    Fails,
-    /// The answer is not known; any verdict agrees.
-    Open,
-}
-
-impl Expect {
-    /// Word used in case files and reports.
-    pub fn word(self) -> &'static str {
-        match self {
-            Expect::Holds => "holds",
-            Expect::Fails => "fails",
-            Expect::Open => "open",
-        }
-    }
-}
-
 impl Case {
     /// Reads a case file; also returns its text.
     pub fn read(path: &Path, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
@@ -220,7 +199,7 @@ impl Case {
     }
 
     /// Finds the claim of this name.
-    pub fn claim(&self, name: &str) -> Option<&Claim> {
+    pub fn claim(&self, name: &str) -> Option<&PlacedClaim> {
         self.claims.iter().find(|claim| claim.name == name)
     }
 }

@@ -1,7 +1,7 @@
 //! Homogeneity of sums: weights in time for the built-in systems, and in the base dimensions that
 //! `[dimensions]` declares.
 
-use super::Claim;
+use super::PlacedClaim;
 use super::error::{Mistake, Problem};
 use super::section::{Section, Text};
 use crate::formula::{Formula, Scope, Symbol, Type, WeightSystem, canonical_name};
@@ -13,7 +13,7 @@ pub fn check(
     root: &Section<'_>,
     model: &Model,
     dimensions: Option<&Section<'_>>,
-    claims: &[Claim],
+    claims: &[PlacedClaim],
 ) {
     let mut systems = Vec::new();
     if matches!(model.system, System::Rubber(_) | System::FlatBase(_)) {

@@ -10,6 +10,8 @@ mod components;
 mod condition;
 mod criterion;
 mod density;
+mod entry;
+mod expect;
 mod fixed_point;
 mod form;
 mod hamiltonian;
@@ -27,6 +29,7 @@ mod reader;
 mod statement;
 mod symmetry_field;
 mod transformation;
+mod value;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -40,6 +43,8 @@ pub use components::Components;
 pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
 pub use density::Density;
+pub use entry::Entry;
+pub use expect::Expect;
 pub use fixed_point::FixedPoint;
 pub use form::Form;
 pub use hamiltonian::{Casimir, DensityInVariables, Hamiltonian, JacobiIdentity};
@@ -56,6 +61,7 @@ pub use reader::{Complex, Reader};
 pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
+pub use value::{Claim, Locus};
 
 /// Lists the kinds of claims; each is one [`Statement`], written in one file.
 macro_rules! kinds {

@@ -87,6 +87,55 @@ pub(super) enum Operation {
     Antiderivative(NodeId, NodeId),
 }
 
+impl Operation {
+    /// Same operation on other operands.
+    pub fn on(&self, mut other: impl FnMut(NodeId) -> NodeId) -> Self {
+        use Operation::*;
+        let mut all = |nodes: &[NodeId]| nodes.iter().map(|node| other(*node)).collect();
+        match self {
+            Vector(parts) => return Vector(all(parts)),
+            Rows(parts) => return Rows(all(parts)),
+            Sum(parts) => return Sum(all(parts)),
+            Product(parts) => return Product(all(parts)),
+            Extreme(which, parts) => return Extreme(*which, all(parts)),
+            _ => {}
+        }
+        let mut own = self.clone();
+        match &mut own {
+            Number(_) | Constant(_) | Symbol(_) | Identity | Zero => {}
+            Vector(_) | Rows(_) | Sum(_) | Product(_) | Extreme(..) => {}
+            Negate(a)
+            | Power(a, _)
+            | MatrixPower(a, _)
+            | Component(a, _)
+            | Row(a, _)
+            | Entry(a, _, _)
+            | Transpose(a)
+            | Inverse(a)
+            | Adjugate(a)
+            | Determinant(a)
+            | Trace(a)
+            | Diagonal(a)
+            | Function(_, a) => *a = other(*a),
+            Add(a, b)
+            | Subtract(a, b)
+            | Multiply(a, b)
+            | Scale(a, b)
+            | Apply(a, b)
+            | Compose(a, b)
+            | Divide(a, b)
+            | Dot(a, b)
+            | Cross(a, b)
+            | Outer(a, b)
+            | PowerOf(a, b)
+            | Solve(a, b)
+            | Angle(a, b)
+            | Antiderivative(a, b) => (*a, *b) = (other(*a), other(*b)),
+        }
+        own
+    }
+}
+
 /// Numbers that have a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Constant {
@@ -131,6 +180,8 @@ pub(super) struct Arena {
     pub nodes: Vec<Node>,
     /// Symbols, each once, in order of first use.
     pub symbols: Vec<(Symbol, Type)>,
+    /// Names of the symbols, in the same order, as the scope knows them.
+    pub names: Vec<String>,
     /// Symbols whose values are written into the formula: those in indices, bounds and sizes.
     pub fixed: Vec<Symbol>,
     slots: HashMap<Symbol, usize>,
@@ -143,10 +194,17 @@ impl Arena {
         self.nodes.len() - 1
     }
 
-    /// Appends a use of a symbol.
-    pub fn push_symbol(&mut self, symbol: Symbol, value_type: Type, span: Span) -> NodeId {
+    /// Appends a use of a symbol, which the first time has to be named.
+    pub fn push_symbol(
+        &mut self,
+        symbol: Symbol,
+        value_type: Type,
+        span: Span,
+        name: impl FnOnce() -> String,
+    ) -> NodeId {
         let slot = *self.slots.entry(symbol).or_insert_with(|| {
             self.symbols.push((symbol, value_type));
+            self.names.push(name());
             self.symbols.len() - 1
         });
         self.push(Operation::Symbol(slot), value_type, span)
@@ -207,7 +265,7 @@ mod tests {
         let sum = arena.push_folded(Operation::Add(a, b), &[a, b], 0..3, |n| Some(n[0] + n[1]));
         assert_eq!(arena.constant(sum), Some(&Rational::from(7)), "3 + 4");
         assert_eq!(arena.nodes.len(), 1, "the summands are gone");
-        let x = arena.push_symbol(Symbol(9), Type::Scalar, 4..5);
+        let x = arena.push_symbol(Symbol(9), Type::Scalar, 4..5, || "x".to_string());
         let sum = arena.push_folded(Operation::Add(sum, x), &[sum, x], 0..5, |_| None);
         assert_eq!(arena.constant(sum), None, "x is no number");
     }
@@ -215,8 +273,9 @@ mod tests {
     #[test]
     fn a_symbol_has_one_slot() {
         let mut arena = Arena::default();
-        arena.push_symbol(Symbol(9), Type::Scalar, 0..1);
-        arena.push_symbol(Symbol(9), Type::Scalar, 2..3);
+        for span in [0..1, 2..3] {
+            arena.push_symbol(Symbol(9), Type::Scalar, span, || "x".to_string());
+        }
         assert_eq!(arena.symbols, [(Symbol(9), Type::Scalar)], "however often it is used");
     }
 }

@@ -54,15 +54,15 @@ impl Parser<'_> {
         if meaning == Some(Meaning::Identity) && self.peek() == Kind::Open {
             return self.unit_matrix(span);
         }
-        let builder = &mut self.builder;
+        let (builder, scope) = (&mut self.builder, self.scope);
         Ok(match meaning {
-            Some(Meaning::Whole(symbol, ty)) => builder.symbol(symbol, ty, span),
+            Some(Meaning::Whole(symbol, ty)) => builder.symbol(symbol, ty, span, scope),
             Some(Meaning::Component(symbol, ty, i)) => {
-                let vector = builder.symbol(symbol, ty, span.clone());
+                let vector = builder.symbol(symbol, ty, span.clone(), scope);
                 builder.push(Operation::Component(vector.node, i), Type::Scalar, span)
             }
             Some(Meaning::Entry(symbol, ty, i, j)) => {
-                let matrix = builder.symbol(symbol, ty, span.clone());
+                let matrix = builder.symbol(symbol, ty, span.clone(), scope);
                 builder.push(Operation::Entry(matrix.node, i, j), Type::Scalar, span)
             }
             Some(Meaning::Constant(constant)) => {

@@ -60,6 +60,23 @@ pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<Meaning> {
     component(&name, scope).or_else(|| component(written, scope))
 }
 
+/// Name under which the scope knows a symbol that is written by its name or a component's.
+pub(super) fn name_of(written: &str, symbol: Symbol, scope: &dyn Scope) -> String {
+    let canonical = canonical_name(written).unwrap_or_else(|| written.to_string());
+    for name in [canonical.as_str(), written] {
+        let digits = name.bytes().rev().take_while(u8::is_ascii_digit).count();
+        for count in 0..=digits.min(2) {
+            let base = &name[..name.len() - count];
+            let known = [base, base.trim_end_matches('_')].into_iter();
+            let is_it = |base: &&str| scope.lookup(base).is_some_and(|(found, _)| found == symbol);
+            if let Some(base) = known.into_iter().find(is_it) {
+                return base.to_string();
+            }
+        }
+    }
+    canonical
+}
+
 /// Reads `γ3`, `I1`, `I12` as components of a known `γ`, `I`.
 fn component(name: &str, scope: &dyn Scope) -> Option<Meaning> {
     let digits = name.bytes().rev().take_while(u8::is_ascii_digit).count();

@@ -3,7 +3,7 @@
 use super::arena::{Arena, NodeId, Operation};
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::{MAX_COMPONENTS, Type};
-use super::scope::Symbol;
+use super::scope::{Scope, Symbol, name_of};
 use crate::number::rational::Rational;
 
 /// A parsed piece of the formula: its node, its type and its text.
@@ -46,9 +46,16 @@ impl Builder<'_> {
         Operand { node, value_type, span }
     }
 
-    /// Appends the use of a symbol.
-    pub fn symbol(&mut self, symbol: Symbol, value_type: Type, span: Span) -> Operand {
-        let node = self.arena.push_symbol(symbol, value_type, span.clone());
+    /// Appends the use of a symbol of the scope, written at the span by its name or a component's.
+    pub fn symbol(
+        &mut self,
+        symbol: Symbol,
+        value_type: Type,
+        span: Span,
+        scope: &dyn Scope,
+    ) -> Operand {
+        let name = || name_of(&self.text[span.clone()], symbol, scope);
+        let node = self.arena.push_symbol(symbol, value_type, span.clone(), name);
         Operand { node, value_type, span }
     }
 

@@ -134,6 +134,39 @@ impl Vocabulary {
         formulas.flat_map(|f| f.symbols().map(|symbol| self.entry(symbol))).collect()
     }
 
+    /// Checks that every symbol of a formula means here what the formula calls it; otherwise returns
+    /// the name that does not. Names that others hide are among them.
+    pub fn check_own(&self, formula: &Formula) -> Result<(), String> {
+        self.check(formula, |_, _| true)
+    }
+
+    /// Checks that every name of a formula is accessible here, with the same meaning; otherwise
+    /// returns the name that is not.
+    pub fn check_named(&self, formula: &Formula) -> Result<(), String> {
+        self.check(formula, |symbol, name| {
+            self.by_name.get(name).is_some_and(|index| *index == symbol.0)
+        })
+    }
+
+    fn check(&self, formula: &Formula, is_known: impl Fn(Symbol, &str) -> bool) -> Result<(), String> {
+        let types = formula.symbol_types().collect::<Vec<_>>();
+        for ((symbol, name), kind) in formula.named_symbols().zip(types) {
+            let entry = self.entries.get(symbol.0 as usize);
+            let is_same = entry.is_some_and(|entry| {
+                let bound = self.by_name.get(name) == Some(&symbol.0);
+                entry.kind == kind && (entry.name == name || bound)
+            });
+            if !is_same || !is_known(symbol, name) {
+                return Err(name.to_string());
+            }
+        }
+        let is_own = |symbol: &Symbol| self.entries.get(symbol.0 as usize).is_some();
+        match formula.fixed_symbols().iter().all(is_own) {
+            true => Ok(()),
+            false => Err("an index".to_string()),
+        }
+    }
+
     /// Returns the entry with the largest dependence among the names in `formula`.
     pub fn reach(&self, formula: &Formula) -> Option<&Entry> {
         formula.symbols().map(|symbol| self.entry(symbol)).max_by_key(|entry| entry.reach)

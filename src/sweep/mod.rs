@@ -50,7 +50,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::case::{Case, Claim};
+use crate::case::{Case, PlacedClaim};
 use crate::engine::{Engine, LANES, Means, Row, Runner};
 use crate::graph::{Evaluator, Fault, Tape, record};
 use crate::mechanics::Phase;
@@ -137,12 +137,12 @@ impl Extremes {
 
 impl<'c> Sweep<'c> {
     /// Records a claim, from the draws of its states on.
-    pub fn new(case: &'c Case, claim: &Claim, seed: u64) -> Result<Self, SweepError> {
+    pub fn new(case: &'c Case, claim: &PlacedClaim, seed: u64) -> Result<Self, SweepError> {
         Self::by(case, claim, seed, Means::Quickest)
     }
 
     /// Records a claim for an engine of one's choice, which does not affect the numbers.
-    pub fn by(case: &'c Case, claim: &Claim, seed: u64, means: Means) -> Result<Self, SweepError> {
+    pub fn by(case: &'c Case, claim: &PlacedClaim, seed: u64, means: Means) -> Result<Self, SweepError> {
         let sampler = Sampler::new(case, &claim.place, seed)?;
         if sampler.is_numerical() {
             return Err(SweepError::NoChart);

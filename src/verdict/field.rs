@@ -206,7 +206,7 @@ mod tests {
             let (parameters, state) = inputs.split_at(model.free_components());
             let jet = Jet::new(Phase::new(model, parameters, state));
             let residual =
-                |claim: &crate::case::Claim| claim.kind.residual(&jet, &claim.place.kept);
+                |claim: &crate::case::PlacedClaim| claim.kind.residual(&jet, &claim.place.kept);
             (Common::of(&jet), case.claims.iter().map(residual).collect::<Vec<_>>())
         })
         .expect("records");

@@ -16,7 +16,7 @@ use super::judge::{JudgeError, Options};
 use super::recorded::Common;
 use super::run::Doubles;
 use super::sampler::{LANES, Sampler};
-use crate::case::{Case, Claim, Expect};
+use crate::case::{Case, PlacedClaim, Expect};
 use crate::claim::{Kind, Place};
 use crate::formula::Mutant;
 use crate::graph::{Expr, record};
@@ -52,7 +52,7 @@ pub struct MutantReport {
 
 /// A mutant under judgement.
 struct Candidate<'c> {
-    claim: &'c Claim,
+    claim: &'c PlacedClaim,
     mutant: Mutant,
     residual: Vec<Expr>,
 }
@@ -64,7 +64,7 @@ pub fn mutate(
     options: &Options,
 ) -> Result<MutationReport, JudgeError> {
     let model = &case.model;
-    let held: Vec<&Claim> = case
+    let held: Vec<&PlacedClaim> = case
         .claims
         .iter()
         .zip(reports)
@@ -185,7 +185,7 @@ impl Bench<'_> {
 /// Whether a true mutant follows from its original and the other integrals.
 fn depends(
     case: &Case,
-    held: &[&Claim],
+    held: &[&PlacedClaim],
     candidate: &Candidate<'_>,
     options: &Options,
 ) -> Result<bool, JudgeError> {

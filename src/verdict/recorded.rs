@@ -6,7 +6,7 @@ use num_dual::DualNum;
 
 use super::physics;
 use super::run::Values;
-use crate::case::{Claim, Expect};
+use crate::case::{Expect, PlacedClaim};
 use crate::claim::{Condition, Context, Kind, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
@@ -16,7 +16,7 @@ use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
 pub struct Recorded<'c> {
-    pub claim: &'c Claim,
+    pub claim: &'c PlacedClaim,
     pub residual: Vec<Expr>,
     /// Values of the claim's formulas as written, which exist where a state counts.
     pub requirement: Vec<Expr>,
@@ -45,7 +45,7 @@ pub struct Wider {
 
 impl<'c> Recorded<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
-    pub fn new(claim: &'c Claim, jet: &Jet<'_, Expr>) -> Self {
+    pub fn new(claim: &'c PlacedClaim, jet: &Jet<'_, Expr>) -> Self {
         let residual = |place: &Place| claim.kind.residual(jet, &place.kept);
         let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
             true => claim.place.wider(jet.phase.model()),

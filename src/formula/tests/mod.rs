@@ -1,5 +1,6 @@
 //! Tests of the whole language, over one small scope.
 
+mod compose;
 mod errors;
 mod forms;
 mod language;

@@ -10,7 +10,7 @@ use super::one_by_one::OneByOne;
 use super::tapes;
 use super::underived::{Reason, Underived};
 use super::{BenchError, Item, Method};
-use liouville::case::{Case, Claim};
+use liouville::case::{Case, PlacedClaim};
 use liouville::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::Jet;
@@ -145,7 +145,7 @@ impl<'i> Subject<'i> {
 }
 
 /// Records the residual. Returns its tape, and the number of antiderivatives among its inputs.
-pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Fault> {
+pub fn record_residual(case: &Case, claim: &PlacedClaim) -> Result<(Tape, usize), Fault> {
     let (graph, residual) = with_jet(case, |jet| claim.kind.residual(jet, &claim.place.kept))?;
     let inputs = case.model.free_components() + case.model.dimension();
     Ok((Tape::new(&graph, &residual), graph.inputs() - inputs))
@@ -153,7 +153,7 @@ pub fn record_residual(case: &Case, claim: &Claim) -> Result<(Tape, usize), Faul
 
 /// Records the residual with fewer operations: nodes of proportional value are merged, and
 /// quantities for which the system knows shorter formulas are made by those.
-pub fn record_merged(case: &Case, claim: &Claim) -> Result<Tape, Fault> {
+pub fn record_merged(case: &Case, claim: &PlacedClaim) -> Result<Tape, Fault> {
     let (graph, (residual, shortcuts)) = at_point(case, |phase| {
         let jet = Jet::short(phase);
         let residual = claim.kind.residual(&jet, &claim.place.kept);

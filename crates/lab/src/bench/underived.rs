@@ -8,7 +8,7 @@
 //! flat base   ξ                       ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂
 //! ```
 
-use liouville::case::{Case, Claim};
+use liouville::case::{Case, PlacedClaim};
 use liouville::claim::{Density, Integral, Kind};
 use liouville::formula::Type;
 use liouville::graph::{Expr, Fault, Graph, Tape, record};
@@ -59,7 +59,7 @@ pub type Reason = &'static str;
 
 impl Underived {
     /// Records the quantities that the residual of `claim` differentiates.
-    pub fn record(case: &Case, claim: &Claim) -> Result<Result<Self, Reason>, Fault> {
+    pub fn record(case: &Case, claim: &PlacedClaim) -> Result<Result<Self, Reason>, Fault> {
         let model = &case.model;
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let inputs = parameters + dimension;

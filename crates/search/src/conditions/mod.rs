@@ -25,7 +25,7 @@ use super::jets::Asked;
 use super::{Effort, Report, SearchError};
 pub use coordinates::components;
 use line::{Along, Lines};
-use liouville::case::{Case, Claim};
+use liouville::case::{Case, PlacedClaim};
 use residual::Residual;
 
 use super::local::Local;
@@ -126,7 +126,7 @@ fn integrals(
 /// Finds the conditions for one claim, or for the criterion; `None` if it always holds.
 fn condition(
     case: &Case,
-    claim: Option<&Claim>,
+    claim: Option<&PlacedClaim>,
     effort: &Effort,
 ) -> Result<Option<Condition>, SearchError> {
     let of = claim.map_or("a density ρ of the configuration exists", |claim| &claim.name);

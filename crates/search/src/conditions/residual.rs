@@ -5,7 +5,7 @@ use crate::SearchError;
 use crate::local::random;
 use crate::streams::Stream;
 use crate::terms::recorded;
-use liouville::case::{Case, Claim};
+use liouville::case::{Case, PlacedClaim};
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Draw;
@@ -40,7 +40,7 @@ pub struct Seen {
 impl Residual {
     /// Records the residual of a claim or, without one, of the criterion for a density of the
     /// configuration.
-    pub fn of(case: &Case, claim: Option<&Claim>, seed: u64) -> Result<Option<Self>, SearchError> {
+    pub fn of(case: &Case, claim: Option<&PlacedClaim>, seed: u64) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
         let terms = components(case);
         let (graph, (residual, values)) = recorded(case, |jet| {

@@ -1,0 +1,381 @@
+//! Claims, names and variables that a case takes as values, with the checks of the file's reader.
+
+use super::{Case, PlacedClaim, TABLE_ROWS};
+use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS, jets};
+use crate::formula::{Formula, FormulaError, Type, canonical_name};
+use crate::mechanics::{Meaning, Model, Reach, Vocabulary};
+
+/// The reason why a case does not take a value: a claim, a name or a bracket.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: {message}: {remedy}")]
+pub struct ClaimError {
+    /// Claim or name that is refused.
+    pub what: String,
+    /// Description of the reason.
+    pub message: String,
+    /// Suggested alternative.
+    pub remedy: String,
+}
+
+impl ClaimError {
+    pub(super) fn new(what: &str, message: impl Into<String>, remedy: &str) -> Self {
+        let (what, message) = (what.to_string(), message.into());
+        Self { what, message, remedy: remedy.to_string() }
+    }
+}
+
+impl Case {
+    /// Reads a formula in the names of the case.
+    pub fn formula(&self, text: &str) -> Result<Formula, FormulaError> {
+        Formula::parse(text, &self.model.vocabulary)
+    }
+
+    /// Returns the same system with these claims, and no others.
+    ///
+    /// # Errors
+    /// A claim is about another kind of system, its formulas are in the names of another case, or
+    /// are not of the types that the kind of claim demands.
+    pub fn with_claims(&self, claims: &[Claim]) -> Result<Self, ClaimError> {
+        let mut taken = self.without_claims();
+        for claim in claims {
+            let placed = self.placed(claim, &taken.claims)?;
+            taken.claims.push(placed);
+        }
+        Ok(taken)
+    }
+
+    /// Returns the same system without claims.
+    fn without_claims(&self) -> Self {
+        let mut bare = self.clone();
+        bare.claims.clear();
+        bare.motions.clear();
+        bare.absences.clear();
+        bare
+    }
+
+    fn placed(&self, claim: &Claim, before: &[PlacedClaim]) -> Result<PlacedClaim, ClaimError> {
+        let model = &self.model;
+        let values = Values { claim, model };
+        values.check_keys()?;
+        let kind = Kind::read(claim.key(), &values).unwrap_or_else(|| {
+            let remedy = format!("use one of {}", STATEMENTS.join(", "));
+            Err(values.complaint(claim.key(), "there is no such kind of claim".to_string(), &remedy))
+        })?;
+        let formulas = kind.formulas();
+        let rigid = |index: &usize| model.is_rigid(*index, &formulas);
+        if let Some(index) = kind.changes().into_iter().find(rigid) {
+            let name = &model.parameters[index].name;
+            let message = format!("`{name}` stands in a size or an index, and cannot change");
+            return Err(values.complaint(kind.name(), message, "change another parameter"));
+        }
+        if let Some(objection) = kind.objection(model) {
+            return Err(values.complaint(kind.name(), objection.message, objection.remedy));
+        }
+        self.check_degree(kind.name()).map_err(|(message, remedy)| {
+            values.complaint(kind.name(), message.to_string(), remedy)
+        })?;
+        if let Some(cell) = claim.cell().filter(|cell| !TABLE_ROWS.contains(cell)) {
+            let message = format!("`{cell}` is no row of the paper's tables");
+            let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
+            return Err(values.complaint(kind.name(), message, &remedy));
+        }
+        let (place, only_there) = values.place()?;
+        Ok(PlacedClaim {
+            name: values.name(&kind, before)?,
+            source: claim.source().to_string(),
+            place,
+            only_there,
+            expect: claim.expect(),
+            cell: claim.cell().map(str::to_string),
+            note: claim.note().map(str::to_string),
+            kind,
+        })
+    }
+
+    /// Checks that the arbitrary functions, whose degree fits the claims of the case, fit a claim of
+    /// this kind; otherwise returns the reason and a remedy.
+    pub(super) fn check_degree(&self, key: &str) -> Result<(), (&'static str, &'static str)> {
+        let has = self.claims.iter().map(|claim| jets(claim.kind.name())).max();
+        if jets(key) <= has.unwrap_or_default() || !self.model.system.has_arbitrary_function() {
+            return Ok(());
+        }
+        Err((
+            "the arbitrary functions of this case have too low a degree for this claim",
+            "state a claim of this kind in the case file",
+        ))
+    }
+
+    /// Defines a name for a formula; a name that is taken is hidden by it.
+    pub fn define(&mut self, name: &str, formula: &Formula) -> Result<(), ClaimError> {
+        let canonical = canonical_name(name).ok_or_else(|| {
+            ClaimError::new(name, "this is not a name", "write letters, then digits, primes or _")
+        })?;
+        let model = &mut self.model;
+        model.vocabulary.check_own(formula).map_err(|other| stranger(name, &other))?;
+        let reach = model.vocabulary.reach(formula).map_or(Reach::Parameters, |entry| entry.reach);
+        let meaning = Meaning::Abbreviation(model.abbreviations.len());
+        model.vocabulary.add(&canonical, meaning, formula.value_type(), reach);
+        model.abbreviations.push(formula.clone());
+        Ok(())
+    }
+}
+
+/// The error for a formula in the names of another case.
+pub(super) fn stranger(what: &str, name: &str) -> ClaimError {
+    let message = format!("`{name}` is not a name of this case with the same meaning");
+    ClaimError::new(what, message, "make formulas from the names of the case that takes them")
+}
+
+/// A claim as a value, read like the table of a file.
+struct Values<'v> {
+    claim: &'v Claim,
+    model: &'v Model,
+}
+
+impl Values<'_> {
+    /// Fails for a key that says nothing here.
+    fn check_keys(&self) -> Result<(), ClaimError> {
+        let companions = Kind::companions(self.claim.key());
+        let mut others = self.claim.entries().iter().map(|(key, _)| *key).skip(1);
+        match others.find(|key| !companions.contains(key)) {
+            None => Ok(()),
+            Some(key) => {
+                let remedy = match companions {
+                    [] => "it stands alone".to_string(),
+                    known => format!("its keys are {}", known.join(", ")),
+                };
+                let message = format!("the claim has no `{key}`");
+                Err(self.complaint(self.claim.key(), message, &remedy))
+            }
+        }
+    }
+
+    /// Name that is set, or the text of the statement, numbered where it is taken.
+    fn name(&self, kind: &Kind, before: &[PlacedClaim]) -> Result<String, ClaimError> {
+        let is_taken = |name: &String| before.iter().any(|claim| claim.name == *name);
+        if let Some(name) = self.claim.name().map(str::to_string) {
+            if is_taken(&name) {
+                let message = format!("two claims are called `{name}`");
+                return Err(self.complaint(kind.name(), message, "give each a name of its own"));
+            }
+            return Ok(name);
+        }
+        let base = kind.text().unwrap_or_else(|| kind.name().to_string());
+        let numbered = (2..).map(|number| format!("{base} ({number})"));
+        let mut names = std::iter::once(base.clone()).chain(numbered);
+        Ok(names.find(|name| !is_taken(name)).unwrap_or(base))
+    }
+
+    fn place(&self) -> Result<(Place, bool), ClaimError> {
+        let model = self.model;
+        match self.claim.locus() {
+            Locus::Level => Ok((Place::level(model), false)),
+            Locus::LevelOnly => Ok((Place::level(model), true)),
+            Locus::Everywhere => Ok((Place::everywhere(model), false)),
+            Locus::Equation(text) => match Place::equation(model, text) {
+                Some(place) => Ok((place, false)),
+                None => {
+                    let message = format!("`{text}` is no place of this case");
+                    let remedy = "give one of the equations of the level set";
+                    Err(self.complaint(self.claim.key(), message, remedy))
+                }
+            },
+        }
+    }
+
+    /// Checks that a formula is in the names of `scope`, and of the type that is asked for.
+    fn fits(
+        &self,
+        key: &str,
+        formula: &Formula,
+        kind: Option<Type>,
+        scope: &Vocabulary,
+    ) -> Result<Formula, ClaimError> {
+        // hidden names of the case keep their meaning; names of its variables have another
+        let is_own = std::ptr::eq(scope, &self.model.vocabulary);
+        let known = if is_own { scope.check_own(formula) } else { scope.check_named(formula) };
+        known.map_err(|name| stranger(&self.what(), &name))?;
+        match kind {
+            Some(kind) if kind != formula.value_type() => {
+                let message = format!("`{key}` is a {}, and has to be a {kind}", formula.value_type());
+                Err(ClaimError::new(&self.what(), message, "give a formula of that type"))
+            }
+            _ => Ok(formula.clone()),
+        }
+    }
+
+    fn read(
+        &self,
+        key: &str,
+        entry: &Entry,
+        kind: Option<Type>,
+        scope: &Vocabulary,
+    ) -> Result<Formula, ClaimError> {
+        match entry {
+            Entry::Formula(formula) => self.fits(key, formula, kind, scope),
+            Entry::Text(text) => {
+                let read = Formula::parse(text, scope).map_err(|error| {
+                    let help = error.help().unwrap_or("write it in the names of the case");
+                    ClaimError::new(&self.what(), error.message(), help)
+                })?;
+                self.fits(key, &read, kind, scope)
+            }
+            _ => Err(self.unfit(key, "a formula")),
+        }
+    }
+
+    fn table_of(
+        &self,
+        table: &[(String, Formula)],
+        scope: &Vocabulary,
+    ) -> Result<Vec<(String, Formula)>, ClaimError> {
+        let read = |(name, formula): &(String, Formula)| {
+            let canonical = canonical_name(name).unwrap_or_else(|| name.clone());
+            Ok((canonical, self.fits(name, formula, None, scope)?))
+        };
+        table.iter().map(read).collect()
+    }
+
+    fn what(&self) -> String {
+        match self.claim.name() {
+            Some(name) => format!("the claim `{name}`"),
+            None => format!("a claim `{}`", self.claim.key()),
+        }
+    }
+
+    fn unfit(&self, key: &str, wanted: &str) -> ClaimError {
+        let message = format!("`{key}` is not {wanted}");
+        ClaimError::new(&self.what(), message, &format!("give {wanted}"))
+    }
+}
+
+impl Reader for Values<'_> {
+    type Error = ClaimError;
+
+    fn model(&self) -> &Model {
+        self.model
+    }
+
+    fn text(&self, key: &'static str) -> Result<Option<String>, ClaimError> {
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(Entry::Text(text)) => Ok(Some(text.clone())),
+            Some(Entry::Formula(formula)) => Ok(Some(formula.to_string())),
+            Some(_) => Err(self.unfit(key, "a text")),
+        }
+    }
+
+    fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, ClaimError> {
+        match self.claim.entry(key) {
+            Some(Entry::List(list)) => Ok(Some(list.iter().map(ToString::to_string).collect())),
+            _ => Ok(self.text(key)?.map(|text| vec![text])),
+        }
+    }
+
+    fn formula_in(
+        &self,
+        key: &'static str,
+        kind: Option<Type>,
+        scope: &Vocabulary,
+    ) -> Result<Option<Formula>, ClaimError> {
+        let entry = self.claim.entry(key);
+        entry.map(|entry| self.read(key, entry, kind, scope)).transpose()
+    }
+
+    fn list_in(
+        &self,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<Formula>>, ClaimError> {
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(Entry::List(list)) => {
+                list.iter().map(|one| self.fits(key, one, None, scope)).collect::<Result<_, _>>().map(Some)
+            }
+            Some(entry) => Ok(Some(vec![self.read(key, entry, None, scope)?])),
+        }
+    }
+
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, ClaimError> {
+        let scope = &self.model.vocabulary;
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(Entry::Complex(list)) => {
+                let fits = |part: &Formula| self.fits(key, part, Some(Type::Scalar), scope);
+                let read = |(real, imaginary): &Complex| {
+                    Ok((fits(real)?, imaginary.as_ref().map(fits).transpose()?))
+                };
+                list.iter().map(read).collect::<Result<_, _>>().map(Some)
+            }
+            Some(_) => Err(self.unfit(key, "a list of numbers")),
+        }
+    }
+
+    fn equation(&self, key: &'static str) -> Result<(Formula, Formula), ClaimError> {
+        let scope = &self.model.vocabulary;
+        match self.claim.entry(key) {
+            Some(Entry::Equation(left, right)) => {
+                Ok((self.fits(key, left, None, scope)?, self.fits(key, right, None, scope)?))
+            }
+            _ => Err(self.unfit(key, "an equation")),
+        }
+    }
+
+    fn table_in(
+        &self,
+        key: &'static str,
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<(String, Formula)>>, ClaimError> {
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(Entry::Table(table)) => self.table_of(table, scope).map(Some),
+            Some(_) => Err(self.unfit(key, "a table of formulas")),
+        }
+    }
+
+    fn table_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        known: &[&'static str],
+        scope: &Vocabulary,
+    ) -> Result<Option<Vec<(String, Formula)>>, ClaimError> {
+        let tables = match self.claim.entry(key) {
+            None => return Ok(None),
+            Some(Entry::Tables(tables)) => tables,
+            Some(_) => return Err(self.unfit(key, "a table of tables")),
+        };
+        if let Some((other, _)) = tables.iter().find(|(name, _)| !known.contains(name)) {
+            let message = format!("`{key}` has no `{other}`");
+            return Err(self.complaint(key, message, &format!("give {}", known.join(", "))));
+        }
+        let own = tables.iter().find(|(name, _)| *name == inner);
+        own.map(|(_, table)| self.table_of(table, scope)).transpose()
+    }
+
+    fn text_inside(
+        &self,
+        key: &'static str,
+        _: &'static str,
+        remedy: &str,
+    ) -> Result<Option<String>, ClaimError> {
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(_) => Err(self.complaint(key, format!("`{key}` is not a table of texts"), remedy)),
+        }
+    }
+
+    fn complaint_inside(
+        &self,
+        key: &'static str,
+        inner: &'static str,
+        message: String,
+        remedy: &str,
+    ) -> ClaimError {
+        self.complaint(key, format!("{inner}: {message}"), remedy)
+    }
+
+    fn complaint(&self, _: &'static str, message: String, remedy: &str) -> ClaimError {
+        ClaimError::new(&self.what(), message, remedy)
+    }
+}

@@ -1,0 +1,490 @@
+//! Formulas made of others: operators, powers, vectors and calls.
+//!
+//! The text of the result is written with the brackets that it needs, and its tree is built by the
+//! builder of the parser: reading the text in the same names gives the same tree.
+
+use std::fmt;
+use std::ops::{Add, Div, Mul, Neg, Range, Sub};
+
+use super::arena::{Arena, NodeId, Operation};
+use super::bond::{Bond, bond, is_signed};
+use super::error::{FormulaError, Span};
+use super::kind::Type;
+use super::scope::{Scope, Symbol};
+use super::typing::{Builder, Built, Infix, Operand};
+use super::{Formula, functions};
+use crate::number::rational::Rational;
+
+/// A formula made of others, or the reason why their types do not fit.
+pub type Composed = Result<Formula, FormulaError>;
+
+/// Text and tree of a formula in the making.
+#[derive(Default)]
+struct Draft {
+    text: String,
+    arena: Arena,
+}
+
+impl Draft {
+    fn write(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+
+    /// Appends a formula, in brackets if asked to.
+    fn place(&mut self, formula: &Formula, in_brackets: bool) -> Operand {
+        let first = self.text.len();
+        self.write(if in_brackets { "(" } else { "" });
+        let start = self.text.len();
+        self.write(formula.written());
+        self.write(if in_brackets { ")" } else { "" });
+        let mut map = Vec::new();
+        let nodes = 0..formula.arena.nodes.len();
+        self.graft(formula, nodes, start, &mut map);
+        let node = self.arena.nodes.len() - 1;
+        let span = first..self.text.len();
+        self.arena.nodes[node].span = span.clone();
+        self.fix(formula);
+        Operand { node, value_type: formula.value_type(), span }
+    }
+
+    /// Appends nodes of a formula whose text begins at `start`; `map` has the new places of those
+    /// before them.
+    fn graft(
+        &mut self,
+        formula: &Formula,
+        nodes: Range<NodeId>,
+        start: usize,
+        map: &mut Vec<NodeId>,
+    ) {
+        let leading = formula.leading();
+        for node in &formula.arena.nodes[nodes] {
+            let moved = |place: usize| (place + start).saturating_sub(leading);
+            let span = moved(node.span.start)..moved(node.span.end);
+            map.push(match &node.operation {
+                Operation::Symbol(slot) => {
+                    let (symbol, kind) = formula.arena.symbols[*slot];
+                    let name = || formula.arena.names[*slot].clone();
+                    self.arena.push_symbol(symbol, kind, span, name)
+                }
+                other => self.arena.push(other.on(|own| map[own]), node.value_type, span),
+            });
+        }
+    }
+
+    /// Takes over the symbols whose values are written into a formula.
+    fn fix(&mut self, formula: &Formula) {
+        for symbol in &formula.arena.fixed {
+            if !self.arena.fixed.contains(symbol) {
+                self.arena.fixed.push(*symbol);
+            }
+        }
+    }
+
+    /// Builds the last operation.
+    fn build(self, build: impl FnOnce(&mut Builder<'_>) -> Built) -> Composed {
+        let Self { text, arena } = self;
+        let mut builder = Builder { arena, text: &text };
+        build(&mut builder)?;
+        let arena = builder.arena;
+        Ok(Formula { text, arena })
+    }
+}
+
+impl Formula {
+    /// Formula of a number.
+    ///
+    /// ```
+    /// use liouville::formula::Formula;
+    /// use liouville::number::rational::Rational;
+    ///
+    /// assert_eq!(Formula::number(Rational::new(-3, 4)).to_string(), "−3/4");
+    /// ```
+    pub fn number(value: impl Into<Rational>) -> Self {
+        let value = value.into();
+        let (above, below) = value.parts();
+        let text = match below.to_string().as_str() {
+            "1" => above.to_string(),
+            below => format!("{above}/{below}"),
+        };
+        let text = text.replacen('-', "−", 1);
+        let mut arena = Arena::default();
+        arena.push(Operation::Number(value), Type::Scalar, 0..text.len());
+        Self { text, arena }
+    }
+
+    /// Formula of a name of the scope.
+    pub fn name(name: &str, scope: &dyn Scope) -> Composed {
+        Self::parse(name, scope)
+    }
+
+    /// Text without spaces around it.
+    pub(super) fn written(&self) -> &str {
+        self.text.trim()
+    }
+
+    /// Bytes of white space before the text.
+    pub(super) fn leading(&self) -> usize {
+        self.text.len() - self.text.trim_start().len()
+    }
+
+    pub(super) fn bond(&self) -> Bond {
+        bond(self.written())
+    }
+
+    /// Same formula with brackets around its text.
+    #[must_use]
+    pub fn bracketed(&self) -> Self {
+        let mut draft = Draft::default();
+        draft.place(self, true);
+        Formula { text: draft.text, arena: draft.arena }
+    }
+
+    /// Joins two formulas, each in brackets unless it binds as tightly as is required.
+    fn joined(&self, infix: Infix, other: &Self) -> Composed {
+        let (sign, left, right) = match infix {
+            Infix::Add => (" + ", Bond::Sum, Bond::Cross),
+            Infix::Subtract => (" − ", Bond::Sum, Bond::Cross),
+            Infix::Cross => (" × ", Bond::Product, Bond::Product),
+            Infix::Outer => (" ⊗ ", Bond::Product, Bond::Product),
+            Infix::Multiply => ("*", Bond::Product, Bond::Prefix),
+            Infix::Divide => ("/", Bond::Product, Bond::Prefix),
+        };
+        let mut draft = Draft::default();
+        let a = draft.place(self, self.bond() < left);
+        draft.write(sign);
+        let b = draft.place(other, other.bond() < right || is_signed(other.written()));
+        draft.build(|builder| builder.infix(infix, &a, &b))
+    }
+
+    /// Product; a product on the right needs no brackets behind a scalar, since a(bc) = (ab)c.
+    fn times(&self, other: &Self) -> Composed {
+        let is_row = self.value_type() == Type::Scalar && other.bond() == Bond::Product;
+        // a number such as 1/2 is one factor, and m*1/2 has two
+        let first = &other.arena.nodes[other.first_factor()];
+        let is_fraction = matches!(first.operation, Operation::Number(_))
+            && other.text.get(first.span.clone()).is_some_and(|text| bond(text) == Bond::Product);
+        let splits = is_fraction && self.constant().is_none();
+        if !is_row || splits || is_signed(other.written()) {
+            return self.joined(Infix::Multiply, other);
+        }
+        let mut draft = Draft::default();
+        let factor = draft.place(self, self.bond() < Bond::Product);
+        draft.write("*");
+        draft.led(other, |builder, leaf| builder.infix(Infix::Multiply, &factor, leaf))
+    }
+
+    /// Negative; of a product that of its first factor.
+    fn negative(&self) -> Formula {
+        let mut draft = Draft::default();
+        draft.write("−");
+        if self.bond() == Bond::Product {
+            let negate = |builder: &mut Builder<'_>, leaf: &Operand| {
+                Ok(builder.negate(leaf, 0..leaf.span.end))
+            };
+            if let Ok(negative) = draft.led(self, negate) {
+                return negative;
+            }
+            // a negative always exists; brackets are the other way to write it
+            return self.bracketed().negative();
+        }
+        let a = draft.place(self, self.bond() < Bond::Prefix);
+        let Draft { text, arena } = draft;
+        let mut builder = Builder { arena, text: &text };
+        builder.negate(&a, 0..a.span.end);
+        let arena = builder.arena;
+        Formula { text, arena }
+    }
+
+    /// First factor of a product without brackets, as the node whose text begins the formula.
+    fn first_factor(&self) -> NodeId {
+        let nodes = &self.arena.nodes;
+        let mut at = nodes.len() - 1;
+        loop {
+            let (a, b) = match nodes[at].operation {
+                Operation::Multiply(a, b)
+                | Operation::Scale(a, b)
+                | Operation::Apply(a, b)
+                | Operation::Compose(a, b)
+                | Operation::Divide(a, b) => (a, b),
+                _ => return at,
+            };
+            let begins = |node: &NodeId| nodes[*node].span.start == nodes[at].span.start;
+            match [a, b].into_iter().find(begins) {
+                Some(first) => at = first,
+                None => return at,
+            }
+        }
+    }
+
+    /// Power with a formula as its exponent.
+    pub fn power(&self, exponent: &Formula) -> Composed {
+        let mut draft = Draft::default();
+        let base = draft.place(self, self.bond() < Bond::Whole);
+        draft.write("^");
+        let exponent = draft.place(exponent, exponent.bond() < Bond::Whole);
+        draft.build(|builder| builder.power(&base, &exponent))
+    }
+
+    /// Whole power, written above the line: `x²`, `A⁻¹`.
+    pub fn raised(&self, exponent: i32) -> Composed {
+        let mut draft = Draft::default();
+        let base = draft.place(self, self.bond() < Bond::Whole);
+        let start = draft.text.len();
+        draft.write(&superscript(exponent));
+        let end = draft.text.len();
+        let value = Rational::from(i64::from(exponent));
+        draft.build(|builder| {
+            builder.constant_power(&base, &value, start..end, base.span.start..end)
+        })
+    }
+
+    /// Dot product `(a,b)`.
+    pub fn dot(&self, other: &Formula) -> Composed {
+        Self::listed("(", ",", &[self, other], ")", |builder, parts, span| match parts {
+            [a, b] => builder.dot(a, b, span),
+            _ => Err(FormulaError::new(span, "a dot product takes two vectors")),
+        })
+    }
+
+    /// Cross product `a × b`.
+    pub fn cross(&self, other: &Formula) -> Composed {
+        self.joined(Infix::Cross, other)
+    }
+
+    /// Outer product `a ⊗ b`.
+    pub fn outer(&self, other: &Formula) -> Composed {
+        self.joined(Infix::Outer, other)
+    }
+
+    /// Norm of a vector, or absolute value of a scalar.
+    pub fn modulus(&self) -> Composed {
+        Self::listed("|", "", &[self], "|", |builder, parts, span| match parts {
+            [a] => builder.modulus(a, span),
+            _ => Err(FormulaError::new(span, "bars stand around one value")),
+        })
+    }
+
+    /// Square root.
+    pub fn sqrt(&self) -> Composed {
+        let mut draft = Draft::default();
+        draft.write("√");
+        let a = draft.place(self, self.bond() < Bond::Prefix);
+        draft.build(|builder| {
+            let span = 0..a.span.end;
+            builder.root(&a, span)
+        })
+    }
+
+    /// Component of a vector, or entry of a matrix, counted from 1: `γ[3]`, `I[1,2]`.
+    pub fn component(&self, indices: &[usize]) -> Composed {
+        let mut draft = Draft::default();
+        let a = draft.place(self, self.bond() < Bond::Whole);
+        let open = draft.text.len();
+        draft.write("[");
+        let mut places = Vec::new();
+        for (k, index) in indices.iter().enumerate() {
+            draft.write(if k == 0 { "" } else { "," });
+            let start = draft.text.len();
+            draft.write(&index.to_string());
+            places.push((i64::try_from(*index).unwrap_or(i64::MAX), start..draft.text.len()));
+        }
+        draft.write("]");
+        let brackets = open..draft.text.len();
+        draft.build(|builder| builder.index(&a, &places, brackets))
+    }
+
+    /// Vector `[a, b, …]` of scalars.
+    pub fn vector(parts: &[&Formula]) -> Composed {
+        Self::listed("[", ", ", parts, "]", |builder, parts, span| builder.vector(parts, span))
+    }
+
+    /// Matrix `[[a, b], [c, d]]` of the rows.
+    pub fn rows(rows: &[Vec<&Formula>]) -> Composed {
+        let rows: Vec<Formula> =
+            rows.iter().map(|row| Self::vector(row)).collect::<Result<_, _>>()?;
+        let rows: Vec<&Formula> = rows.iter().collect();
+        Self::listed("[", ", ", &rows, "]", |builder, rows, span| builder.rows(rows, span))
+    }
+
+    /// Call of a function of the language, such as `det`, `hat` or `exp`.
+    pub fn call(function: &str, arguments: &[&Formula]) -> Composed {
+        if !functions::is_function(function) {
+            let message = format!("`{function}` is not a function");
+            return Err(FormulaError::new(0..function.len(), message));
+        }
+        let open = format!("{function}(");
+        Self::listed(&open, ", ", arguments, ")", |builder, parts, span| {
+            functions::call(builder, function, parts, span)
+        })
+    }
+
+    /// Writes parts between brackets, and builds the operation on them.
+    fn listed(
+        open: &str,
+        between: &str,
+        parts: &[&Formula],
+        close: &str,
+        build: impl FnOnce(&mut Builder<'_>, &[Operand], Span) -> Built,
+    ) -> Composed {
+        let mut draft = Draft::default();
+        draft.write(open);
+        let mut operands = Vec::new();
+        for (k, part) in parts.iter().enumerate() {
+            draft.write(if k == 0 { "" } else { between });
+            operands.push(draft.place(part, false));
+        }
+        draft.write(close);
+        let span = 0..draft.text.len();
+        if operands.is_empty() {
+            return Err(FormulaError::new(span, "there is nothing between these brackets"));
+        }
+        draft.build(|builder| build(builder, &operands, span))
+    }
+
+    /// Names used, each once, in the order of first use, as the scope spells them.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.arena.names.iter().map(String::as_str)
+    }
+
+    /// Whether the formula uses a name of its scope, by itself or by a component: `γ3` uses `γ`.
+    pub fn uses(&self, name: &str) -> bool {
+        let canonical = super::canonical_name(name);
+        let name = canonical.as_deref().unwrap_or(name);
+        self.names().any(|own| own == name)
+    }
+
+    /// Types of the symbols used.
+    pub fn symbol_types(&self) -> impl Iterator<Item = Type> {
+        self.arena.symbols.iter().map(|(_, kind)| *kind)
+    }
+
+    /// Symbols used, with their names.
+    pub fn named_symbols(&self) -> impl Iterator<Item = (Symbol, &str)> {
+        self.symbols().zip(self.names())
+    }
+}
+
+impl Draft {
+    /// Appends a product whose first factor is changed by `lead`, which sees what was written
+    /// before.
+    fn led(
+        mut self,
+        product: &Formula,
+        lead: impl FnOnce(&mut Builder<'_>, &Operand) -> Built,
+    ) -> Composed {
+        let start = self.text.len();
+        self.write(product.written());
+        let first = product.first_factor();
+        let mut map = Vec::new();
+        self.graft(product, 0..first + 1, start, &mut map);
+        let node = map[first];
+        let leaf = Operand {
+            node,
+            value_type: self.arena.nodes[node].value_type,
+            span: self.arena.nodes[node].span.clone(),
+        };
+        let Self { text, arena } = self;
+        let mut builder = Builder { arena, text: &text };
+        map[first] = lead(&mut builder, &leaf)?.node;
+        let arena = builder.arena;
+        let mut draft = Self { text, arena };
+        let rest = draft.arena.nodes.len();
+        draft.graft(product, first + 1..product.arena.nodes.len(), start, &mut map);
+        // the products now begin with what leads them
+        for node in &mut draft.arena.nodes[rest..] {
+            if node.span.start == start {
+                node.span.start = 0;
+            }
+        }
+        draft.fix(product);
+        Ok(Formula { text: draft.text, arena: draft.arena })
+    }
+}
+
+/// Number in superscript digits.
+fn superscript(number: i32) -> String {
+    let above = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => digit.to_digit(10).and_then(|d| char::from_u32('⁰' as u32 + d)).unwrap_or(digit),
+    };
+    number.to_string().chars().map(above).collect()
+}
+
+impl fmt::Display for Formula {
+    /// Writes the text, which reads as the same formula in the same names.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.written())
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident = $make:expr;)*) => {$(
+        impl $trait<&Formula> for &Formula {
+            type Output = Composed;
+
+            /// Fails where the types of the two formulas do not fit.
+            fn $method(self, other: &Formula) -> Composed {
+                let make: fn(&Formula, &Formula) -> Composed = $make;
+                make(self, other)
+            }
+        }
+
+        impl $trait<&Formula> for Composed {
+            type Output = Composed;
+
+            fn $method(self, other: &Formula) -> Composed {
+                self?.$method(other)
+            }
+        }
+
+        impl $trait<&Formula> for Formula {
+            type Output = Composed;
+
+            fn $method(self, other: &Formula) -> Composed {
+                (&self).$method(other)
+            }
+        }
+
+        impl $trait<Formula> for &Formula {
+            type Output = Composed;
+
+            fn $method(self, other: Formula) -> Composed {
+                self.$method(&other)
+            }
+        }
+
+        impl $trait<Formula> for Formula {
+            type Output = Composed;
+
+            fn $method(self, other: Formula) -> Composed {
+                (&self).$method(&other)
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add = |a, b| a.joined(Infix::Add, b);
+    Sub sub = |a, b| a.joined(Infix::Subtract, b);
+    Mul mul = |a, b| a.times(b);
+    Div div = |a, b| a.joined(Infix::Divide, b);
+}
+
+impl Neg for &Formula {
+    type Output = Formula;
+
+    fn neg(self) -> Formula {
+        self.negative()
+    }
+}
+
+impl Neg for Formula {
+    type Output = Formula;
+
+    fn neg(self) -> Formula {
+        self.negative()
+    }
+}
