@@ -38,6 +38,40 @@
 //! # Ok::<(), liouville::case::CaseError>(())
 //! ```
 //!
+//! # A system and claims as values
+//!
+//! The same without a file: formulas are made of formulas, and a system takes them as they are.
+//!
+//! ```
+//! use liouville::prelude::*;
+//!
+//! let names = Model::field()
+//!     .parameter("a", "0.5..2")
+//!     .parameter("b", "0.5..2")
+//!     .variable("x", "0.5..3")
+//!     .variable("y", "0.5..3");
+//! let [a, b] = [names.formula("a")?, names.formula("b")?];
+//! let [x, y] = [names.formula("x")?, names.formula("y")?];
+//! let meetings = (&x * &y)?;
+//! let case = names
+//!     .rate("x", &a * &x - &meetings)
+//!     .rate("y", &meetings - (&b * &y)?)
+//!     .build()?;
+//!
+//! let logarithm = |of: &Formula| Formula::call("log", &[of]);
+//! let volterra = (&x - (&b * logarithm(&x)?)? + &y - &(&a * logarithm(&y)?)?)?;
+//! assert_eq!(volterra.to_string(), "x − b*log(x) + y − a*log(y)");
+//! let claims = [
+//!     Claim::integral(&volterra),
+//!     Claim::integral(volterra.substitute("b", &a)?).expected(Expect::Fails),
+//!     Claim::density((Formula::number(1) / &meetings)?),
+//! ];
+//! let report = case.judge(&claims, &Options::default())?;
+//! assert!(report.claims.iter().all(|claim| claim.agrees));
+//! assert_eq!(report.claims[0].verdict, Verdict::Proved);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Recording user code
 //!
 //! Any function generic over num-dual's `DualNum` can be recorded, differentiated and run:
@@ -92,6 +126,7 @@ pub mod prelude {
     pub use crate::claim::{Claim, Locus};
     pub use crate::formula::{Formula, FormulaError};
     pub use crate::graph::{Evaluator, Expr, Graph, Tape, record};
+    pub use crate::mechanics::Model;
     pub use crate::number::rational::Rational;
     pub use crate::scalar::Scalar;
     pub use crate::verdict::{

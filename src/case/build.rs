@@ -12,8 +12,9 @@ use super::section::Section;
 use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
-    AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts, homogeneous,
-    lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities, weights,
+    AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
+    homogeneous, lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities,
+    weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -147,7 +148,7 @@ fn read(
     let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
     let mut warnings = Vec::new();
     if is_whole {
-        extend_support(&mut parts);
+        extend_support(&mut parts.model);
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
     }
@@ -255,8 +256,8 @@ fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
 }
 
 /// Extends a support function that is not homogeneous of degree 1 off the unit sphere.
-fn extend_support(parts: &mut Parts) {
-    let shape = match &parts.model.system {
+pub fn extend_support(model: &mut Model) {
+    let shape = match &model.system {
         System::Rubber(body) => &body.shape,
         System::Ball(ball) => match &ball.surface {
             Surface::Support(shape) => shape,
@@ -264,8 +265,8 @@ fn extend_support(parts: &mut Parts) {
         },
         _ => return,
     };
-    let Some(extended) = homogeneous::extension(&parts.model, shape) else { return };
-    match &mut parts.model.system {
+    let Some(extended) = homogeneous::extension(model, shape) else { return };
+    match &mut model.system {
         System::Rubber(body) => body.shape = extended,
         System::Ball(ball) => ball.surface = Surface::Support(extended),
         _ => {}

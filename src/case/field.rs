@@ -141,14 +141,27 @@ fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
 /// Reads `equations = ["(γ,γ) = 1", …]`; `None` if one is wrong.
 pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
     let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
-    Some(read.map(|(text, function)| level_equation(text, function, vocabulary)).collect())
+    let equation = |(text, function): (String, Formula)| {
+        let sides = both_sides(&text, vocabulary);
+        level_equation(text, function, sides)
+    };
+    Some(read.map(equation).collect())
 }
 
-/// Builds an equation of the level, with its sides where one of them is a root.
-pub fn level_equation(text: String, function: Formula, vocabulary: &Vocabulary) -> LevelEquation {
-    let root = sides(&text).and_then(|(left, right, _)| {
-        let left = Formula::parse(left, vocabulary).ok()?;
-        let right = Formula::parse(right, vocabulary).ok()?;
+/// Reads both sides of an equation, each a formula of its own.
+pub fn both_sides(text: &str, vocabulary: &Vocabulary) -> Option<(Formula, Formula)> {
+    let (left, right, _) = sides(text)?;
+    let read = |side| Formula::parse(side, vocabulary).ok();
+    Some((read(left)?, read(right)?))
+}
+
+/// Builds an equation of the level from its sides, of which one may be a root.
+pub fn level_equation(
+    text: String,
+    function: Formula,
+    sides: Option<(Formula, Formula)>,
+) -> LevelEquation {
+    let root = sides.and_then(|(left, right)| {
         let ((radicand, is_modulus), other_side) = match (left.radicand(), right.radicand()) {
             (Some(root), _) => (root, right),
             (None, Some(root)) => (root, left),

@@ -51,7 +51,10 @@ pub fn read(
     }));
     reading.level = level
         .into_iter()
-        .map(|(text, function)| field::level_equation(text, function, &reading.vocabulary))
+        .map(|(text, function)| {
+            let sides = field::both_sides(&text, &reading.vocabulary);
+            field::level_equation(text, function, sides)
+        })
         .collect();
     Some(system)
 }

@@ -7,6 +7,7 @@ mod ask;
 mod ball;
 mod body;
 mod build;
+mod builder;
 mod charts;
 mod claims;
 mod complex;
@@ -34,6 +35,7 @@ mod state;
 mod synonyms;
 mod systems;
 mod toml_errors;
+mod value;
 mod values;
 mod variables;
 mod velocities;
@@ -47,11 +49,13 @@ use crate::claim::{Kind, Place};
 use crate::mechanics::{Chart, Draw, Model};
 
 pub use crate::claim::Expect;
+pub use builder::ModelBuilder;
 pub use error::{CaseError, Mistake, Problem};
 pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
+pub use value::{Source, Value};
 pub use values::ClaimError;
 
 /// Limit on the size of a case file, above that of any real one.

@@ -143,7 +143,7 @@ impl<'r, 's> Reading<'r, 's> {
 }
 
 /// Numbers of a formula without names, or the formula.
-fn origin_of(formula: Formula) -> Origin {
+pub fn origin_of(formula: Formula) -> Origin {
     match constant(&formula) {
         Some(values) => Origin::Fixed(values),
         None => Origin::Formula(formula),

@@ -110,7 +110,7 @@ fn diagonal(values: Vec<Rational>) -> Vec<Rational> {
 }
 
 /// Reads a string: a number, a range with its shape, a list of alternatives, or a formula.
-fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
+pub fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
     let start = text.len() - text.trim_start().len();
     let text = text.trim();
     if let Ok(number) = text.parse::<Rational>() {

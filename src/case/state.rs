@@ -13,6 +13,7 @@ use crate::formula::Type;
 use crate::mechanics::{Draw, Meaning, Range, Reach, Variable, Vocabulary};
 
 /// State variables with the draws of their components.
+#[derive(Clone, Debug)]
 pub struct State {
     /// Variables in order.
     pub variables: Vec<Variable>,

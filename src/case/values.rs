@@ -1,5 +1,6 @@
 //! Claims, names and variables that a case takes as values, with the checks of the file's reader.
 
+use super::field::both_sides;
 use super::{Case, PlacedClaim, TABLE_ROWS};
 use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS, jets};
 use crate::formula::{Formula, FormulaError, Type, canonical_name};
@@ -59,7 +60,11 @@ impl Case {
         values.check_keys()?;
         let kind = Kind::read(claim.key(), &values).unwrap_or_else(|| {
             let remedy = format!("use one of {}", STATEMENTS.join(", "));
-            Err(values.complaint(claim.key(), "there is no such kind of claim".to_string(), &remedy))
+            Err(values.complaint(
+                claim.key(),
+                "there is no such kind of claim".to_string(),
+                &remedy,
+            ))
         })?;
         let formulas = kind.formulas();
         let rigid = |index: &usize| model.is_rigid(*index, &formulas);
@@ -197,7 +202,8 @@ impl Values<'_> {
         known.map_err(|name| stranger(&self.what(), &name))?;
         match kind {
             Some(kind) if kind != formula.value_type() => {
-                let message = format!("`{key}` is a {}, and has to be a {kind}", formula.value_type());
+                let message =
+                    format!("`{key}` is a {}, and has to be a {kind}", formula.value_type());
                 Err(ClaimError::new(&self.what(), message, "give a formula of that type"))
             }
             _ => Ok(formula.clone()),
@@ -289,9 +295,11 @@ impl Reader for Values<'_> {
     ) -> Result<Option<Vec<Formula>>, ClaimError> {
         match self.claim.entry(key) {
             None => Ok(None),
-            Some(Entry::List(list)) => {
-                list.iter().map(|one| self.fits(key, one, None, scope)).collect::<Result<_, _>>().map(Some)
-            }
+            Some(Entry::List(list)) => list
+                .iter()
+                .map(|one| self.fits(key, one, None, scope))
+                .collect::<Result<_, _>>()
+                .map(Some),
             Some(entry) => Ok(Some(vec![self.read(key, entry, None, scope)?])),
         }
     }
@@ -317,6 +325,12 @@ impl Reader for Values<'_> {
             Some(Entry::Equation(left, right)) => {
                 Ok((self.fits(key, left, None, scope)?, self.fits(key, right, None, scope)?))
             }
+            Some(Entry::Text(text)) => match both_sides(text, scope) {
+                Some((left, right)) => {
+                    Ok((self.fits(key, &left, None, scope)?, self.fits(key, &right, None, scope)?))
+                }
+                None => Err(self.unfit(key, "an equation \"A = B\" in the names of the case")),
+            },
             _ => Err(self.unfit(key, "an equation")),
         }
     }

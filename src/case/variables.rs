@@ -8,7 +8,9 @@ use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::parameters::named;
 use super::section::{Section, Text};
-use crate::formula::{Formula, Type, canonical_name};
+use super::values::stranger;
+use super::{Case, ClaimError};
+use crate::formula::{Formula, Scope, Type, canonical_name};
 use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
 
 /// Reads both tables into the model, if they are present; `false` where there is a mistake.
@@ -168,15 +170,10 @@ fn block(
         let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
         return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
     };
-    let kind = match (target.state[i].kind, target.state[j].kind) {
-        (Type::Vector(rows), Type::Vector(columns)) => Type::Matrix(rows, columns),
-        (Type::Scalar, Type::Scalar) => Type::Scalar,
-        (Type::Matrix(..), _) | (_, Type::Matrix(..)) => {
-            let message = "a bracket of matrices cannot be given".to_string();
-            let remedy = "take the columns as variables".to_string();
-            return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
-        }
-        (Type::Vector(length), _) | (_, Type::Vector(length)) => Type::Vector(length),
+    let Some(kind) = block_type(target.state[i].kind, target.state[j].kind) else {
+        let message = "a bracket of matrices cannot be given".to_string();
+        let remedy = "take the columns as variables".to_string();
+        return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
     };
     if blocks[i][j].is_some() {
         let message = format!("the block {} is given already", key.get_ref());
@@ -188,6 +185,115 @@ fn block(
     let read = formula(text, target.vocabulary, &what, Some(kind), target.reach)?;
     place(blocks, (i, j), read);
     Ok(())
+}
+
+impl Case {
+    /// Returns the same system with new variables, each given by its image in the names of the case,
+    /// and no claims.
+    ///
+    /// # Errors
+    /// A name is not one, or is given twice, or an image is in the names of another case.
+    pub fn with_variables(&self, images: &[(String, Formula)]) -> Result<Case, ClaimError> {
+        let model = &self.model;
+        let mut state: Vec<Variable> = Vec::new();
+        for (name, image) in images {
+            model.vocabulary.check_own(image).map_err(|other| stranger(name, &other))?;
+            let canonical = canonical_name(name).ok_or_else(|| {
+                let remedy = "write letters, then digits, primes or _";
+                ClaimError::new(name, "this is not a name", remedy)
+            })?;
+            if state.iter().any(|variable| variable.name == canonical) {
+                return Err(ClaimError::new(name, "it is given twice", "give each variable once"));
+            }
+            state.push(Variable { name: canonical, kind: image.value_type() });
+        }
+        let images: Vec<Formula> = images.iter().map(|(_, image)| image.clone()).collect();
+        let target = target(model, state, &images);
+        let blocks = vec![vec![None; images.len()]; images.len()];
+        let mut changed = self.with_claims(&[])?;
+        changed.model.variables = Some(Box::new(Variables { model: target, images, blocks }));
+        Ok(changed)
+    }
+
+    /// Returns the same case with a bracket of its variables, by blocks for pairs of them; a pair
+    /// and its opposite are given once, and what is not given is 0.
+    ///
+    /// # Errors
+    /// The case has no variables, or a block is of the wrong type, given twice, or in other names
+    /// than those of the [variables](Case::in_variables).
+    pub fn with_bracket(&self, given: &[((usize, usize), Formula)]) -> Result<Case, ClaimError> {
+        let mut changed = self.clone();
+        let Some(variables) = changed.model.variables.as_deref_mut() else {
+            return Err(no_variables("a bracket"));
+        };
+        let count = variables.model.state.len();
+        let mut blocks: Blocks = vec![vec![None; count]; count];
+        for ((i, j), block) in given {
+            let refuse = |message: String, remedy: &str| {
+                Err(ClaimError::new(&format!("the block {i}, {j}"), message, remedy))
+            };
+            let names = &variables.model.vocabulary;
+            names.check_named(block).map_err(|other| stranger("a block", &other))?;
+            if *i >= count || *j >= count {
+                let message = format!("there are {count} variables");
+                return refuse(message, "count them from 0");
+            }
+            if blocks[*i][*j].is_some() {
+                let message = "it is given already".to_string();
+                return refuse(message, "give each pair once: the opposite follows from skewness");
+            }
+            let state = &variables.model.state;
+            match block_type(state[*i].kind, state[*j].kind) {
+                None => {
+                    let message = "a bracket of matrices cannot be given".to_string();
+                    return refuse(message, "take the columns as variables");
+                }
+                Some(kind) if kind != block.value_type() => {
+                    let message = format!("it is a {}", block.value_type());
+                    return refuse(message, &format!("give a {kind}"));
+                }
+                Some(_) => place(&mut blocks, (*i, *j), block.clone()),
+            }
+        }
+        variables.blocks = blocks;
+        Ok(changed)
+    }
+
+    /// Returns a formula of the case as one in the names of its variables: a name stands for the
+    /// variable of this name.
+    ///
+    /// # Errors
+    /// The case has no variables, or they lack a name of the formula.
+    pub fn in_variables(&self, formula: &Formula) -> Result<Formula, ClaimError> {
+        let Some(variables) = self.model.variables.as_deref() else {
+            return Err(no_variables("a formula"));
+        };
+        let names = &variables.model.vocabulary;
+        self.model.vocabulary.check_own(formula).map_err(|other| stranger("a formula", &other))?;
+        let mut unknown = String::new();
+        let found = formula.with_symbols(|_, name, kind| match names.lookup(name) {
+            Some((symbol, found)) if found == kind => Some(symbol),
+            _ => {
+                unknown = name.to_string();
+                None
+            }
+        });
+        found.ok_or_else(|| stranger("a formula", &unknown))
+    }
+}
+
+fn no_variables(what: &str) -> ClaimError {
+    ClaimError::new(what, "the case has no variables", "add some by `with_variables`")
+}
+
+/// Type of the block of a bracket for two variables; `None` for matrices.
+fn block_type(a: Type, b: Type) -> Option<Type> {
+    match (a, b) {
+        (Type::Vector(rows), Type::Vector(columns)) => Some(Type::Matrix(rows, columns)),
+        (Type::Scalar, Type::Scalar) => Some(Type::Scalar),
+        (Type::Matrix(..), _) | (_, Type::Matrix(..)) => None,
+        (Type::Vector(length), _) | (_, Type::Vector(length)) => Some(Type::Vector(length)),
+    }
 }
 
 fn parse(text: &str, names: &Vocabulary) -> Result<Formula, Mistake> {

@@ -210,6 +210,20 @@ impl Arena {
         self.push(Operation::Symbol(slot), value_type, span)
     }
 
+    /// Same arena with other symbols in the place of its own; `None` where `other` has none.
+    pub fn with_symbols(
+        &self,
+        mut other: impl FnMut(Symbol, &str, Type) -> Option<Symbol>,
+    ) -> Option<Self> {
+        let mut changed = self.clone();
+        for ((symbol, kind), name) in changed.symbols.iter_mut().zip(&self.names) {
+            *symbol = other(*symbol, name, *kind)?;
+        }
+        let slots = changed.symbols.iter().enumerate().map(|(slot, (symbol, _))| (*symbol, slot));
+        changed.slots = slots.collect();
+        Some(changed)
+    }
+
     /// Number held by a node, if it is a constant.
     pub fn constant(&self, node: NodeId) -> Option<&Rational> {
         match &self.nodes[node].operation {

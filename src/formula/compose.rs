@@ -293,6 +293,27 @@ impl Formula {
         draft.build(|builder| builder.index(&a, &places, brackets))
     }
 
+    /// Component of a named vector by its name, counted from 1: `γ3`, where the scope has no name of
+    /// its own for it; as [`component`] otherwise.
+    ///
+    /// [`component`]: Formula::component
+    pub fn element(&self, index: usize) -> Composed {
+        let is_named =
+            matches!(self.arena.nodes.as_slice(), [only] if only.operation == Operation::Symbol(0));
+        let has_digits = self.written().ends_with(|c: char| c.is_ascii_digit());
+        if !is_named || has_digits || self.bond() < Bond::Whole || !(1..=9).contains(&index) {
+            return self.component(&[index]);
+        }
+        let mut draft = Draft::default();
+        let vector = draft.place(self, false);
+        draft.write(&index.to_string());
+        let span = 0..draft.text.len();
+        draft.arena.nodes[vector.node].span = span.clone();
+        let place = [(i64::try_from(index).unwrap_or(i64::MAX), span.clone())];
+        let end = span.end..span.end;
+        draft.build(|builder| builder.index(&Operand { span, ..vector }, &place, end))
+    }
+
     /// Vector `[a, b, …]` of scalars.
     pub fn vector(parts: &[&Formula]) -> Composed {
         Self::listed("[", ", ", parts, "]", |builder, parts, span| builder.vector(parts, span))
@@ -353,6 +374,14 @@ impl Formula {
         self.names().any(|own| own == name)
     }
 
+    /// Same formula with other symbols for its names; `None` where `other` has none.
+    pub(crate) fn with_symbols(
+        &self,
+        other: impl FnMut(Symbol, &str, Type) -> Option<Symbol>,
+    ) -> Option<Self> {
+        Some(Self { text: self.text.clone(), arena: self.arena.with_symbols(other)? })
+    }
+
     /// Types of the symbols used.
     pub fn symbol_types(&self) -> impl Iterator<Item = Type> {
         self.arena.symbols.iter().map(|(_, kind)| *kind)
@@ -398,6 +427,29 @@ impl Draft {
         }
         draft.fix(product);
         Ok(Formula { text: draft.text, arena: draft.arena })
+    }
+}
+
+impl Type {
+    /// Formula of this type with the given components, row by row.
+    ///
+    /// # Errors
+    /// There are too few or too many components.
+    pub fn filled(self, components: &[Formula]) -> Composed {
+        let parts: Vec<&Formula> = components.iter().collect();
+        match (self, parts.as_slice()) {
+            (_, all) if all.len() != self.size() => {
+                let message = format!("{} components do not fill a {self}", all.len());
+                Err(FormulaError::new(0..0, message))
+            }
+            (Type::Scalar, all) => Ok(all[0].clone()),
+            (Type::Vector(_), all) => Formula::vector(all),
+            (Type::Matrix(_, columns), all) => {
+                let rows: Vec<Vec<&Formula>> =
+                    all.chunks(columns.max(1)).map(<[&Formula]>::to_vec).collect();
+                Formula::rows(&rows)
+            }
+        }
     }
 }
 

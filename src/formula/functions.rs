@@ -160,12 +160,7 @@ fn scalar(f: &mut Builder<'_>, function: Function, a: &[Operand], span: Span) ->
 }
 
 /// Builds the least or the greatest of some scalars.
-pub(super) fn extreme(
-    f: &mut Builder<'_>,
-    which: Extreme,
-    a: &[Operand],
-    span: Span,
-) -> Built {
+pub(super) fn extreme(f: &mut Builder<'_>, which: Extreme, a: &[Operand], span: Span) -> Built {
     let nodes: Vec<usize> = a.iter().map(|a| a.node).collect();
     let operation = Operation::Extreme(which, nodes.clone().into());
     Ok(f.push_folded(operation, &nodes, span, |numbers: &[&Rational]| {

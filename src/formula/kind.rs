@@ -70,6 +70,17 @@ impl Type {
         }
     }
 
+    /// Indices of the components, from 1: none for a scalar.
+    pub fn places(self) -> Vec<Vec<usize>> {
+        match self {
+            Type::Scalar => vec![Vec::new()],
+            Type::Vector(length) => (1..=length).map(|i| vec![i]).collect(),
+            Type::Matrix(rows, columns) => {
+                (1..=rows).flat_map(|i| (1..=columns).map(move |j| vec![i, j])).collect()
+            }
+        }
+    }
+
     /// Indices of the components, as they are written: none for a scalar, `[3]`, `[2,1]`.
     pub fn indices(self) -> Vec<String> {
         match self {

@@ -101,7 +101,8 @@ impl Formula {
             let before = all[..place].last().map(|token| token.kind);
             let after = all.get(place + 1).map_or(Kind::End, |token| token.kind);
             let wants = before.filter(|_| place > 0).map_or(Bond::Sum, |kind| {
-                let starts = |kind: Kind| matches!(kind, Kind::Open | Kind::OpenSquare | Kind::Comma);
+                let starts =
+                    |kind: Kind| matches!(kind, Kind::Open | Kind::OpenSquare | Kind::Comma);
                 let is_prefix = place < 2
                     || starts(all[place - 2].kind)
                     || matches!(all[place - 2].kind, Kind::Times | Kind::Slash | Kind::Caret);
@@ -109,8 +110,7 @@ impl Formula {
             });
             let wants = if index.is_empty() { wants.max(before_sign(after)) } else { Bond::Whole };
             let follows_operator = before.is_some_and(|kind| behind(kind, true) > Bond::Sum);
-            let in_brackets =
-                by.bond() < wants || (follows_operator && is_signed(by.written()));
+            let in_brackets = by.bond() < wants || (follows_operator && is_signed(by.written()));
             let (open, close) = if in_brackets { ("(", ")") } else { ("", "") };
             let text = format!("{open}{}{close}{index}", by.written());
             edits.push(Edit { span, text, inside: open.len() });
@@ -195,9 +195,11 @@ impl Rebuilding<'_> {
     /// Appends the other formula in the place of a symbol.
     fn put(&self, builder: &mut Builder<'_>, old: &Span, span: Span) -> NodeId {
         let inside = |edit: &&Edit| old.start <= edit.span.start && edit.span.end <= old.end;
-        let start = self.edits.iter().find(inside).map_or(span.start, |edit| {
-            self.moved(edit.span.start, false) + edit.inside
-        });
+        let start = self
+            .edits
+            .iter()
+            .find(inside)
+            .map_or(span.start, |edit| self.moved(edit.span.start, false) + edit.inside);
         let mut map: Vec<NodeId> = Vec::new();
         for own in &self.by.arena.nodes {
             let moved = |place: usize| (place + start).saturating_sub(self.by.leading());

@@ -148,7 +148,11 @@ impl Vocabulary {
         })
     }
 
-    fn check(&self, formula: &Formula, is_known: impl Fn(Symbol, &str) -> bool) -> Result<(), String> {
+    fn check(
+        &self,
+        formula: &Formula,
+        is_known: impl Fn(Symbol, &str) -> bool,
+    ) -> Result<(), String> {
         let types = formula.symbol_types().collect::<Vec<_>>();
         for ((symbol, name), kind) in formula.named_symbols().zip(types) {
             let entry = self.entries.get(symbol.0 as usize);

@@ -142,7 +142,12 @@ impl<'c> Sweep<'c> {
     }
 
     /// Records a claim for an engine of one's choice, which does not affect the numbers.
-    pub fn by(case: &'c Case, claim: &PlacedClaim, seed: u64, means: Means) -> Result<Self, SweepError> {
+    pub fn by(
+        case: &'c Case,
+        claim: &PlacedClaim,
+        seed: u64,
+        means: Means,
+    ) -> Result<Self, SweepError> {
         let sampler = Sampler::new(case, &claim.place, seed)?;
         if sampler.is_numerical() {
             return Err(SweepError::NoChart);

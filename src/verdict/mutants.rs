@@ -16,7 +16,7 @@ use super::judge::{JudgeError, Options};
 use super::recorded::Common;
 use super::run::Doubles;
 use super::sampler::{LANES, Sampler};
-use crate::case::{Case, PlacedClaim, Expect};
+use crate::case::{Case, Expect, PlacedClaim};
 use crate::claim::{Kind, Place};
 use crate::formula::Mutant;
 use crate::graph::{Expr, record};

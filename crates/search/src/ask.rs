@@ -2,23 +2,26 @@
 
 use super::{Effort, SearchError};
 use liouville::case::{Case, Expect};
-use liouville::claim::{Integral, Kind};
-use liouville::formula::Type;
+use liouville::claim::{Claim, Integral, Kind};
+use liouville::formula::{Composed, Formula, FormulaError, Type};
 use liouville::verdict::{ClaimReport, Evidence, Verdict, judge};
 
-/// Quotes a formula as a TOML string.
-pub fn quoted(formula: &str) -> String {
-    format!("\"{}\"", formula.replace('\\', "\\\\").replace('"', "\\\""))
-}
-
-/// Judges statements about a case, each the body of a claim, and returns the reports.
+/// Judges claims about a case, and returns the reports.
 pub fn judged(
     case: &Case,
-    statements: &[String],
+    claims: &[Claim],
     effort: &Effort,
 ) -> Result<Vec<ClaimReport>, SearchError> {
-    let text: String = statements.iter().map(|body| format!("[[claim]]\n{body}\n")).collect();
-    Ok(judge(&case.ask(&text)?, &effort.options)?.claims)
+    Ok(judge(&case.with_claims(claims)?, &effort.options)?.claims)
+}
+
+/// Judges one claim about a case.
+pub fn judged_alone(
+    case: &Case,
+    claim: Claim,
+    effort: &Effort,
+) -> Result<Option<ClaimReport>, SearchError> {
+    Ok(judged(case, &[claim], effort)?.into_iter().next())
 }
 
 /// Whether a claim was proved or confirmed.
@@ -26,20 +29,36 @@ pub fn holds(report: &ClaimReport) -> bool {
     matches!(report.verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
+/// The energy of a case, if it has one.
+pub fn energy(case: &Case) -> Option<Formula> {
+    Formula::name("energy", &case.model.vocabulary).ok()
+}
+
+/// Whether a formula is the energy by its name.
+pub fn is_energy(formula: &Formula) -> bool {
+    formula.text() == "energy"
+}
+
+/// The energy, where it is proved to be an integral.
+pub fn proved_energy(case: &Case, effort: &Effort) -> Result<Option<Formula>, SearchError> {
+    let Some(energy) = energy(case) else { return Ok(None) };
+    let report = judged_alone(case, Claim::integral(&energy), effort)?;
+    // Theorems rest on it: what is seen in numbers is not enough.
+    Ok(report.filter(|report| report.verdict == Verdict::Proved).map(|_| energy))
+}
+
 /// Returns the grounds on which a formula is not a function of others, the energy and the level
 /// functions; `None` if it is.
 pub fn independent(
     case: &Case,
-    known: &[String],
-    formula: &str,
+    known: &[Formula],
+    formula: &Formula,
     effort: &Effort,
 ) -> Result<Option<Evidence>, SearchError> {
-    let energy = case.model.vocabulary.find("energy").map(|_| "energy");
-    let texts = known.iter().map(String::as_str).chain(energy).chain([formula]);
-    let list: Vec<String> = texts.map(quoted).collect();
-    let reports = judged(case, &[format!("independent = [{}]", list.join(", "))], effort)?;
-    let proved = |report: &ClaimReport| report.verdict == Verdict::Proved;
-    Ok(reports.into_iter().find(proved).map(|report| report.evidence))
+    let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
+    let report = judged_alone(case, Claim::independent(all.collect()), effort)?;
+    let proved = report.filter(|report| report.verdict == Verdict::Proved);
+    Ok(proved.map(|report| report.evidence))
 }
 
 /// A component of an integral that a case claims.
@@ -47,8 +66,8 @@ pub fn independent(
 pub struct Claimed {
     /// Name of the claim.
     pub name: String,
-    /// Scalar formula of the integral, or of a component of it.
-    pub formula: String,
+    /// Integral, or a component of it.
+    pub formula: Formula,
 }
 
 /// Lists the integrals that a case claims and that are proved, component by component, without functions
@@ -60,14 +79,13 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
     let mut all = Vec::new();
     for claim in case.claims.iter().filter(|claim| claim.expect == Expect::Holds) {
         if let Kind::Integral(Integral(own)) = &claim.kind {
-            let formulas = components(own.text(), own.value_type()).into_iter();
+            let formulas = components(own)?.into_iter();
             all.extend(formulas.map(|formula| Claimed { name: claim.name.clone(), formula }));
         }
     }
-    let statements: Vec<String> =
-        all.iter().map(|one| format!("integral = {}", quoted(&one.formula))).collect();
+    let claims: Vec<Claim> = all.iter().map(|one| Claim::integral(&one.formula)).collect();
     let mut found = Vec::new();
-    for (one, report) in all.into_iter().zip(judged(case, &statements, effort)?) {
+    for (one, report) in all.into_iter().zip(judged(case, &claims, effort)?) {
         // A theorem rests on what is proved.
         if report.verdict == Verdict::Proved
             && independent(case, &[], &one.formula, effort)?.is_some()
@@ -78,11 +96,17 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
     Ok(found)
 }
 
-/// Splits a formula into its components as separate formulas.
-pub fn components(text: &str, kind: Type) -> Vec<String> {
-    match kind {
-        Type::Scalar => vec![text.to_string()],
-        _ => kind.indices().iter().map(|index| format!("({text}){index}")).collect(),
+/// Splits a formula into its components.
+pub fn components(formula: &Formula) -> Result<Vec<Formula>, FormulaError> {
+    let whole = formula.bracketed();
+    let at = |indices: &[usize]| -> Composed { whole.component(indices) };
+    match formula.value_type() {
+        Type::Scalar => Ok(vec![formula.clone()]),
+        Type::Vector(length) => (1..=length).map(|i| at(&[i])).collect(),
+        Type::Matrix(rows, columns) => {
+            let pairs = (1..=rows).flat_map(|i| (1..=columns).map(move |j| [i, j]));
+            pairs.map(|pair| at(&pair)).collect()
+        }
     }
 }
 
@@ -97,7 +121,7 @@ mod tests {
                     potential = '(q,q)²'\n[[claim]]\nname = 'L'\nintegral = \"q × q'\"\n";
         let case = Case::parse(text, &[]).expect("a case");
         let known = claimed(&case, &Effort::default()).expect("judged");
-        let formulas: Vec<&str> = known.iter().map(|one| one.formula.as_str()).collect();
+        let formulas: Vec<&str> = known.iter().map(|one| one.formula.text()).collect();
         assert_eq!(formulas, ["(q × q')[1]", "(q × q')[2]", "(q × q')[3]"]);
         assert!(known.iter().all(|one| one.name == "L"), "all come from one claim");
     }

@@ -3,7 +3,7 @@
 
 use super::ansatz::Hamiltonians;
 use super::terms::recorded;
-use super::{Effort, Report, SearchError};
+use super::{Effort, Report, SearchError, Term};
 use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::formula::Formula;
@@ -36,12 +36,14 @@ pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
         return Ok(true);
     }
     let given = match &effort.poisson {
-        Some(Hamiltonians::Given(text)) => Some(text),
+        Some(Hamiltonians::Given(text)) => Formula::parse(text, &case.model.vocabulary).ok(),
         Some(Hamiltonians::Known) | None => None,
     };
-    let texts = effort.terms.iter().chain(given);
-    let typed: Vec<Formula> =
-        texts.filter_map(|text| Formula::parse(text, &case.model.vocabulary).ok()).collect();
+    let terms = effort.terms.iter().filter_map(|term| match term {
+        Term::Formula(formula) => Some(formula.clone()),
+        Term::Text(text) => Formula::parse(text, &case.model.vocabulary).ok(),
+    });
+    let typed: Vec<Formula> = terms.chain(given).collect();
     let (graph, outputs) = recorded(case, |jet| {
         let mut outputs = jet.phase.field().to_vec();
         for formula in &typed {

@@ -9,6 +9,7 @@ use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, Report, SearchError};
 use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::mechanics::Draw;
 use liouville::number::rational::Rational;
 
@@ -262,7 +263,7 @@ pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
         (false, true) => " Potential, gyrostat and moments are those of the case.",
         (false, false) => "",
     };
-    let names: Vec<&str> = all.names().collect();
+    let names: Vec<&str> = all.formulas().map(Formula::text).collect();
     let what = match names.as_slice() {
         [] => format!(
             "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."

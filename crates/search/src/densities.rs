@@ -3,21 +3,22 @@
 //!
 //! v(ln ρ) + div v is linear in the exponents of ρ = Π f^α, and so is v(ln F) for F = P Π f^α.
 
-use super::ask::{holds, judged, quoted};
+use super::ask::{holds, judged_alone};
 use super::integrals::tell;
 use super::library;
 use super::linear::Functions;
-use super::terms::{Term, powers, read, recorded};
+use super::terms::{one, powers, recorded};
 use super::{Effort, Found, Report, SearchError};
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::{Claim, Place};
+use liouville::formula::{Composed, Formula};
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
 
 /// Factors, exponents, and their rates along the motion.
 struct Logarithms {
-    factors: Vec<Term>,
-    exponents: Vec<Term>,
+    factors: Vec<Formula>,
+    exponents: Vec<Formula>,
     graph: Graph,
     /// Products of v(ln f) with each exponent, factor by factor.
     rates: Vec<Vec<Expr>>,
@@ -26,39 +27,47 @@ struct Logarithms {
 /// Searches for densities and integrals of this form.
 pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let model = &case.model;
-    let factors = read(library::factors(model), &model.vocabulary);
-    let exponents = read(library::exponents(model), &model.vocabulary);
-    let forms = read(library::linear_factors(model), &model.vocabulary);
+    let factors = library::factors(model);
+    let exponents = library::exponents(model);
+    let forms = library::linear_factors(model);
     let kept = Place::level(model).kept;
     let (graph, (divergence, rates, moving)) = recorded(case, |jet| {
         let moved = jet.along_field();
         let growth =
-            |term: &Term| term.formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
+            |term: &Formula| term.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         let mut rates = Vec::new();
         for factor in &factors {
             let rate = growth(factor);
-            rates.extend(exponents.iter().map(|t| vec![rate * jet.phase.scalar(&t.formula)]));
+            rates.extend(exponents.iter().map(|t| vec![rate * jet.phase.scalar(t)]));
         }
         let moving: Vec<Vec<Expr>> = forms.iter().map(|form| vec![growth(form)]).collect();
         (vec![jet.divergence() - jet.level_cofactor(&kept)], rates, moving)
     })?;
     let logarithms = Logarithms { factors, exponents, graph, rates };
     if let Some(product) = logarithms.solve(case, divergence, effort)? {
-        let formula = if product.is_empty() { "1".to_string() } else { product.join("*") };
-        let reports = judged(case, &[format!("density = {}", quoted(&formula))], effort)?;
-        if let Some(found) = reports.into_iter().find(holds) {
+        let formula = multiplied(&product)?;
+        let judged = judged_alone(case, Claim::density(&formula), effort)?;
+        if let Some(found) = judged.filter(holds) {
             report.found.push(Found::new("density", &formula, None, found, model));
         }
     }
     for (form, rate) in forms.into_iter().zip(moving) {
         let Some(product) = logarithms.solve(case, rate, effort)? else { continue };
-        let formula = [vec![form.text], product].concat().join("*");
-        let reports = judged(case, &[format!("integral = {}", quoted(&formula))], effort)?;
-        if let Some(found) = reports.into_iter().find(holds) {
+        let formula = multiplied(&[vec![form], product].concat())?;
+        let judged = judged_alone(case, Claim::integral(&formula), effort)?;
+        if let Some(found) = judged.filter(holds) {
             tell(case, &formula, found, effort, report)?;
         }
     }
     Ok(())
+}
+
+/// Product of some factors; 1 of none.
+fn multiplied(factors: &[Formula]) -> Composed {
+    match factors.split_first() {
+        None => Ok(one()),
+        Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
+    }
 }
 
 impl Logarithms {
@@ -68,7 +77,7 @@ impl Logarithms {
         case: &Case,
         target: Vec<Expr>,
         effort: &Effort,
-    ) -> Result<Option<Vec<String>>, SearchError> {
+    ) -> Result<Option<Vec<Formula>>, SearchError> {
         let columns: Vec<Vec<Expr>> = self.rates.iter().cloned().chain([target]).collect();
         let mut functions = Functions::new(case, &self.graph, &columns, effort.options.seed)?;
         let defined = functions.defined();
@@ -90,7 +99,6 @@ impl Logarithms {
         for (place, value) in defined.iter().zip(&vector[..vector.len() - 1]) {
             exponents[*place] = value.clone();
         }
-        let names: Vec<&str> = self.exponents.iter().map(|term| term.text.as_str()).collect();
-        Ok(Some(powers(&exponents, &self.factors, &names)))
+        Ok(Some(powers(&exponents, &self.factors, &self.exponents)?))
     }
 }

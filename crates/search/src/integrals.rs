@@ -2,14 +2,15 @@
 
 use num_dual::Dual;
 
-use super::ask::{holds, independent, judged, quoted};
+use super::ask::{holds, independent, judged};
 use super::library;
 use super::linear::Functions;
 use super::second_opinion::second_opinion;
-use super::terms::{Term, read, recorded, sum};
+use super::terms::{is_one, recorded, sum};
 use super::{Effort, Found, Report, SearchError};
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::{Claim, Place};
+use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -19,10 +20,9 @@ use liouville::verdict::{ClaimReport, Independence};
 pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let candidates = over_denominators(case, &terms, &Rational::from(0), effort, report)?;
-    let statements: Vec<String> =
-        candidates.iter().map(|formula| format!("integral = {}", quoted(formula))).collect();
-    let reports = judged(case, &statements, effort)?;
-    let mut proved: Vec<(String, ClaimReport)> = candidates
+    let claims: Vec<Claim> = candidates.iter().map(Claim::integral).collect();
+    let reports = judged(case, &claims, effort)?;
+    let mut proved: Vec<(Formula, ClaimReport)> = candidates
         .into_iter()
         .zip(reports)
         .filter(|(_, found)| {
@@ -31,7 +31,7 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
         })
         .collect();
     // Of functions that depend on each other, the shortest is reported.
-    proved.sort_by_key(|(formula, _)| formula.chars().count());
+    proved.sort_by_key(|(formula, _)| formula.text().chars().count());
     for (formula, found) in proved {
         effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
@@ -42,12 +42,12 @@ pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
 /// Adds an integral to the report, unless it depends on those already there.
 pub fn tell(
     case: &Case,
-    formula: &str,
+    formula: &Formula,
     found: ClaimReport,
     effort: &Effort,
     report: &mut Report,
 ) -> Result<(), SearchError> {
-    let told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
+    let told: Vec<Formula> = report.functions("integral").cloned().collect();
     if independent(case, &told, formula, effort)?.is_none() {
         return Ok(());
     }
@@ -65,16 +65,15 @@ pub fn tell(
 
 /// Lists the terms given by the user and offered by the system, without those that depend on
 /// others.
-pub fn terms(case: &Case, effort: &Effort, report: &mut Report) -> Result<Vec<Term>, SearchError> {
+pub fn terms(
+    case: &Case,
+    effort: &Effort,
+    report: &mut Report,
+) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
-    let vocabulary = &model.vocabulary;
-    let own = read(effort.terms.clone(), vocabulary);
-    if own.len() < effort.terms.len() {
-        let unread = |text: &&String| !own.iter().any(|term| &term.text == *text);
-        let text = effort.terms.iter().find(unread).cloned().unwrap_or_default();
-        return Err(SearchError::NoTerm(text));
-    }
-    let offered = read(library::integrals(model), vocabulary);
+    let own: Result<Vec<Formula>, SearchError> =
+        effort.terms.iter().map(|term| term.read(model)).collect();
+    let (own, offered) = (own?, library::integrals(model));
     distinct(case, [own, offered].concat(), effort, report)
 }
 
@@ -82,26 +81,26 @@ pub fn terms(case: &Case, effort: &Effort, report: &mut Report) -> Result<Vec<Te
 /// points; α, the weight, is 0 for integrals.
 pub fn over_denominators(
     case: &Case,
-    terms: &[Term],
+    terms: &[Formula],
     weight: &Rational,
     effort: &Effort,
     report: &mut Report,
-) -> Result<Vec<String>, SearchError> {
+) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
     let kept = Place::level(model).kept;
     let mut candidates = Vec::new();
     if terms.is_empty() {
         return Ok(candidates);
     }
-    for denominator in read(library::denominators(model), &model.vocabulary) {
+    for denominator in library::denominators(model) {
         effort.halt.check()?;
         let (graph, rates) = recorded(case, |jet| {
             let moved = jet.along_field();
-            let below: Dual<Expr> = moved.scalar(&denominator.formula);
+            let below: Dual<Expr> = moved.scalar(&denominator);
             let growth = (!weight.is_zero())
                 .then(|| Expr::rational(weight) * (jet.divergence() - jet.level_cofactor(&kept)));
-            let rate = |term: &Term| {
-                let value: Dual<Expr> = moved.scalar(&term.formula) / below;
+            let rate = |term: &Formula| {
+                let value: Dual<Expr> = moved.scalar(term) / below;
                 growth.map_or(value.eps, |growth| value.eps + growth * value.re)
             };
             terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
@@ -110,16 +109,17 @@ pub fn over_denominators(
         let mut functions = Functions::new(case, &graph, &rates, seed)?;
         let (vectors, irrational) = functions.relations()?.rational();
         let dimension = vectors.len() + irrational;
-        report.opinions.extend(second_opinion(&functions, &denominator.text, dimension, seed));
+        report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
         if irrational > 0 {
             let many = format!("{irrational} relations have no small rational coefficients");
             report.remark(many);
         }
-        let texts: Vec<&str> = terms.iter().map(|term| term.text.as_str()).collect();
-        candidates.extend(vectors.iter().map(|vector| match denominator.text.as_str() {
-            "1" => sum(vector, &texts),
-            below => format!("({})/{below}", sum(vector, &texts)),
-        }));
+        let written = |vector: &Vec<Rational>| {
+            let above = sum(vector, terms)?;
+            if is_one(&denominator) { Ok(above) } else { above.bracketed() / &denominator }
+        };
+        let written: Result<Vec<Formula>, FormulaError> = vectors.iter().map(written).collect();
+        candidates.extend(written?);
     }
     Ok(candidates)
 }
@@ -127,12 +127,12 @@ pub fn over_denominators(
 /// Keeps the terms that do not depend on earlier ones on the level.
 fn distinct(
     case: &Case,
-    terms: Vec<Term>,
+    terms: Vec<Formula>,
     effort: &Effort,
     report: &mut Report,
-) -> Result<Vec<Term>, SearchError> {
+) -> Result<Vec<Formula>, SearchError> {
     let (graph, values) = recorded(case, |jet| {
-        terms.iter().map(|term| vec![jet.phase.scalar(&term.formula)]).collect::<Vec<_>>()
+        terms.iter().map(|term| vec![jet.phase.scalar(term)]).collect::<Vec<_>>()
     })?;
     let mut functions = Functions::new(case, &graph, &values, effort.options.seed)?;
     let defined = functions.defined();

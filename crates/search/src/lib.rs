@@ -35,10 +35,11 @@ mod terms;
 
 use serde::Serialize;
 
-use self::ask::{Claimed, quoted};
-use liouville::case::{Case, CaseError};
+use self::ask::Claimed;
+use liouville::case::{Case, ClaimError};
+use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Fault;
-use liouville::mechanics::Model;
+use liouville::mechanics::{Meaning, Model};
 use liouville::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
 pub use absence::judge;
@@ -92,8 +93,11 @@ pub enum SearchError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// The candidate is not a valid claim for this case.
-    #[error("a find cannot be read in the names of the case: {0}")]
-    Unreadable(#[from] CaseError),
+    #[error("a find cannot be claimed of the case: {0}")]
+    Unfit(#[from] ClaimError),
+    /// A formula cannot be made of others.
+    #[error("a find cannot be written: {0}")]
+    Unwritten(#[from] FormulaError),
     /// Judging failed.
     #[error(transparent)]
     Judge(#[from] JudgeError),
@@ -127,7 +131,7 @@ pub struct Effort {
     /// Whether the claims of the case are ignored.
     pub blind: bool,
     /// Terms of integrals in addition to those offered by the system.
-    pub terms: Vec<String>,
+    pub terms: Vec<Term>,
     /// Search for conditions on the parameters, if any.
     pub conditions: Option<Wanted>,
     /// Time in seconds above which a count is left out.
@@ -159,6 +163,46 @@ impl Default for Effort {
     }
 }
 
+/// A further term that integrals may contain.
+#[derive(Clone, Debug)]
+pub enum Term {
+    /// Text in the names of the case.
+    Text(String),
+    /// Formula of the case.
+    Formula(Formula),
+}
+
+impl From<&str> for Term {
+    fn from(text: &str) -> Self {
+        Term::Text(text.to_string())
+    }
+}
+
+impl From<String> for Term {
+    fn from(text: String) -> Self {
+        Term::Text(text)
+    }
+}
+
+impl From<Formula> for Term {
+    fn from(formula: Formula) -> Self {
+        Term::Formula(formula)
+    }
+}
+
+impl Term {
+    /// The term as a scalar of the case.
+    fn read(&self, model: &Model) -> Result<Formula, SearchError> {
+        match self {
+            Term::Formula(formula) => Ok(formula.clone()),
+            Term::Text(text) => {
+                let read = terms::read([text.as_str()], &model.vocabulary).pop();
+                read.ok_or_else(|| SearchError::NoTerm(text.clone()))
+            }
+        }
+    }
+}
+
 /// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
@@ -183,38 +227,65 @@ pub struct Found {
     pub verdict: Verdict,
     /// Evidence for the verdict.
     pub evidence: Evidence,
+    /// The invariant itself, where it is one function.
+    #[serde(skip)]
+    pub function: Option<Formula>,
 }
 
 impl Found {
-    /// Makes a find from a formula and its evidence.
+    /// Makes a find from a function and its evidence.
     fn new(
         kind: &'static str,
-        formula: &str,
+        function: &Formula,
         known: Option<String>,
         report: ClaimReport,
         model: &Model,
     ) -> Self {
-        let mut needed = vec![formula];
+        let text = function.to_string();
+        let mut found = Self::of_several(kind, text, &[function], report, model);
+        found.known = known;
+        found.function = Some(function.clone());
+        found
+    }
+
+    /// Makes a find that consists of several formulas, with its text.
+    fn of_several(
+        kind: &'static str,
+        text: String,
+        formulas: &[&Formula],
+        report: ClaimReport,
+        model: &Model,
+    ) -> Self {
+        let mut needed = formulas.to_vec();
         let mut abbreviations = library::abbreviations(model);
         abbreviations.reverse();
-        abbreviations.retain(|(name, text)| {
-            let used = needed.iter().any(|formula| formula.contains(name));
-            if used {
-                needed.push(text);
+        abbreviations.retain(|(name, _)| {
+            let used = needed.iter().any(|formula| formula.uses(name));
+            if let (true, Some(own)) = (used, abbreviation(model, name)) {
+                needed.push(own);
             }
             used
         });
         abbreviations.reverse();
         Self {
             kind,
-            formula: formula.to_string(),
+            formula: text,
+            function: None,
             abbreviations,
             with: Vec::new(),
             trivial: false,
-            known,
+            known: None,
             verdict: report.verdict,
             evidence: report.evidence,
         }
+    }
+}
+
+/// Formula of an abbreviation, by its name.
+fn abbreviation<'m>(model: &'m Model, name: &str) -> Option<&'m Formula> {
+    match model.vocabulary.find(name)?.meaning {
+        Meaning::Abbreviation(index) => model.abbreviations.get(index),
+        _ => None,
     }
 }
 
@@ -262,9 +333,16 @@ pub struct Report {
 impl Report {
     /// Returns the formulas of one kind found for the case without additional data.
     pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
-        let own = move |found: &&Found| found.kind == kind && found.with.is_empty();
-        let found = self.found.iter().filter(own);
-        found.map(|found| found.formula.as_str())
+        self.of_case(kind).map(|found| found.formula.as_str())
+    }
+
+    /// Returns the functions of one kind found for the case without additional data.
+    pub fn functions(&self, kind: &str) -> impl Iterator<Item = &Formula> {
+        self.of_case(kind).filter_map(|found| found.function.as_ref())
+    }
+
+    fn of_case(&self, kind: &str) -> impl Iterator<Item = &Found> {
+        self.found.iter().filter(move |found| found.kind == kind && found.with.is_empty())
     }
 
     fn remark(&mut self, remark: String) {
@@ -339,10 +417,12 @@ pub fn search(
 
 /// Extends the case by the names that the library's terms use.
 fn abbreviated(case: &Case) -> Result<Case, SearchError> {
-    let names = library::abbreviations(&case.model);
-    let definition = |(name, text): &(&str, &str)| format!("{} = {}\n", quoted(name), quoted(text));
-    let entries: String = names.iter().map(definition).collect();
-    let mut named = case.ask(&format!("[let]\n{entries}"))?;
-    named.claims = case.claims.clone();
+    let mut named = case.clone();
+    named.motions.clear();
+    named.absences.clear();
+    for (name, text) in library::abbreviations(&case.model) {
+        let formula = named.formula(text)?;
+        named.define(name, &formula)?;
+    }
     Ok(named)
 }

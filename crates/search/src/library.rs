@@ -1,21 +1,36 @@
 //! Library of terms for integrals and densities, in the names of a case.
 //!
 //! Coefficients of the terms are unknown rational numbers, the same for all values of the
-//! parameters; the terms themselves therefore contain parameters.
+//! parameters; the terms themselves therefore contain parameters. A term that uses a name the case
+//! does not have, or has with another type, is not offered.
 
-use liouville::formula::Type;
+use super::terms::{is_one, one};
+use liouville::formula::{Composed, Formula, Type};
 use liouville::mechanics::{Meaning, Model, System};
-
-/// Texts of formulas.
-pub type Texts = Vec<String>;
 
 fn has(model: &Model, name: &str, kind: Type) -> bool {
     let own = |meaning| !matches!(meaning, Meaning::Abbreviation(_));
     model.vocabulary.find(name).is_some_and(|entry| entry.kind == kind && own(entry.meaning))
 }
 
-/// Names the scalar parameters in the formula of a potential.
-fn potential_parameters(model: &Model) -> Texts {
+/// Reads formulas of the library that the case has names for.
+fn known(model: &Model, texts: &[&str]) -> Vec<Formula> {
+    texts.iter().filter_map(|text| Formula::parse(text, &model.vocabulary).ok()).collect()
+}
+
+/// Reads scalars of the library that the case has names for.
+fn scalars(model: &Model, texts: &[&str]) -> Vec<Formula> {
+    kept(known(model, texts).into_iter().map(Ok))
+}
+
+/// Keeps the formulas that can be made, and are scalars.
+fn kept(made: impl IntoIterator<Item = Composed>) -> Vec<Formula> {
+    let scalar = |formula: &Formula| formula.value_type() == Type::Scalar;
+    made.into_iter().flatten().filter(scalar).collect()
+}
+
+/// Scalar parameters in the formula of a potential.
+fn potential_parameters(model: &Model) -> Vec<Formula> {
     use liouville::mechanics::Potential;
     let potential = match &model.system {
         System::Rubber(body) => &body.potential,
@@ -24,49 +39,111 @@ fn potential_parameters(model: &Model) -> Texts {
     };
     let Some(Potential::Formula(formula)) = potential else { return Vec::new() };
     let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
-    formula
+    let names = formula
         .symbols()
         .map(|symbol| model.vocabulary.entry(symbol))
         .filter(|entry| matches!(entry.meaning, Meaning::Parameter(_)))
         .filter(|entry| entry.kind == Type::Scalar && !bodily.contains(&entry.name.as_str()))
-        .map(|entry| entry.name.clone())
-        .collect()
+        .map(|entry| entry.name.as_str());
+    known(model, &names.collect::<Vec<_>>())
 }
 
-/// Joins factors, omitting `1`.
-fn product(factors: &[&str]) -> String {
-    let kept: Vec<&str> = factors.iter().copied().filter(|factor| *factor != "1").collect();
-    if kept.is_empty() { "1".to_string() } else { kept.join("*") }
+/// Product of two factors, of which one may be 1.
+fn product(a: &Formula, b: &Formula) -> Composed {
+    match (is_one(a), is_one(b)) {
+        (true, _) => Ok(b.clone()),
+        (_, true) => Ok(a.clone()),
+        _ => a * b,
+    }
 }
 
 /// Building blocks offered by a system.
 struct Pieces {
     /// Vectors linear in the velocities.
-    linear: Texts,
+    linear: Vec<Formula>,
     /// Scalars linear in the velocities.
-    forms: Texts,
+    forms: Vec<Formula>,
     /// Vector that is constant in space, if there is one: (a,γ) is a form for each vector a.
-    normal: Option<&'static str>,
+    normal: Option<Formula>,
     /// Functions of the configuration and the parameters.
-    weights: Texts,
+    weights: Vec<Formula>,
     /// Terms without velocities that a potential may require.
-    free: Texts,
+    free: Vec<Formula>,
 }
 
 /// Terms for potentials that separate in the sphero-conical coordinates of a tensor A: polynomials
 /// of degree 2 and 4, and p/γ_k².
-fn separable(parameter: &str, a: &str) -> Texts {
+fn separable(model: &Model, parameter: &Formula, a: &Formula) -> Option<Vec<Formula>> {
+    let [normal, components @ ..] = ["γ", "γ1", "γ2", "γ3"].map(|name| model_name(model, name));
+    let normal = normal?;
+    let turned = (a * &normal).ok()?;
+    let square = normal.dot(&turned).ok()?;
+    let adjugate = Formula::call("adj", &[a]).ok()?;
+    let dual = normal.dot(&(&adjugate * &normal).ok()?).ok()?;
+    let trace = Formula::call("tr", &[a]).ok()?;
     let mut terms = vec![
-        format!("{parameter}*(γ,adj({a})*γ)"),
-        format!("{parameter}*tr({a})*(γ,{a}*γ)"),
-        format!("{parameter}*({a}*γ,{a}*γ)"),
-        format!("{parameter}*(γ,{a}*γ)*(γ,adj({a})*γ)"),
+        parameter * &dual,
+        parameter * &trace * &square,
+        turned.dot(&turned).and_then(|squared| parameter * &squared),
+        parameter * &square * &dual,
     ];
-    for k in 1..=3 {
-        let entries = [format!("({a})[{k},{k}]"), format!("tr({a})"), format!("(γ,{a}*γ)")];
-        terms.extend(entries.iter().map(|entry| format!("{parameter}/γ{k}²*{entry}")));
+    for (k, component) in components.into_iter().enumerate() {
+        let below = component?.raised(2).ok()?;
+        let entry = a.bracketed().component(&[k + 1, k + 1]).ok()?;
+        terms.extend([&entry, &trace, &square].map(|factor| parameter / &below * factor));
     }
-    terms
+    Some(kept(terms))
+}
+
+fn model_name(model: &Model, name: &str) -> Option<Formula> {
+    Formula::name(name, &model.vocabulary).ok()
+}
+
+/// Terms of a rubber body for each parameter of its potential.
+fn potential_terms(model: &Model, pieces: &mut Pieces, constant: &str) {
+    let Some((tensor, normal)) = model_name(model, constant).zip(model_name(model, "γ")) else {
+        return;
+    };
+    for parameter in potential_parameters(model) {
+        let trace = Formula::call("tr", &[&tensor]);
+        let adjugate = Formula::call("adj", &[&tensor]);
+        let moving = model_name(model, "Ĩ");
+        for own in [Some(tensor.clone()), adjugate.ok(), moving].into_iter().flatten() {
+            let square = (&own * &normal).and_then(|turned| normal.dot(&turned));
+            let Ok(square) = square else { continue };
+            let traced = trace.clone().and_then(|trace| &parameter * &trace * &square);
+            pieces.free.extend(kept([&parameter * &square, traced]));
+        }
+        let turned = tensor.raised(-1).and_then(|inverse| &inverse * &normal);
+        let scaled = Formula::call("det", &[&tensor]).and_then(|volume| &parameter * &volume);
+        if let (Ok(turned), Ok(scaled)) = (turned, scaled) {
+            pieces.free.extend(kept([turned.dot(&turned).and_then(|square| &scaled * &square)]));
+        }
+        let own = match has(model, "B", Type::MATRIX) {
+            true => known(model, &["B⁻¹"]).pop(),
+            false => Some(tensor.clone()),
+        };
+        let terms = own.and_then(|own| separable(model, &parameter, &own));
+        pieces.free.extend(terms.unwrap_or_default());
+    }
+}
+
+/// Terms of a ball on a surface for each parameter of its potential.
+fn surface_terms(model: &Model, pieces: &mut Pieces) {
+    let Some(sum) = known(model, &["(μ + D)"]).pop() else { return };
+    let square = known(model, &["(r,B⁻¹*r)"]).pop();
+    for parameter in potential_parameters(model) {
+        let Ok(coefficient) = &sum * &parameter else { continue };
+        pieces.free.push(coefficient.clone());
+        pieces.free.extend(kept(square.iter().map(|square| &coefficient * square)));
+        for (entry, component) in [("B11", "r1"), ("B22", "r2"), ("B33", "r3")] {
+            let own = model_name(model, entry).zip(model_name(model, component));
+            let Some((entry, component)) = own else { continue };
+            let Ok(component) = component.raised(2) else { continue };
+            let below = (&entry * &component).and_then(|below| &coefficient / &below);
+            pieces.free.extend(kept([below, &coefficient * &component / &entry]));
+        }
+    }
 }
 
 fn pieces(model: &Model) -> Pieces {
@@ -77,96 +154,71 @@ fn pieces(model: &Model) -> Pieces {
         linear: Vec::new(),
         forms: Vec::new(),
         normal: None,
-        weights: vec!["1".to_string()],
+        weights: vec![one()],
         free: Vec::new(),
     };
     match &model.system {
         System::Rubber(body) => {
-            pieces.normal = Some("γ");
+            pieces.normal = model_name(model, "γ");
             let constant = if matrix("J") { "J" } else { "I" };
-            for tensor in ["Ĩ", constant] {
-                pieces.linear.push(format!("{tensor}*ω"));
-            }
+            let turned = if constant == "J" { "J*ω" } else { "I*ω" };
+            pieces.linear.extend(known(model, &["Ĩ*ω", turned]));
             if matrix("B") {
-                pieces.linear.push("B⁻¹*ω".to_string());
+                pieces.linear.extend(known(model, &["B⁻¹*ω"]));
             }
-            pieces.linear.push("ω".to_string());
-            if let Some(rotor) = &body.gyrostat {
-                pieces.linear.push(rotor.text().to_string());
-            }
-            pieces.forms.push("ω3".to_string());
-            pieces.weights.push("m".to_string());
+            pieces.linear.extend(known(model, &["ω"]));
+            pieces.linear.extend(body.gyrostat.clone());
+            pieces.forms.extend(known(model, &["ω3"]));
+            let mut weights = vec!["m"];
             if scalar("R") {
-                pieces.weights.push("m*R²".to_string());
+                weights.push("m*R²");
             }
             if scalar("R") && vector("c") {
-                pieces.weights.extend(["m*R*(γ,c)", "m*(c,c)"].map(str::to_string));
+                weights.extend(["m*R*(γ,c)", "m*(c,c)"]);
             }
             if matrix("J") {
-                pieces
-                    .weights
-                    .extend(["(γ,J*γ)", "(γ,adj(J)*(J⁻¹*γ))", "(γ,J⁻¹*γ)"].map(str::to_string));
+                weights.extend(["(γ,J*γ)", "(γ,adj(J)*(J⁻¹*γ))", "(γ,J⁻¹*γ)"]);
             }
             if matrix("B") {
-                pieces.weights.push("tr(B)*m".to_string());
+                weights.push("tr(B)*m");
             }
             if scalar("μ") {
-                pieces.weights.push("μ".to_string());
+                weights.push("μ");
             }
-            pieces.weights.extend(["m*r²", "m*(r,γ)²"].map(str::to_string));
-            for parameter in potential_parameters(model) {
-                for tensor in [constant, &format!("adj({constant})"), "Ĩ"] {
-                    pieces.free.push(format!("{parameter}*(γ,{tensor}*γ)"));
-                    pieces.free.push(format!("{parameter}*tr({constant})*(γ,{tensor}*γ)"));
-                }
-                pieces
-                    .free
-                    .push(format!("{parameter}*det({constant})*({constant}⁻¹*γ,{constant}⁻¹*γ)"));
-                let tensor = if matrix("B") { "B⁻¹" } else { constant };
-                pieces.free.extend(separable(&parameter, tensor));
-            }
-            if body.potential.is_some() {
-                pieces.free.extend(pieces.weights.iter().map(|weight| product(&["U", weight])));
-                pieces.free.push("U*(γ,adj(B⁻¹)*(B*γ))".to_string());
+            weights.extend(["m*r²", "m*(r,γ)²"]);
+            pieces.weights.extend(scalars(model, &weights));
+            potential_terms(model, &mut pieces, constant);
+            if let (true, Some(potential)) = (body.potential.is_some(), model_name(model, "U")) {
+                let weighted = pieces.weights.iter().map(|weight| product(&potential, weight));
+                pieces.free.extend(kept(weighted.collect::<Vec<_>>()));
+                pieces.free.extend(scalars(model, &["U*(γ,adj(B⁻¹)*(B*γ))"]));
             }
         }
         System::FlatBase(body) => {
-            pieces.linear.extend(["Ĩ*ω", "I*ω", "ω"].map(str::to_string));
-            if let Some(rotor) = &body.gyrostat {
-                pieces.linear.push(rotor.text().to_string());
-            }
-            pieces.forms.push("(r1*ω1 + r2*ω2)".to_string());
-            let weights = ["m", "m*(r1² + r2²)", "m*z²"];
-            pieces.weights.extend(weights.map(str::to_string));
+            pieces.linear.extend(known(model, &["Ĩ*ω", "I*ω", "ω"]));
+            pieces.linear.extend(body.gyrostat.clone());
+            pieces.forms.extend(scalars(model, &["(r1*ω1 + r2*ω2)"]));
+            pieces.weights.extend(scalars(model, &["m", "m*(r1² + r2²)", "m*z²"]));
         }
         System::Ball(_) => {
-            pieces.normal = Some("γ");
-            pieces.linear.extend(["(γ × M)", "M"].map(str::to_string));
+            pieces.normal = model_name(model, "γ");
+            pieces.linear.extend(known(model, &["(γ × M)", "M"]));
             if matrix("B") {
-                pieces.linear.extend(["B⁻¹*(γ × M)", "B⁻¹*M"].map(str::to_string));
+                pieces.linear.extend(known(model, &["B⁻¹*(γ × M)", "B⁻¹*M"]));
             }
-            pieces.forms.push("M3".to_string());
+            pieces.forms.extend(scalars(model, &["M3"]));
             if matrix("B") {
-                for parameter in potential_parameters(model) {
-                    let coefficient = format!("(μ + D)*{parameter}");
-                    pieces.free.extend([coefficient.clone(), format!("{coefficient}*(r,B⁻¹*r)")]);
-                    pieces.free.extend((1..=3).flat_map(|i| {
-                        let below = format!("{coefficient}/(B{i}{i}*r{i}²)");
-                        [below, format!("{coefficient}*r{i}²/B{i}{i}")]
-                    }));
-                }
+                surface_terms(model, &mut pieces);
             }
         }
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
             for variable in &model.state {
+                let Some(own) = model_name(model, &variable.name) else { continue };
                 match variable.kind {
-                    Type::VECTOR => pieces.linear.push(variable.name.clone()),
-                    Type::Scalar => pieces.forms.push(variable.name.clone()),
-                    Type::Vector(_) => {
-                        let indices = variable.kind.indices();
-                        let components =
-                            indices.iter().map(|index| format!("{}{index}", variable.name));
-                        pieces.forms.extend(components);
+                    Type::VECTOR => pieces.linear.push(own),
+                    Type::Scalar => pieces.forms.push(own),
+                    Type::Vector(length) => {
+                        pieces.forms.extend(kept((1..=length).map(|i| own.component(&[i]))));
                     }
                     Type::Matrix(..) => {}
                 }
@@ -178,105 +230,98 @@ fn pieces(model: &Model) -> Pieces {
 
 /// Lists terms of degree 1 and 2 in the velocities, simple ones first, together with those that a
 /// potential adds.
-pub fn integrals(model: &Model) -> Texts {
+pub fn integrals(model: &Model) -> Vec<Formula> {
     let pieces = pieces(model);
     let mut forms = pieces.forms.clone();
-    if let Some(normal) = pieces.normal {
-        forms.extend(pieces.linear.iter().map(|vector| format!("({vector},{normal})")));
+    if let Some(normal) = &pieces.normal {
+        forms.extend(kept(pieces.linear.iter().map(|vector| vector.dot(normal))));
     }
     if matches!(
         model.system,
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
     ) {
         for vector in &pieces.linear {
-            forms.extend((1..=3).map(|k| format!("{vector}[{k}]")));
+            forms.extend(kept((1..=3).map(|k| vector.component(&[k]))));
         }
     }
     let mut squares = Vec::new();
     for (i, a) in pieces.linear.iter().enumerate() {
-        squares.extend(pieces.linear[i..].iter().map(|b| format!("({a},{b})")));
+        squares.extend(kept(pieces.linear[i..].iter().map(|b| a.dot(b))));
     }
     for (i, a) in forms.iter().enumerate() {
-        squares.extend(forms[i..].iter().map(|b| match a == b {
-            true => format!("{a}²"),
-            false => format!("{a}*{b}"),
-        }));
+        let own = forms[i..].iter().map(|b| if a.text() == b.text() { a.raised(2) } else { a * b });
+        squares.extend(kept(own));
     }
     let mut terms = Vec::new();
     for weight in &pieces.weights {
-        terms.extend(squares.iter().map(|square| product(&[weight, square])));
-        terms.extend(forms.iter().map(|form| product(&[weight, form])));
+        terms.extend(kept(squares.iter().map(|square| product(weight, square))));
+        terms.extend(kept(forms.iter().map(|form| product(weight, form))));
     }
-    for free in &pieces.free {
-        terms.push(free.clone());
-    }
+    terms.extend(pieces.free);
     terms
 }
 
 /// Lists possible denominators of integrals.
-pub fn denominators(model: &Model) -> Texts {
-    let mut found = vec!["1".to_string()];
+pub fn denominators(model: &Model) -> Vec<Formula> {
+    let mut found = vec![one()];
     let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
     for (name, text) in offers {
         if has(model, name, Type::MATRIX)
             && matches!(model.system, System::Rubber(_) | System::Ball(_))
         {
-            found.push(text.to_string());
+            found.extend(scalars(model, &[text]));
         }
     }
     found
 }
 
 /// Lists factors whose powers may form a density or an integral, simple ones first.
-pub fn factors(model: &Model) -> Texts {
+pub fn factors(model: &Model) -> Vec<Formula> {
     let matrix = |name: &str| has(model, name, Type::MATRIX);
     let scalar = |name: &str| has(model, name, Type::Scalar);
-    let mut factors: Texts = Vec::new();
+    let mut factors: Vec<&str> = Vec::new();
     match &model.system {
         System::Rubber(_) => {
             if scalar("g1") {
-                factors.extend(["g1", "g2"].map(str::to_string));
+                factors.extend(["g1", "g2"]);
             }
             if matrix("J") {
-                factors.push("(γ,J⁻¹*γ)".to_string());
+                factors.push("(γ,J⁻¹*γ)");
             }
             if !scalar("g1") {
                 // g₁ and g₂ of a body of revolution; with I = μE they are μ + m(r,γ)² and μ + mr².
-                factors.push("(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)".to_string());
-                factors.push("(I1 + m*r²)".to_string());
+                factors.push("(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)");
+                factors.push("(I1 + m*r²)");
             }
             if matrix("B") {
-                factors.extend(["X0", "Y0"].map(str::to_string));
+                factors.extend(["X0", "Y0"]);
             }
-            factors.extend(["det(Ĩ)", "(γ,Ĩ⁻¹*γ)"].map(str::to_string));
+            factors.extend(["det(Ĩ)", "(γ,Ĩ⁻¹*γ)"]);
             if scalar("D_T") {
-                factors.push("D_T".to_string());
+                factors.push("D_T");
             }
             if matrix("𝒥") {
-                factors.extend(["det(𝒥)", "(γ,𝒥⁻¹*γ)"].map(str::to_string));
+                factors.extend(["det(𝒥)", "(γ,𝒥⁻¹*γ)"]);
             }
             if matrix("B") {
-                factors.push("(γ,B*γ)".to_string());
+                factors.push("(γ,B*γ)");
             }
         }
-        System::FlatBase(_) => factors.extend(
-            [
-                "(I1 + m*(r1² + r2² + z²))",
-                "(I1*I2 + m*(I1*r1² + I2*r2²))",
-                "det(Ĩ)",
-                "exp(k*z*m*(r1² + r2²)/(I1 + m*z²))",
-            ]
-            .map(str::to_string),
-        ),
+        System::FlatBase(_) => factors.extend([
+            "(I1 + m*(r1² + r2² + z²))",
+            "(I1*I2 + m*(I1*r1² + I2*r2²))",
+            "det(Ĩ)",
+            "exp(k*z*m*(r1² + r2²)/(I1 + m*z²))",
+        ]),
         System::Ball(_) => {
-            factors.push(if scalar("h") { "det(∂r + γ⊗γ)" } else { "|n|" }.to_string());
+            factors.push(if scalar("h") { "det(∂r + γ⊗γ)" } else { "|n|" });
             if matrix("B") {
-                factors.push("(γ,B*γ)".to_string());
+                factors.push("(γ,B*γ)");
             }
         }
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
     }
-    factors
+    scalars(model, &factors)
 }
 
 /// Lists the abbreviations that the terms use, in order.
@@ -299,20 +344,20 @@ pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
 }
 
 /// Lists the numbers of which exponents may be multiples.
-pub fn exponents(model: &Model) -> Texts {
-    let mut found = vec!["1".to_string()];
+pub fn exponents(model: &Model) -> Vec<Formula> {
+    let mut found = vec!["1"];
     if has(model, "κ", Type::Scalar) {
-        found.push("k*R".to_string());
+        found.push("k*R");
     } else if let (System::Rubber(body), true) = (&model.system, has(model, "g1", Type::Scalar))
         && body.curvature.is_some()
         && has(model, "R", Type::Scalar)
     {
-        found.push("k*R".to_string());
+        found.push("k*R");
     }
-    found
+    scalars(model, &found)
 }
 
 /// Lists factors linear in the velocities, for integrals that are products of powers.
-pub fn linear_factors(model: &Model) -> Texts {
+pub fn linear_factors(model: &Model) -> Vec<Formula> {
     pieces(model).forms
 }

@@ -10,14 +10,15 @@
 
 use serde::Serialize;
 
-use super::ask::{holds, judged, quoted};
+use super::ask::{holds, judged_alone};
 use super::counts::{free_motion, largest, locals};
 use super::integrals::{over_denominators, terms};
 use super::jets::{Asked, Count};
 use super::local::Local;
-use super::terms::exponent;
+use super::terms::{is_one, numeric_exponent};
 use super::{Effort, Excluded, Found, Report, SearchError};
 use liouville::case::Case;
+use liouville::claim::Claim;
 use liouville::number::rational::Rational;
 
 /// Values of α to try: P^(m/n) is Q^(1/n) with Q = P^m.
@@ -122,15 +123,15 @@ fn series(
 fn find(case: &Case, alpha: i64, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let mut candidates = over_denominators(case, &terms, &Rational::from(alpha), effort, report)?;
-    candidates.sort_by_key(|formula| formula.chars().count());
-    let power = exponent(&[Rational::new(alpha.signum(), alpha.abs())], &["1"]);
+    candidates.sort_by_key(|formula| formula.text().chars().count());
+    let power = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
     for polynomial in candidates {
-        let formula = match power.as_str() {
-            "1" => polynomial,
-            power => format!("({polynomial})^{power}"),
+        let formula = match is_one(&power) {
+            true => polynomial,
+            false => polynomial.bracketed().power(&power)?,
         };
-        let reports = judged(case, &[format!("density = {}", quoted(&formula))], effort)?;
-        if let Some(found) = reports.into_iter().find(holds) {
+        let judged = judged_alone(case, Claim::density(&formula), effort)?;
+        if let Some(found) = judged.filter(holds) {
             report.found.push(Found::new("density", &formula, None, found, &case.model));
             return Ok(());
         }

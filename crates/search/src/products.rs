@@ -4,7 +4,6 @@ use crate::streams::Stream;
 use num_dual::Dual;
 
 use super::SearchError;
-use super::ask::judged;
 use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::{Effort, Report, ask};
@@ -13,7 +12,6 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::verdict::Verdict;
 
 /// Highest degree that is recognised.
 const MOST: usize = 16;
@@ -24,23 +22,19 @@ const TRIALS: usize = 64;
 
 /// Independent integrals with their degrees in the velocities.
 #[derive(Clone, Debug, Default)]
-pub struct Generators(Vec<(String, u32)>);
+pub struct Generators(Vec<(Formula, u32)>);
 
 impl Generators {
     /// Integrals of which the degrees are known.
-    pub fn of(known: Vec<(String, u32)>) -> Self {
+    pub fn of(known: Vec<(Formula, u32)>) -> Self {
         Self(known)
     }
 
     /// Collects the energy, if it is an integral.
     pub fn energy(case: &Case, effort: &Effort) -> Result<Self, SearchError> {
         let mut generators = Self::default();
-        if case.model.vocabulary.find("energy").is_some() {
-            let reports = judged(case, &["integral = \"energy\"".to_string()], effort)?;
-            // Theorems rest on it: what is seen in numbers is not enough.
-            if reports.iter().any(|report| report.verdict == Verdict::Proved) {
-                generators.add(case, "energy", effort.options.seed)?;
-            }
+        if let Some(energy) = ask::proved_energy(case, effort)? {
+            generators.add(case, &energy, effort.options.seed)?;
         }
         Ok(generators)
     }
@@ -48,7 +42,7 @@ impl Generators {
     /// Collects the energy and all integrals found or claimed.
     pub fn all(case: &Case, effort: &Effort, report: &Report) -> Result<Self, SearchError> {
         let mut generators = Self::energy(case, effort)?;
-        let mut told: Vec<String> = report.formulas("integral").map(str::to_string).collect();
+        let mut told: Vec<Formula> = report.functions("integral").cloned().collect();
         for ask::Claimed { formula, .. } in &report.claimed {
             if ask::independent(case, &told, formula, effort)?.is_some() {
                 told.push(formula.clone());
@@ -61,21 +55,21 @@ impl Generators {
     }
 
     /// Adds an integral if its degree can be determined.
-    fn add(&mut self, case: &Case, formula: &str, seed: u64) -> Result<(), SearchError> {
+    fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
         if let Some(degree) = degree(case, formula, seed)?.filter(|degree| *degree > 0) {
-            self.0.push((formula.to_string(), degree));
+            self.0.push((formula.clone(), degree));
         }
         Ok(())
     }
 
     /// Iterates over the formulas.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|(name, _)| name.as_str())
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.0.iter().map(|(formula, _)| formula)
     }
 
     /// Iterates over the formulas with their degrees in the velocities.
-    pub fn each(&self) -> impl Iterator<Item = (&str, u32)> {
-        self.0.iter().map(|(name, degree)| (name.as_str(), *degree))
+    pub fn each(&self) -> impl Iterator<Item = (&Formula, u32)> {
+        self.0.iter().map(|(formula, degree)| (formula, *degree))
     }
 
     /// Lists the products of this degree, or with `mixed` of at most this degree, as exponents of
@@ -114,11 +108,10 @@ impl Generators {
 /// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
 /// are linear equations for the coefficients of P. The logarithm's slope is a rational function
 /// where F has factors that fields lack, such as exponentials of the positions.
-pub fn degree(case: &Case, formula: &str, seed: u64) -> Result<Option<u32>, SearchError> {
+pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, SearchError> {
     let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
-    let Ok(formula) = Formula::parse(formula, &model.vocabulary) else { return Ok(None) };
-    let all = model.vocabulary.with_abbreviations(&formula, &model.abbreviations);
+    let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
     let draws = model.parameter_draws();
     let inputs = draws.len() + coordinates.count() + coordinates.velocities + 1;
     let (graph, (slope, moving)) = record(inputs, |inputs| {
@@ -187,8 +180,9 @@ mod tests {
 
     #[test]
     fn products_are_counted() {
-        let generators = Generators(vec![("E".into(), 2), ("F".into(), 2), ("G".into(), 1)]);
-        // E², EF, F², EG², FG², G⁴
+        let one = || Formula::number(1);
+        let generators = Generators(vec![(one(), 2), (one(), 2), (one(), 1)]);
+        // of E, F and G: E², EF, F², EG², FG², G⁴
         assert_eq!(generators.products(4, false), 6);
         assert_eq!(generators.exponents(4, false).len(), 6);
         assert_eq!(generators.exponents(2, true).len(), 5);

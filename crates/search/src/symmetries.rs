@@ -4,13 +4,13 @@
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-use super::ask::{holds, judged, quoted};
+use super::ask::{holds, judged_alone};
 use super::linear::Functions;
-use super::terms::{integers, recorded, written};
+use super::terms::{combined, integers, one, recorded, whole};
 use super::{Effort, Found, Report, SearchError};
 use liouville::case::Case;
-use liouville::claim::Place;
-use liouville::formula::Type;
+use liouville::claim::{Claim, Place};
+use liouville::formula::{Formula, FormulaError, Type};
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::dot;
 use liouville::number::rational::Rational;
@@ -64,10 +64,10 @@ pub fn symmetries(case: &Case, effort: &Effort, report: &mut Report) -> Result<(
         },
     };
     for vector in relations.rational().0 {
-        let (shown, body) = spelled(case, &fields, &integers(&vector));
-        let reports = judged(case, &[body], effort)?;
-        if let Some(found) = reports.into_iter().find(holds) {
-            report.found.push(Found::new("symmetry-field", &shown, None, found, model));
+        let (shown, entries, claim) = spelled(case, &fields, &integers(&vector))?;
+        if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
+            let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();
+            report.found.push(Found::of_several("symmetry-field", shown, &parts, found, model));
         }
     }
     Ok(())
@@ -77,61 +77,60 @@ fn zero() -> Expr {
     Expr::rational(&Rational::from(0))
 }
 
-/// Writes a field for the reader and as the body of a claim; the last multiple is the weight.
+/// Components of a field by variable.
+type Components = Vec<(String, Formula)>;
+
+/// Writes a field for the reader, with its components and the claim that it is a symmetry; the last
+/// multiple is the weight.
 fn spelled(
     case: &Case,
     fields: &[(Option<usize>, usize)],
     multiples: &[BigInt],
-) -> (String, String) {
-    let names = component_names(case);
-    let component = |j: usize| -> Option<String> {
+) -> Result<(String, Components, Claim), SearchError> {
+    let names = component_names(case)?;
+    let component = |j: usize| -> Result<Option<Formula>, FormulaError> {
         let own = fields.iter().zip(multiples).filter(|(field, _)| field.1 == j);
-        let (texts, values): (Vec<&str>, Vec<BigInt>) = own
-            .map(|((i, _), value)| (i.map_or("1", |i| names[i].as_str()), value.clone()))
+        let (terms, values): (Vec<Formula>, Vec<BigInt>) = own
+            .map(|((i, _), value)| (i.map_or(one(), |i| names[i].clone()), value.clone()))
             .unzip();
-        Some(written(&values, &texts)).filter(|text| !text.is_empty())
+        combined(&values, &terms)
     };
     let mut start = 0;
     let mut entries = Vec::new();
     for variable in &case.model.state {
-        let texts: Vec<Option<String>> = (start..start + variable.len()).map(component).collect();
+        let parts: Result<Vec<Option<Formula>>, FormulaError> =
+            (start..start + variable.len()).map(component).collect();
+        let parts = parts?;
         start += variable.len();
-        if texts.iter().all(Option::is_none) {
+        if parts.iter().all(Option::is_none) {
             continue;
         }
-        let texts: Vec<String> =
-            texts.into_iter().map(|text| text.unwrap_or_else(|| "0".to_string())).collect();
-        let value = match variable.kind {
-            Type::Scalar => texts.concat(),
-            Type::Matrix(_, columns) => {
-                let rows = texts.chunks(columns).map(|row| format!("[{}]", row.join(", ")));
-                format!("[{}]", rows.collect::<Vec<String>>().join(", "))
-            }
-            Type::Vector(_) => format!("[{}]", texts.join(", ")),
-        };
-        entries.push((variable.name.clone(), value));
+        let parts: Vec<Formula> =
+            parts.into_iter().map(|part| part.unwrap_or_else(|| Formula::number(0))).collect();
+        entries.push((variable.name.clone(), variable.kind.filled(&parts)?));
     }
     let shown: Vec<String> =
         entries.iter().map(|(name, value)| format!("{name}: {value}")).collect();
-    let table: Vec<String> = entries
-        .iter()
-        .map(|(name, value)| format!("{} = {}", quoted(name), quoted(value)))
-        .collect();
     let mut shown = shown.join(", ");
-    let mut body = format!("symmetry-field = {{ {} }}", table.join(", "));
+    let mut claim = Claim::symmetry_field(entries.clone());
     if let Some(weight) = multiples.last().filter(|weight| !weight.is_zero()) {
         shown.push_str(&format!("; [u,v] = {weight} v"));
-        body.push_str(&format!("\nweight = \"{weight}\""));
+        claim = claim.with("weight", whole(weight));
     }
-    (shown, body)
+    Ok((shown, entries, claim))
 }
 
-/// Names the state's components: `ω1`, `x`.
-fn component_names(case: &Case) -> Vec<String> {
+/// The state's components: `ω[1]`, `x`.
+fn component_names(case: &Case) -> Result<Vec<Formula>, FormulaError> {
     let mut names = Vec::new();
     for variable in &case.model.state {
-        let name = &variable.name;
-        names.extend(variable.kind.indices().iter().map(|index| format!("{name}{index}")));
+        let own = case.formula(&variable.name)?;
+        names.extend(match variable.kind {
+            Type::Scalar => vec![own],
+            kind => {
+                kind.places().iter().map(|place| own.component(place)).collect::<Result<_, _>>()?
+            }
+        });
     }
-    names
+    Ok(names)
 }

@@ -1,35 +1,21 @@
-//! Terms in the names of a case, and the notation of their sums and products.
+//! Sums and products of terms in the names of a case.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
+use liouville::formula::{Composed, Formula, FormulaError, Type};
 use liouville::graph::{Expr, Fault, Graph, record};
 use liouville::mechanics::calculus::Jet;
 use liouville::mechanics::{Phase, Vocabulary};
 use liouville::number::rational::Rational;
 
-/// A scalar in the names of a case.
-#[derive(Clone, Debug)]
-pub struct Term {
-    /// Text of the term.
-    pub text: String,
-    /// Parsed formula.
-    pub formula: Formula,
-}
-
-/// Parses the texts that are scalars in these names.
-pub fn read(texts: Vec<String>, vocabulary: &Vocabulary) -> Vec<Term> {
+/// Reads the texts that are scalars in these names.
+pub fn read<'t>(texts: impl IntoIterator<Item = &'t str>, vocabulary: &Vocabulary) -> Vec<Formula> {
     let scalar = |formula: &Formula| formula.value_type() == Type::Scalar;
-    texts
-        .into_iter()
-        .filter_map(|text| {
-            let formula = Formula::parse(&text, vocabulary).ok().filter(scalar)?;
-            Some(Term { text, formula })
-        })
-        .collect()
+    let read = |text| Formula::parse(text, vocabulary).ok().filter(scalar);
+    texts.into_iter().filter_map(read).collect()
 }
 
 /// Records values at a point of phase space; the inputs are parameters and state.
@@ -45,6 +31,21 @@ pub fn recorded<R>(
     })
 }
 
+/// The number 1 as a formula.
+pub fn one() -> Formula {
+    Formula::number(1)
+}
+
+/// Whether a formula is the number 1.
+pub fn is_one(formula: &Formula) -> bool {
+    formula.constant().is_some_and(|value| value == Rational::from(1))
+}
+
+/// Whole number as a formula.
+pub fn whole(number: &BigInt) -> Formula {
+    Formula::number(Rational::from_parts(number.clone(), BigInt::from(1)))
+}
+
 /// Clears denominators: a = multiples / denominator.
 fn cleared(coefficients: &[Rational]) -> (Vec<BigInt>, BigInt) {
     let parts: Vec<(BigInt, BigInt)> = coefficients.iter().map(Rational::parts).collect();
@@ -52,8 +53,8 @@ fn cleared(coefficients: &[Rational]) -> (Vec<BigInt>, BigInt) {
     (parts.iter().map(|(above, own)| above * (&below / own)).collect(), below)
 }
 
-/// Writes Σ a_j T_j, up to a factor.
-pub fn sum(coefficients: &[Rational], terms: &[&str]) -> String {
+/// Multiples without a common factor, the first that is not 0 positive.
+fn primitive(coefficients: &[Rational]) -> Vec<BigInt> {
     let (mut multiples, _) = cleared(coefficients);
     let common = multiples.iter().fold(BigInt::ZERO, |gcd, a| gcd.gcd(a));
     if !common.is_zero() {
@@ -62,7 +63,7 @@ pub fn sum(coefficients: &[Rational], terms: &[&str]) -> String {
     if multiples.iter().find(|a| !a.is_zero()).is_some_and(Signed::is_negative) {
         multiples.iter_mut().for_each(|a| *a = -a.clone());
     }
-    written(&multiples, terms)
+    multiples
 }
 
 /// Clears denominators and drops them.
@@ -70,63 +71,136 @@ pub fn integers(coefficients: &[Rational]) -> Vec<BigInt> {
     cleared(coefficients).0
 }
 
-/// Writes Σ a_j T_j; an empty text for an empty sum.
-pub fn written(multiples: &[BigInt], terms: &[&str]) -> String {
-    let mut text = String::new();
+/// A sum that grows term by term, with a sign before each.
+#[derive(Default)]
+pub struct Sum(Option<Formula>);
+
+impl Sum {
+    /// Adds a term, or subtracts it.
+    pub fn add(&mut self, is_negative: bool, term: &Formula) -> Result<(), FormulaError> {
+        let sum = match (self.0.take(), is_negative) {
+            (None, false) => term.clone(),
+            (None, true) => -term,
+            (Some(before), false) => (&before + term)?,
+            (Some(before), true) => (&before - term)?,
+        };
+        self.0 = Some(sum);
+        Ok(())
+    }
+
+    /// The sum; `None` where nothing was added.
+    pub fn total(self) -> Option<Formula> {
+        self.0
+    }
+}
+
+/// Σ a_j T_j, up to a factor.
+pub fn sum(coefficients: &[Rational], terms: &[Formula]) -> Composed {
+    Ok(combined(&primitive(coefficients), terms)?.unwrap_or_else(|| Formula::number(0)))
+}
+
+/// Σ a_j T_j; `None` for an empty sum.
+pub fn combined(multiples: &[BigInt], terms: &[Formula]) -> Result<Option<Formula>, FormulaError> {
+    let mut sum = Sum::default();
     for (multiple, term) in multiples.iter().zip(terms).filter(|(a, _)| !a.is_zero()) {
-        let sign = match (text.is_empty(), multiple.is_negative()) {
+        let magnitude = multiple.abs();
+        let own = match (magnitude == 1.into(), is_one(term)) {
+            (true, _) => term.clone(),
+            (false, true) => whole(&magnitude),
+            (false, false) => (whole(&magnitude) * term)?,
+        };
+        sum.add(multiple.is_negative(), &own)?;
+    }
+    Ok(sum.total())
+}
+
+/// Writes the equation Σ a_j T_j = 0 for a report.
+pub fn equation(coefficients: &[Rational], terms: &[&str]) -> String {
+    let mut text = String::new();
+    for (multiple, term) in primitive(coefficients).iter().zip(terms).filter(|(a, _)| !a.is_zero())
+    {
+        text.push_str(match (text.is_empty(), multiple.is_negative()) {
             (true, false) => "",
             (true, true) => "−",
             (false, false) => " + ",
             (false, true) => " − ",
-        };
+        });
         let magnitude = multiple.abs();
-        text.push_str(sign);
         text.push_str(&match (magnitude == 1.into(), *term) {
             (true, term) => term.to_string(),
             (false, "1") => magnitude.to_string(),
             (false, term) => format!("{magnitude}*{term}"),
         });
     }
-    text
+    format!("{text} = 0")
 }
 
-/// Writes the factors of Π f^α, where each α is a combination of the exponents.
-pub fn powers(coefficients: &[Rational], factors: &[Term], exponents: &[&str]) -> Vec<String> {
+/// Factors of Π f^α, where each α is a combination of the exponents.
+pub fn powers(
+    coefficients: &[Rational],
+    factors: &[Formula],
+    exponents: &[Formula],
+) -> Result<Vec<Formula>, FormulaError> {
     let each = coefficients.chunks(exponents.len().max(1));
     let used = factors.iter().zip(each).filter(|(_, own)| !own.iter().all(Rational::is_zero));
-    used.map(|(factor, own)| match exponent(own, exponents).as_str() {
-        "1" => factor.text.clone(),
-        exponent => format!("{}^{exponent}", factor.text),
+    used.map(|(factor, own)| {
+        let exponent = exponent(own, exponents)?;
+        if is_one(&exponent) { Ok(factor.clone()) } else { factor.power(&exponent) }
     })
     .collect()
 }
 
-/// Writes Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
-pub fn exponent(coefficients: &[Rational], exponents: &[&str]) -> String {
+/// Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
+pub fn exponent(coefficients: &[Rational], exponents: &[Formula]) -> Composed {
     let (multiples, below) = cleared(coefficients);
-    let above = written(&multiples, exponents);
-    let is_number = multiples.iter().zip(exponents).all(|(a, e)| a.is_zero() || *e == "1");
+    let above = combined(&multiples, exponents)?.unwrap_or_else(|| Formula::number(0));
+    let is_number = above.constant().is_some();
+    let is_negative = above.constant().is_some_and(|value| value.is_negative());
     match (below == 1.into(), is_number) {
-        (true, true) if above.starts_with('−') => format!("({above})"),
-        (true, true) => above,
-        (true, false) => format!("({above})"),
-        (false, true) => format!("({above}/{below})"),
-        (false, false) => format!("(({above})/{below})"),
+        (true, true) if !is_negative => Ok(above),
+        (true, _) => Ok(above.bracketed()),
+        (false, true) => Ok((&above / &whole(&below))?.bracketed()),
+        (false, false) => Ok((above.bracketed() / &whole(&below))?.bracketed()),
     }
+}
+
+/// A number as an exponent: `2`, `(1/2)`, `(−2)`.
+pub fn numeric_exponent(value: Rational) -> Composed {
+    exponent(&[value], &[one()])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use liouville::formula::{Scope, Symbol};
+
+    struct Letters;
+
+    impl Scope for Letters {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            let place = ["a", "b", "c", "k", "R"].iter().position(|known| *known == name)?;
+            Some((Symbol(place as u32), Type::Scalar))
+        }
+
+        fn names(&self) -> Vec<String> {
+            Vec::new()
+        }
+    }
 
     #[test]
     fn sums_and_exponents_read_well() {
         let q = |n, d| Rational::new(n, d);
-        assert_eq!(sum(&[q(-1, 2), q(0, 1), q(1, 3)], &["a", "b", "c"]), "3*a − 2*c");
-        assert_eq!(exponent(&[q(1, 2)], &["1"]), "(1/2)");
-        assert_eq!(exponent(&[q(1, 2), q(1, 2)], &["1", "k*R"]), "((1 + k*R)/2)");
-        assert_eq!(exponent(&[q(-2, 1)], &["1"]), "(−2)");
-        assert_eq!(exponent(&[q(3, 1), q(0, 1)], &["1", "k*R"]), "3");
+        let f = |text: &str| Formula::parse(text, &Letters).expect("a formula");
+        let text = |made: Composed| made.expect("scalars").to_string();
+        let terms = ["a", "b", "c"].map(f);
+        assert_eq!(text(sum(&[q(-1, 2), q(0, 1), q(1, 3)], &terms)), "3*a − 2*c");
+        assert_eq!(equation(&[q(-1, 2), q(0, 1), q(1, 3)], &["a", "b", "c"]), "3*a − 2*c = 0");
+        let both = ["1", "k*R"].map(f);
+        assert_eq!(text(numeric_exponent(q(1, 2))), "(1/2)");
+        assert_eq!(text(exponent(&[q(1, 2), q(1, 2)], &both)), "((1 + k*R)/2)");
+        assert_eq!(text(numeric_exponent(q(-2, 1))), "(−2)");
+        assert_eq!(text(exponent(&[q(3, 1), q(0, 1)], &both)), "3");
+        let products = ["a + b", "a*b"].map(f);
+        assert_eq!(text(sum(&[q(2, 1), q(-3, 1)], &products)), "2*(a + b) − 3*a*b");
     }
 }

@@ -142,10 +142,10 @@ fn potentials_that_separate_keep_an_integral() {
     // A generating function of them, with a user's term.
     let text = format!("{body}'a/(γ,inverse(J − l*E)*γ)'");
     let mut effort = effort(2);
-    effort.terms = vec!["U*(γ,adj(J)*(inverse(J − l*E)*γ))".to_string()];
+    effort.terms = vec!["U*(γ,adj(J)*(inverse(J − l*E)*γ))".into()];
     let report = search(&case(&text), &effort, &mut |_| {}).expect("it can be searched");
     assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
-    effort.terms = vec!["U*ω".to_string()];
+    effort.terms = vec!["U*ω".into()];
     let error = search(&case(&text), &effort, &mut |_| {}).expect_err("a vector is no term");
     assert!(error.to_string().contains("U*ω"), "{error}");
 }

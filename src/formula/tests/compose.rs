@@ -4,8 +4,27 @@ use super::*;
 use crate::number::rational::Rational;
 
 const SCALARS: [&str; 22] = [
-    "m", "−m", "2", "−3", "1/2", "0.25", "m + R", "m − R*k", "−m + R", "m*R", "−m*R", "2*m/R",
-    "m/(R*k)", "m²", "m^(1/2)", "(m + R)^k", "√(m + R)", "(γ,ω)", "|γ × ω|²", "γ3", "  (m)*R ",
+    "m",
+    "−m",
+    "2",
+    "−3",
+    "1/2",
+    "0.25",
+    "m + R",
+    "m − R*k",
+    "−m + R",
+    "m*R",
+    "−m*R",
+    "2*m/R",
+    "m/(R*k)",
+    "m²",
+    "m^(1/2)",
+    "(m + R)^k",
+    "√(m + R)",
+    "(γ,ω)",
+    "|γ × ω|²",
+    "γ3",
+    "  (m)*R ",
     "exp(−m)*I12",
 ];
 const VECTORS: [&str; 9] =
@@ -154,8 +173,27 @@ fn names_are_found_whole_and_by_components() {
 #[test]
 fn substitution_keeps_meaning_and_reads_back() {
     let texts = [
-        "k", "(k)", "2*k", "k*m", "m − k", "−k", "k²", "m^k", "√k", "m/k", "k/m", "m*−k",
-        "|k|", "max(k, m, 1)", "exp(k)*k", "[k, 2*k, −k]", "(k*γ,ω)/k", "m - k - k", "2^(-k)", "3*k^2", "k*γ",
+        "k",
+        "(k)",
+        "2*k",
+        "k*m",
+        "m − k",
+        "−k",
+        "k²",
+        "m^k",
+        "√k",
+        "m/k",
+        "k/m",
+        "m*−k",
+        "|k|",
+        "max(k, m, 1)",
+        "exp(k)*k",
+        "[k, 2*k, −k]",
+        "(k*γ,ω)/k",
+        "m - k - k",
+        "2^(-k)",
+        "3*k^2",
+        "k*γ",
     ];
     for by in ["m", "2", "−2", "1/2", "m + R", "−m", "m*R", "m²", "γ1", "(m + R)", " m*R "] {
         let by = read(by);
@@ -172,7 +210,8 @@ fn substitution_keeps_meaning_and_reads_back() {
         }
     }
     for by in ["ω", "γ × ω", "I*c", "−c", "2*c"].map(read) {
-        for text in ["γ3", "γ × c", "(γ,γ)", "I*γ − γ", "γ²", "gamma_1*γ[2]", "hat(γ)"].map(read) {
+        for text in ["γ3", "γ × c", "(γ,γ)", "I*γ − γ", "γ²", "gamma_1*γ[2]", "hat(γ)"].map(read)
+        {
             let made = text.substitute("γ", &by).expect("a vector for a vector");
             reads_back(&made);
             let expected = text.evaluate(&mut |symbol| match NAMES[symbol.0 as usize].0 {

@@ -24,7 +24,7 @@ const RECORDINGS: usize = 3;
 pub struct Subject<'i> {
     item: &'i Item,
     /// Claim measured.
-    pub claim: &'i Claim,
+    pub claim: &'i PlacedClaim,
     states: Vec<Block>,
     residual: Tape,
     merged: Tape,
@@ -51,7 +51,7 @@ impl<'i> Subject<'i> {
     /// Records a claim of an item and draws `blocks` blocks of states.
     pub fn new(
         item: &'i Item,
-        claim: &'i Claim,
+        claim: &'i PlacedClaim,
         seed: u64,
         blocks: u64,
     ) -> Result<Self, BenchError> {

@@ -2,13 +2,14 @@
 
 use super::super::ansatz::coordinates;
 use super::super::ansatz::system::System;
-use super::super::ask::{components, independent, judged};
+use super::super::ask::{components, independent, is_energy, proved_energy};
 use super::super::linear::Functions;
 use super::super::products::{Generators, degree};
-use super::super::terms::{Term, read, recorded};
+use super::super::terms::recorded;
 use super::super::{Effort, SearchError};
 use liouville::case::Case;
 use liouville::claim::{Integral, Kind};
+use liouville::formula::{Formula, Type};
 use liouville::mechanics::Draw;
 use liouville::verdict::{ClaimReport, Verdict};
 
@@ -17,7 +18,7 @@ const MOST: usize = 2000;
 
 /// Integrals of a case, each proved, component by component.
 pub struct Known {
-    names: Vec<String>,
+    formulas: Vec<Formula>,
 }
 
 /// The polynomials of at most one degree that known integrals make up.
@@ -25,45 +26,41 @@ pub struct Space {
     /// Number of independent polynomials among them.
     pub dimension: usize,
     /// Integrals that they are made of.
-    pub names: Vec<String>,
+    pub formulas: Vec<Formula>,
 }
 
 impl Known {
     /// The integrals among the claims of a case, by the reports on them.
     pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
-        let mut names = Vec::new();
-        if case.model.vocabulary.find("energy").is_some() {
-            let reports = judged(case, &["integral = \"energy\"".to_string()], effort)?;
-            if reports.iter().any(|report| report.verdict == Verdict::Proved) {
-                names.push("energy".to_string());
-            }
-        }
+        let mut formulas: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
         for (claim, report) in case.claims.iter().zip(reports) {
             if let (Kind::Integral(Integral(own)), Verdict::Proved) = (&claim.kind, report.verdict)
             {
-                names.extend(components(own.text(), own.value_type()));
+                formulas.extend(components(own)?);
             }
         }
-        Ok(Self { names })
+        Ok(Self { formulas })
     }
 
     /// The formulas.
-    pub fn names(&self) -> &[String] {
-        &self.names
+    pub fn formulas(&self) -> &[Formula] {
+        &self.formulas
     }
 
     /// The same without the energy.
-    pub fn claimed(&self) -> Vec<String> {
-        self.names.iter().filter(|name| *name != "energy").cloned().collect()
+    pub fn claimed(&self) -> Vec<Formula> {
+        self.formulas.iter().filter(|formula| !is_energy(formula)).cloned().collect()
     }
 
     /// Those that have values modulo a prime, as terms: without exp, ln and the like, and without ∫,
     /// whose constant is open.
-    pub fn terms(&self, case: &Case, seed: u64) -> Result<Vec<Term>, SearchError> {
-        let mut own = read(self.names.clone(), &case.model.vocabulary);
-        own.retain(|term| !case.model.has_antiderivative(&term.formula));
+    pub fn terms(&self, case: &Case, seed: u64) -> Result<Vec<Formula>, SearchError> {
+        let mut own = self.formulas.clone();
+        own.retain(|term| {
+            term.value_type() == Type::Scalar && !case.model.has_antiderivative(term)
+        });
         let (graph, values) = recorded(case, |jet| {
-            own.iter().map(|term| vec![jet.phase.scalar(&term.formula)]).collect::<Vec<_>>()
+            own.iter().map(|term| vec![jet.phase.scalar(term)]).collect::<Vec<_>>()
         })?;
         let defined = Functions::new(case, &graph, &values, seed)?.defined();
         Ok(defined.into_iter().map(|k| own[k].clone()).collect())
@@ -76,24 +73,20 @@ impl Known {
     /// functions. The larger number of both counts.
     pub fn of_degree(&self, case: &Case, most: u32, effort: &Effort) -> Result<Space, SearchError> {
         let seed = effort.options.seed;
-        let mut independents = Vec::new();
-        for name in &self.names {
-            let known = degree(case, name, seed)?.filter(|degree| *degree > 0);
+        let mut independents: Vec<(Formula, u32)> = Vec::new();
+        for formula in &self.formulas {
+            let known = degree(case, formula, seed)?.filter(|degree| *degree > 0);
             let Some(degree) = known.filter(|degree| *degree <= most) else { continue };
-            let claimed = independents.iter().map(|(name, _)| String::clone(name));
-            let told: Vec<String> = claimed.filter(|name| name != "energy").collect();
-            let is_new = match name.as_str() {
-                "energy" => true,
-                name => independent(case, &told, name, effort)?.is_some(),
-            };
-            if is_new {
-                independents.push((name.clone(), degree));
+            let claimed = independents.iter().map(|(formula, _)| formula.clone());
+            let told: Vec<Formula> = claimed.filter(|one| !is_energy(one)).collect();
+            if is_energy(formula) || independent(case, &told, formula, effort)?.is_some() {
+                independents.push((formula.clone(), degree));
             }
         }
         let by_gradients = Generators::of(independents.clone());
         let mut best = Space {
             dimension: by_gradients.products(most, true),
-            names: independents.into_iter().map(|(name, _)| name).collect(),
+            formulas: independents.into_iter().map(|(formula, _)| formula).collect(),
         };
         if let Some(space) = self.by_values(case, most, seed)?
             && space.dimension > best.dimension
@@ -112,16 +105,15 @@ impl Known {
         let mut terms = Vec::new();
         let mut own = Vec::new();
         for term in self.terms(case, seed)? {
-            let known = degree(case, &term.text, seed)?.filter(|degree| *degree > 0);
+            let known = degree(case, &term, seed)?.filter(|degree| *degree > 0);
             if let Some(degree) = known.filter(|degree| *degree <= most) {
-                own.push((term.text.clone(), degree));
+                own.push((term.clone(), degree));
                 terms.push(term);
             }
         }
         let products = Generators::of(own).exponents(most, true);
         let dimension = rank(case, &terms, &products, &[], seed)?;
-        let names = terms.into_iter().map(|term| term.text).collect();
-        Ok(dimension.map(|dimension| Space { dimension, names }))
+        Ok(dimension.map(|dimension| Space { dimension, formulas: terms }))
     }
 }
 
@@ -138,9 +130,9 @@ pub fn has_lists(case: &Case) -> bool {
 /// the states, modulo a prime, so it is not 0.
 pub fn rank(
     case: &Case,
-    terms: &[Term],
+    terms: &[Formula],
     products: &[Vec<u32>],
-    further: &[Term],
+    further: &[Formula],
     seed: u64,
 ) -> Result<Option<usize>, SearchError> {
     if products.len() > MOST || contains_integrals(case)? {
@@ -148,7 +140,7 @@ pub fn rank(
     }
     let mut outputs = (Vec::new(), Vec::new());
     let system = System::record(case, &coordinates(case), seed, |jet, recording| {
-        let mut give = |term: &Term| recording.give(jet.phase.scalar(&term.formula));
+        let mut give = |term: &Formula| recording.give(jet.phase.scalar(term));
         outputs.0 = terms.iter().map(&mut give).collect();
         outputs.1 = further.iter().map(&mut give).collect();
     })?;

@@ -22,6 +22,7 @@ use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
 use known::Known;
 use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
+use liouville::formula::Formula;
 use liouville::mechanics::Draw;
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
@@ -97,7 +98,7 @@ impl<'a> Asked<'a> {
         let effort = Effort {
             seconds: SECONDS,
             // A root in what is known has to have the right branch as well.
-            terms: known.names().to_vec(),
+            terms: known.formulas().iter().cloned().map(Into::into).collect(),
             ansatz: Ansatz { wanted: true, ..Ansatz::default() },
             halt: Halt::within(MOST),
             options,
@@ -174,10 +175,11 @@ impl<'a> Asked<'a> {
 }
 
 /// That all integrals of a class are polynomials in some.
-fn generated(class: &str, names: &[String]) -> String {
-    match names {
+fn generated(class: &str, formulas: &[Formula]) -> String {
+    match formulas {
         [] => format!("no integral but a constant is {class}"),
-        names => {
+        formulas => {
+            let names: Vec<&str> = formulas.iter().map(Formula::text).collect();
             format!("every integral that is {class} is a polynomial in {}", names.join(" and "))
         }
     }

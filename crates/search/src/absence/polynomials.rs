@@ -5,18 +5,20 @@
 //! parameters, so that the null space is at least as large as the space of integrals.
 
 use super::super::SearchError;
-use super::super::ansatz::coefficients::Coefficients;
+use super::super::ansatz::coefficients::{Coefficients, Ratio};
 use super::super::ansatz::coordinates;
 use super::super::ansatz::monomials::Variables;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{At, Column, Recording, System};
-use super::super::ask::{judged, quoted};
+use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
 use super::super::products::Generators;
-use super::super::terms::{Term, exponent, read};
+use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::{Asked, Outcome, generated};
+use liouville::claim::Claim;
 use liouville::claim::absence::Absence;
+use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::Jet;
 use liouville::number::rational::Rational;
@@ -77,7 +79,7 @@ struct Counting<'a> {
     system: System,
     at: At,
     /// The integrals that are known, with their outputs.
-    known: Vec<(Term, usize)>,
+    known: Vec<(Formula, usize)>,
     /// For each choice of α its direction; that of integrals is 0.
     weighted: Vec<(i64, usize)>,
     /// The column of div v.
@@ -86,7 +88,7 @@ struct Counting<'a> {
 
 /// The polynomials that known integrals make up.
 struct Space {
-    terms: Vec<Term>,
+    terms: Vec<Formula>,
     exponents: Vec<Vec<u32>>,
     /// The outputs that each product multiplies.
     products: Vec<Vec<usize>>,
@@ -108,7 +110,7 @@ impl<'a> Counting<'a> {
         let mut record = |jet: &Jet<'_, Expr>, own: &mut Recording| {
             let zero = Expr::rational(&Rational::from(0));
             own.derive_growing(jet.along_field(), &variables.terms, zero);
-            outputs = terms.iter().map(|term| own.give(jet.phase.scalar(&term.formula))).collect();
+            outputs = terms.iter().map(|term| own.give(jet.phase.scalar(term))).collect();
             let divergence = jet.divergence();
             output = own.give(divergence);
             for alpha in WEIGHTS {
@@ -178,15 +180,15 @@ impl<'a> Counting<'a> {
     /// The polynomials in what is known that have at most the degree.
     fn space(&self) -> Result<Option<Space>, SearchError> {
         let Some(degrees) = self.degrees() else { return Ok(None) };
-        let own: Vec<(&(Term, usize), u32)> = self
+        let own: Vec<(&(Formula, usize), u32)> = self
             .known
             .iter()
             .zip(degrees)
             .filter_map(|(known, degree)| Some((known, degree.filter(|degree| *degree > 0)?)))
             .collect();
-        let named = own.iter().map(|((term, _), degree)| (term.text.clone(), *degree)).collect();
+        let named = own.iter().map(|((term, _), degree)| (term.clone(), *degree)).collect();
         let exponents = Generators::of(named).exponents(self.degree, true);
-        let terms: Vec<Term> = own.iter().map(|((term, _), _)| term.clone()).collect();
+        let terms: Vec<Formula> = own.iter().map(|((term, _), _)| term.clone()).collect();
         let product = |powers: &Vec<u32>| {
             let each = powers.iter().zip(&own);
             each.flat_map(|(power, ((_, output), _))| vec![*output; *power as usize]).collect()
@@ -215,9 +217,8 @@ impl<'a> Counting<'a> {
             )));
         }
         if dimension == space.dimension {
-            let names: Vec<String> = space.terms.iter().map(|term| term.text.clone()).collect();
             return Ok(Outcome::Excluded {
-                theorem: self.asked.theorem(&generated(&self.class(), &names)),
+                theorem: self.asked.theorem(&generated(&self.class(), &space.terms)),
                 counted: format!(
                     "{dimension} independent ones at most, constants included: all known"
                 ),
@@ -245,33 +246,39 @@ impl<'a> Counting<'a> {
     }
 
     /// A null vector as an integral that is proved, and no polynomial in what is known.
-    fn integral(&self, vector: &[u64], space: &Space) -> Result<Option<String>, SearchError> {
-        let Some(formula) = self.written(vector, 0) else { return Ok(None) };
+    fn integral(&self, vector: &[u64], space: &Space) -> Result<Option<Formula>, SearchError> {
+        let Some(formula) = self.written(vector, 0)? else { return Ok(None) };
         let case = self.asked.case;
-        if !self.holds("integral", &formula)? {
+        if !self.holds(Claim::integral(&formula))? {
             return Ok(None);
         }
-        let own = read(vec![formula.clone()], &case.model.vocabulary);
+        let own = [formula];
         let seed = self.asked.effort.options.seed;
         let with = rank(case, &space.terms, &space.exponents, &own, seed)?;
-        Ok((with == Some(space.dimension + own.len()) && own.len() == 1).then_some(formula))
+        let [formula] = own;
+        Ok((with == Some(space.dimension + 1)).then_some(formula))
     }
 
     /// Σ c_a x^a for all values of the parameters, where the coefficients are fractions in them.
-    fn written(&self, vector: &[u64], direction: usize) -> Option<String> {
-        let start = self.columns(direction).first().copied()?;
+    fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, FormulaError> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-        let columns: Vec<usize> = support.iter().map(|k| start + k).collect();
-        let coefficients = Coefficients::of(&self.system, &columns)?;
-        let functions: Vec<String> =
-            support.iter().map(|k| self.variables.text(&self.monomials[*k])).collect();
-        Some(coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions))
+        let start = self.columns(direction).first().copied();
+        let columns = |start: usize| support.iter().map(|k| start + k).collect::<Vec<_>>();
+        let coefficients = start.and_then(|start| Coefficients::of(&self.system, &columns(start)));
+        let Some(coefficients) = coefficients else { return Ok(None) };
+        let functions = self.functions(support.iter().copied())?;
+        let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions)?;
+        Ok(Some(sum.unwrap_or_else(|| Formula::number(0))))
     }
 
-    fn holds(&self, kind: &str, formula: &str) -> Result<bool, SearchError> {
-        let claim = [format!("{kind} = {}", quoted(formula))];
-        let reports = judged(self.asked.case, &claim, &self.asked.effort)?;
-        Ok(reports.iter().any(|report| report.verdict == Verdict::Proved))
+    /// The monomials of some columns.
+    fn functions(&self, columns: impl Iterator<Item = usize>) -> Result<Vec<Ratio>, FormulaError> {
+        columns.map(|k| self.variables.monomial(&self.monomials[k]).map(Ratio::of)).collect()
+    }
+
+    fn holds(&self, claim: Claim) -> Result<bool, SearchError> {
+        let report = judged_alone(self.asked.case, claim, &self.asked.effort)?;
+        Ok(report.is_some_and(|report| report.verdict == Verdict::Proved))
     }
 
     fn no_density(&self) -> Result<Outcome, SearchError> {
@@ -282,13 +289,13 @@ impl<'a> Counting<'a> {
                 return Ok(nothing());
             };
             let Some(vector) = found.first() else { continue };
-            let root = exponent(&[Rational::new(alpha.signum(), alpha.abs())], &["1"]);
-            if let Some(polynomial) = self.written(vector, *direction) {
-                let formula = match root.as_str() {
-                    "1" => polynomial,
-                    root => format!("({polynomial})^{root}"),
+            let root = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
+            if let Some(polynomial) = self.written(vector, *direction)? {
+                let formula = match is_one(&root) {
+                    true => polynomial,
+                    false => polynomial.bracketed().power(&root)?,
                 };
-                if self.holds("density", &formula)? {
+                if self.holds(Claim::density(&formula))? {
                     return Ok(Outcome::Exhibited(format!("density, proved: {formula}")));
                 }
             }
@@ -328,16 +335,16 @@ impl<'a> Counting<'a> {
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
         let Some(coefficients) = Coefficients::of(&self.system, &used) else { return open() };
         let last = support.len() - 1;
-        let functions: Vec<String> = support[..last]
-            .iter()
-            .map(|k| self.variables.text(&self.monomials[columns[*k]]))
-            .collect();
-        let sum = coefficients.sum(&(0..last).collect::<Vec<_>>(), &functions);
-        let formula = match coefficients.text(last).as_str() {
-            "1" => format!("exp({sum})"),
-            below => format!("exp(({sum})/({below}))"),
+        let functions = self.functions(support[..last].iter().map(|k| columns[*k]))?;
+        let sum = coefficients.sum(&(0..last).collect::<Vec<_>>(), &functions)?;
+        let sum = sum.unwrap_or_else(|| Formula::number(0));
+        let below = coefficients.formula(last)?;
+        let exponent = match is_one(&below) {
+            true => sum,
+            false => (sum.bracketed() / &below.bracketed())?,
         };
-        match self.holds("density", &formula)? {
+        let formula = Formula::call("exp", &[&exponent])?;
+        match self.holds(Claim::density(&formula))? {
             true => Ok(Outcome::Exhibited(format!("density, proved: {formula}"))),
             false => open(),
         }

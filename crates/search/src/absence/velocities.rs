@@ -1,13 +1,14 @@
 //! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
 
-use super::super::ask::independent;
+use super::super::ask::{independent, is_energy};
 use super::super::counts::{self, CountReport};
 use super::super::local::Local;
 use super::super::products::degree;
-use super::super::terms::exponent;
+use super::super::terms::numeric_exponent;
 use super::super::{Effort, Found, Report, SearchError, ansatz, densities, integrals, multipliers};
 use super::{Asked, Outcome, generated};
 use liouville::claim::absence::Absence;
+use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
@@ -60,8 +61,8 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
         None => return Ok(Outcome::Open(reasons(&report, "the count does not reach this degree"))),
         Some(Bound::Leading) => {
             // What is left after powers of the energy has a lower degree, if the energy is conserved.
-            let names: Vec<String> =
-                asked.known.names().iter().filter(|name| *name == "energy").cloned().collect();
+            let known = asked.known.formulas().iter();
+            let names: Vec<Formula> = known.filter(|one| is_energy(one)).cloned().collect();
             return Ok(match names.is_empty() {
                 true => Outcome::Open("the energy is not known to be an integral".to_string()),
                 false => Outcome::Excluded {
@@ -81,7 +82,7 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     }
     if known.dimension == dimension {
         return Ok(Outcome::Excluded {
-            theorem: asked.theorem(&generated(&class, &known.names)),
+            theorem: asked.theorem(&generated(&class, &known.formulas)),
             counted: format!("{dimension} independent ones at most, constants included: all known"),
         });
     }
@@ -111,10 +112,11 @@ fn witness(asked: &Asked<'_>, most: u32, report: &Report) -> Result<Option<Strin
         found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
     };
     for found in report.found.iter().filter(own) {
-        let low = degree(asked.case, &found.formula, asked.effort.options.seed)?;
+        let Some(function) = &found.function else { continue };
+        let low = degree(asked.case, function, asked.effort.options.seed)?;
         let known = asked.known.claimed();
         if low.is_some_and(|degree| degree <= most)
-            && independent(asked.case, &known, &found.formula, &asked.effort)?.is_some()
+            && independent(asked.case, &known, function, &asked.effort)?.is_some()
         {
             return Ok(Some(shown("integral", found)));
         }
@@ -165,7 +167,8 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
         if found.kind != "density" || found.verdict != Verdict::Proved {
             continue;
         }
-        if is_of_class(asked, &found.formula, most)? {
+        let Some(function) = &found.function else { continue };
+        if is_of_class(asked, function, most)? {
             return Ok(Outcome::Exhibited(shown("density", found)));
         }
     }
@@ -173,10 +176,10 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
 }
 
 /// Whether a density is of the positions alone, or some P^(1/α) with P of at most this degree.
-fn is_of_class(asked: &Asked<'_>, formula: &str, most: u32) -> Result<bool, SearchError> {
+fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
     for alpha in multipliers::WEIGHTS {
-        let power = exponent(&[Rational::from(alpha)], &["1"]);
-        let polynomial = format!("({formula})^{power}");
+        let power = numeric_exponent(Rational::from(alpha))?;
+        let polynomial = formula.bracketed().power(&power)?;
         if degree(asked.case, &polynomial, asked.effort.options.seed)?.is_some_and(|n| n <= most) {
             return Ok(true);
         }

@@ -5,11 +5,12 @@ use crate::streams::Stream;
 use std::collections::BTreeMap;
 
 use super::super::SearchError;
-use super::super::terms::{Term, recorded};
+use super::super::terms::recorded;
 use super::monomials::Variables;
 use super::system::Column;
 use liouville::case::Case;
 use liouville::claim::Place;
+use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::verdict::Sampler;
@@ -33,7 +34,7 @@ impl Characters {
     pub fn of(
         case: &Case,
         variables: &Variables,
-        factors: &[Term],
+        factors: &[Formula],
         seed: u64,
     ) -> Result<Self, SearchError> {
         let count = variables.count();
@@ -56,7 +57,7 @@ impl Characters {
         let point: Vec<[u64; LANES]> = states.outputs().copied().collect();
         let (graph, (level, field)) = recorded(case, |jet| {
             let level = model.level.iter().map(|one| jet.phase.level_function(&one.function));
-            let values = factors.iter().map(|term| jet.phase.scalar(&term.formula));
+            let values = factors.iter().map(|term| jet.phase.scalar(term));
             let level: Vec<_> = level.collect();
             (level, jet.phase.field().iter().copied().chain(values).collect::<Vec<_>>())
         })?;

@@ -11,9 +11,10 @@ use num_traits::{One, Signed, Zero};
 
 use super::super::echelon::Echelon;
 use super::super::series::exponents;
-use super::super::terms::written;
+use super::super::terms::{Sum, combined, is_one};
 use super::monomials::power_product;
 use super::system::{At, System};
+use liouville::formula::{Composed, Formula, FormulaError};
 use liouville::number::prime::Modulus;
 use liouville::proof::reconstruct;
 
@@ -29,10 +30,27 @@ const BARREN: u64 = 64;
 /// A polynomial in the coordinates of the parameters, by exponents.
 pub type Polynomial = Vec<(Vec<u32>, BigInt)>;
 
+/// A function that a coefficient multiplies.
+#[derive(Clone, Debug)]
+pub struct Ratio {
+    /// Numerator.
+    pub above: Formula,
+    /// Denominator, unless it is 1.
+    pub below: Option<Formula>,
+}
+
+impl Ratio {
+    /// Function without a denominator.
+    pub fn of(above: Formula) -> Self {
+        Self { above, below: None }
+    }
+}
+
 /// Coefficients of a vector: one polynomial for each column, without common factor.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Coefficients {
-    names: Vec<String>,
+    /// Coordinates in which they are polynomials.
+    names: Vec<Formula>,
     /// Polynomials by column.
     pub polynomials: Vec<Polynomial>,
 }
@@ -48,10 +66,10 @@ impl Coefficients {
         }
         // Few coordinates are tried first: often J replaces I, m and R.
         let names = system.coordinates();
-        let tensor = |k: &usize| names[*k].starts_with('J');
+        let tensor = |k: &usize| names[*k].text().starts_with('J');
         let instead = |k: usize| {
-            let entry = names[k].strip_prefix('I').map(|entry| format!("J{entry}"));
-            entry.and_then(|entry| names.iter().position(|name| *name == entry)).unwrap_or(k)
+            let entry = names[k].text().strip_prefix('I').map(|entry| format!("J{entry}"));
+            entry.and_then(|entry| names.iter().position(|name| name.text() == entry)).unwrap_or(k)
         };
         let plain: Vec<usize> = varying.iter().copied().filter(|k| !tensor(k)).collect();
         let mixed = plain.iter().map(|k| instead(*k)).collect();
@@ -59,43 +77,57 @@ impl Coefficients {
         [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
     }
 
-    /// Writes the coefficient of a column, in parentheses where needed.
-    pub fn text(&self, column: usize) -> String {
-        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+    /// Coefficient of a column; `None` where it is 0.
+    fn coefficient(&self, column: usize) -> Result<Option<Formula>, FormulaError> {
         let own = &self.polynomials[column];
-        let texts: Vec<String> = own.iter().map(|(a, _)| power_product(&names, a)).collect();
+        let terms: Vec<Formula> =
+            own.iter().map(|(a, _)| power_product(&self.names, a)).collect::<Result<_, _>>()?;
         let multiples: Vec<BigInt> = own.iter().map(|(_, multiple)| multiple.clone()).collect();
-        written(&multiples, &texts.iter().map(String::as_str).collect::<Vec<_>>())
+        combined(&multiples, &terms)
     }
 
-    /// Writes Σ coefficient · function over the columns `own`.
-    pub fn sum(&self, own: &[usize], functions: &[String]) -> String {
-        let mut text = String::new();
+    /// Coefficient of a column as a formula.
+    pub fn formula(&self, column: usize) -> Composed {
+        Ok(self.coefficient(column)?.unwrap_or_else(|| Formula::number(0)))
+    }
+
+    /// Σ coefficient · function over the columns `own`; `None` where all are 0.
+    pub fn sum(&self, own: &[usize], functions: &[Ratio]) -> Result<Option<Formula>, FormulaError> {
+        let mut sum = Sum::default();
         for (column, function) in own.iter().zip(functions) {
             let polynomial = &self.polynomials[*column];
-            if polynomial.is_empty() {
-                continue;
-            }
-            let coefficient = self.text(*column);
-            let is_sum = polynomial.len() > 1;
-            let (sign, coefficient) = match coefficient.strip_prefix('−').filter(|_| !is_sum) {
-                Some(rest) => ("−", rest.to_string()),
-                None => ("+", coefficient),
+            let is_negative = match polynomial.as_slice() {
+                [] => continue,
+                [(_, multiple)] => multiple.is_negative(),
+                _ => false,
             };
-            match (text.is_empty(), sign) {
-                (true, "+") => {}
-                (true, sign) => text.push_str(sign),
-                (false, sign) => text.push_str(&format!(" {sign} ")),
-            }
-            let coefficient = if is_sum { format!("({coefficient})") } else { coefficient };
-            text.push_str(&match (coefficient.as_str(), function.strip_prefix("1/")) {
-                (coefficient, Some(below)) => format!("{coefficient}/{below}"),
-                ("1", None) => function.to_string(),
-                (coefficient, None) if function == "1" => coefficient.to_string(),
-                (coefficient, None) => format!("{coefficient}*{function}"),
-            });
+            let Some(coefficient) = self.coefficient(*column)? else { continue };
+            let coefficient = match (polynomial.len(), is_negative) {
+                (1, false) => coefficient,
+                (1, true) => self.magnitude(*column)?,
+                _ => coefficient.bracketed(),
+            };
+            let above = match (is_one(&function.above), is_one(&coefficient)) {
+                (true, _) => coefficient,
+                (_, true) => function.above.clone(),
+                _ => (&coefficient * &function.above)?,
+            };
+            let term = match &function.below {
+                None => above,
+                Some(below) => (&above / below)?,
+            };
+            sum.add(is_negative, &term)?;
         }
-        if text.is_empty() { "0".to_string() } else { text }
+        Ok(sum.total())
+    }
+
+    /// Negative of the coefficient of a column that is a single term.
+    fn magnitude(&self, column: usize) -> Composed {
+        let mut other = self.clone();
+        other.polynomials[column]
+            .iter_mut()
+            .for_each(|(_, multiple)| *multiple = -multiple.clone());
+        other.formula(column)
     }
 
     /// Divides by the common divisor of all numbers and makes the last column positive.
@@ -336,6 +368,7 @@ fn fraction(residue: &BigInt, modulus: &BigInt) -> Option<(BigInt, BigInt)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use liouville::case::Case;
 
     #[test]
     fn large_fractions_come_from_several_primes() {
@@ -349,14 +382,26 @@ mod tests {
 
     #[test]
     fn coefficients_read_well() {
-        let names = vec!["a".to_string(), "b".to_string()];
+        let case = Case::parse(
+            "title='t'\nsystem='field'\n[state]\na='1..2'\nb='1..2'\nx='1..2'\ny='1..2'\nz='1..2'\n\
+             [field]\na='1'\nb='1'\nx='1'\ny='1'\nz='1'\n",
+            &[],
+        )
+        .expect("a case");
+        let f = |text: &str| case.formula(text).expect("a formula");
+        let over = |text: &str, below: Option<&str>| Ratio { above: f(text), below: below.map(f) };
+        let names = vec![f("a"), f("b")];
         let one = |a: [u32; 2], value: i64| (a.to_vec(), BigInt::from(value));
         let polynomials =
             vec![vec![one([1, 0], 2)], Vec::new(), vec![one([0, 0], -4), one([0, 2], -6)]];
         let coefficients = Coefficients { names, polynomials }.reduced();
-        let functions = ["x".to_string(), "y".to_string(), "1".to_string()];
-        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a*x + (2 + 3*b²)");
-        let functions = ["1/x".to_string(), "y".to_string(), "1/z²".to_string()];
-        assert_eq!(coefficients.sum(&[0, 1, 2], &functions), "−a/x + (2 + 3*b²)/z²");
+        let text = |functions: [Ratio; 3]| {
+            let sum = coefficients.sum(&[0, 1, 2], &functions).expect("scalars");
+            sum.expect("it is not empty").to_string()
+        };
+        let plain = [over("x", None), over("y", None), over("1", None)];
+        assert_eq!(text(plain), "−a*x + (2 + 3*b²)");
+        let ratios = [over("1", Some("x")), over("y", None), over("1", Some("z²"))];
+        assert_eq!(text(ratios), "−a/x + (2 + 3*b²)/z²");
     }
 }

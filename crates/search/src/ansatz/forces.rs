@@ -1,49 +1,51 @@
 //! Variants of a body with another potential or rotor, and with further free constants.
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
+use liouville::formula::{Formula, FormulaError, Type};
 use liouville::mechanics::{
     Draw, Meaning, Model, Origin, Parameter, Potential, Range, Reach, Recipe, System,
 };
 
-/// Adds a term to the potential of a model; `None` if the system takes no potential, or if the text
+/// Adds a term to the potential of a model; `None` if the system takes no potential, or if the term
 /// is not a function of the configuration.
-pub fn with_potential(model: &Model, further: &str) -> Option<Model> {
+pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
     let mut changed = model.clone();
     let System::Rubber(body) = &mut changed.system else { return None };
-    let text = match &body.potential {
-        None => further.to_string(),
-        Some(Potential::Formula(own)) => format!("{} + {further}", own.text()),
+    let potential = match &body.potential {
+        None => further.clone(),
+        Some(Potential::Formula(own)) => (own + further).ok()?,
         Some(Potential::Arbitrary(_)) => return None,
     };
     let vocabulary = &changed.vocabulary;
-    let read = Formula::parse(&text, vocabulary).ok()?;
-    let reach = vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
-    if read.value_type() != Type::Scalar || reach > Reach::Configuration {
+    let reach = vocabulary.reach(&potential).map_or(Reach::Parameters, |entry| entry.reach);
+    if potential.value_type() != Type::Scalar || reach > Reach::Configuration {
         return None;
     }
-    body.potential = Some(Potential::Formula(read));
+    body.potential = Some(Potential::Formula(potential));
     Some(changed)
 }
 
 /// Adds a rotor to a model; `None` if it has one already, or takes none.
-pub fn with_gyrostat(model: &Model, rotor: &str) -> Option<Model> {
+pub fn with_gyrostat(model: &Model, rotor: &Formula) -> Option<Model> {
     let mut changed = model.clone();
-    let read = Formula::parse(rotor, &changed.vocabulary).ok()?;
     let own = match &mut changed.system {
         System::Rubber(body) => &mut body.gyrostat,
         System::FlatBase(body) => &mut body.gyrostat,
         _ => return None,
     };
-    if own.is_some() {
+    if own.is_some() || rotor.value_type() != Type::VECTOR {
         return None;
     }
-    *own = Some(read);
+    *own = Some(rotor.clone());
     Some(changed)
 }
 
-/// Adds `count` free numbers to the case and returns their names.
-pub fn with_constants(case: &Case, letter: &str, count: usize) -> (Case, Vec<String>) {
+/// Adds `count` free numbers to the case and returns them.
+pub fn with_constants(
+    case: &Case,
+    letter: &str,
+    count: usize,
+) -> Result<(Case, Vec<Formula>), FormulaError> {
     let mut extended = case.clone();
     let model = &mut extended.model;
     let is_free = |name: &String| case.model.vocabulary.find(name).is_none();
@@ -59,14 +61,26 @@ pub fn with_constants(case: &Case, letter: &str, count: usize) -> (Case, Vec<Str
         });
         model.vocabulary.add(name, meaning, Type::Scalar, Reach::Parameters);
     }
-    (extended, names)
+    let constants: Result<Vec<Formula>, FormulaError> =
+        names.iter().map(|name| Formula::name(name, &model.vocabulary)).collect();
+    let constants = constants?;
+    Ok((extended, constants))
 }
 
-/// Writes Σ constant · part.
-pub fn combination<'t>(parts: impl Iterator<Item = (&'t String, &'t String)>) -> String {
-    let term = |(constant, part): (&String, &String)| match part.starts_with('[') {
-        true => format!("{constant}*{part}"),
-        false => format!("{constant}*({part})"),
-    };
-    parts.map(term).collect::<Vec<_>>().join(" + ")
+/// Σ constant · part, with brackets around each part that is a scalar; `None` of nothing.
+pub fn combination<'t>(
+    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
+) -> Result<Option<Formula>, FormulaError> {
+    let mut sum: Option<Formula> = None;
+    for (constant, part) in parts {
+        let term = match part.value_type() {
+            Type::Scalar => (constant * part.bracketed())?,
+            _ => (constant * part)?,
+        };
+        sum = Some(match sum {
+            None => term,
+            Some(before) => (before + &term)?,
+        });
+    }
+    Ok(sum)
 }

@@ -10,17 +10,19 @@
 //!
 //! For an F of degree 1 the first equation suffices, with F₁ of degree 0.
 
-use super::super::ask::{holds, judged, quoted};
+use super::super::ask::{holds, is_energy, judged_alone};
 use super::super::products::Generators;
-use super::super::terms::{Term, read};
+use super::super::terms::{is_one, read};
 use super::super::{Effort, Excluded, Found, Report, SearchError};
-use super::coefficients::Coefficients;
+use super::coefficients::{Coefficients, Ratio};
 use super::forces::{combination, with_constants, with_gyrostat};
 use super::monomials::Variables;
 use super::size::Size;
 use super::system::{Column, System};
 use super::{coordinates, factors, written};
 use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::formula::{Composed, Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::mechanics::Model;
 use liouville::mechanics::calculus::Jet;
@@ -32,27 +34,24 @@ pub fn gyrostats(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let unit = ["[1,0,0]", "[0,1,0]", "[0,0,1]"];
     let unit: Option<Vec<Model>> =
-        unit.iter().map(|rotor| with_gyrostat(&case.model, rotor)).collect();
+        (0..3).map(|axis| with_gyrostat(&case.model, &unit_vector(axis).ok()?)).collect();
     let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
         report.remark("no rotor is looked for: the system takes none, or has one".to_string());
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
-    let own: Vec<(String, u32)> = generators
+    let own: Vec<(Formula, u32)> = generators
         .each()
-        .filter(|(name, degree)| *name != "energy" && (1..=2).contains(degree))
-        .map(|(name, degree)| (name.to_string(), degree))
+        .filter(|(formula, degree)| !is_energy(formula) && (1..=2).contains(degree))
+        .map(|(formula, degree)| (formula.clone(), degree))
         .collect();
     if own.is_empty() {
         report.remark("no integral of degree 1 or 2 is known that a rotor could keep".to_string());
     }
-    let offered = ["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"].map(str::to_string);
-    let below = read(offered.to_vec(), &case.model.vocabulary);
-    for (name, degree) in own {
+    let below = read(["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"], &case.model.vocabulary);
+    for (integral, degree) in own {
         effort.halt.check()?;
-        let Some(integral) = read(vec![name], &case.model.vocabulary).pop() else { continue };
         let rotors = Rotors {
             case,
             effort,
@@ -67,6 +66,12 @@ pub fn gyrostats(
     Ok(())
 }
 
+/// Unit vector along an axis of the frame.
+fn unit_vector(axis: usize) -> Composed {
+    let [a, b, c] = [0, 1, 2].map(|k| Formula::number(i64::from(k == axis)));
+    Formula::vector(&[&a, &b, &c])
+}
+
 /// The search for the rotors that preserve one integral.
 struct Rotors<'a> {
     case: &'a Case,
@@ -74,16 +79,17 @@ struct Rotors<'a> {
     variables: &'a Variables,
     /// Models with a unit rotor along each axis.
     unit: &'a [Model],
-    below: &'a [Term],
-    integral: Term,
+    below: &'a [Formula],
+    integral: Formula,
     /// Degree of the integral in the velocities.
     degree: u32,
 }
 
 /// A direction of the rotor, with the terms added to the integral.
+#[derive(Clone)]
 struct Direction {
-    rotor: String,
-    linear: String,
+    rotor: Formula,
+    linear: Formula,
 }
 
 impl Rotors<'_> {
@@ -92,7 +98,7 @@ impl Rotors<'_> {
         report: &mut Report,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
-        let what = format!("rotors that keep {}", self.integral.text);
+        let what = format!("rotors that keep {}", self.integral);
         let system = self.linear()?;
         let size = Size::of(&[(0..system.columns.len()).collect()]);
         progress(&format!("{what}: {size}"));
@@ -100,7 +106,9 @@ impl Rotors<'_> {
             report.remark(format!("{what}: not tried; {size}; {reason}"));
             return Ok(());
         }
-        let Some((dimension, directions)) = self.directions(&system, report) else { return Ok(()) };
+        let Some((dimension, directions)) = self.directions(&system, report)? else {
+            return Ok(());
+        };
         let told = self.tell(&directions, report)?;
         let highest = self.effort.ansatz.positions;
         let then = match (dimension, told) {
@@ -109,34 +117,34 @@ impl Rotors<'_> {
             (_, told) => format!("; the terms of second order leave {told} of them"),
         };
         report.excluded.push(Excluded {
-            ansatz: format!("rotors that keep {} with terms of degree at most {highest} in the positions", self.integral.text),
+            ansatz: format!("rotors that keep {} with terms of degree at most {highest} in the positions", self.integral),
             dimension,
             known: told,
             error_log2: None,
             theorem: format!(
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent directions of a rotor allow, to first order in it, \
                  an integral {} + F₁ with F₁ of degree {} in the velocities and coefficients that are polynomials of degree at most {highest} in the positions over {}{then}.",
-                self.integral.text,
+                self.integral,
                 self.degree - 1,
-                self.below.iter().map(|term| term.text.as_str()).collect::<Vec<_>>().join(", ")
+                self.below.iter().map(Formula::text).collect::<Vec<_>>().join(", ")
             ),
         });
         Ok(())
     }
 
     /// Computes (∂F/∂ω, A(e_i)) for each axis.
-    fn gains(&self, jet: &Jet<'_, Expr>, function: &Term) -> Vec<Expr> {
+    fn gains(&self, jet: &Jet<'_, Expr>, function: &Formula) -> Vec<Expr> {
         let (state, field) = (jet.phase.state(), jet.phase.field());
         let gain = |model: &Model| {
             let beside = jet.phase.in_model(model, &state);
             let moved = beside.field().iter().zip(field);
             let direction: Vec<Expr> = moved.map(|(with, without)| *with - *without).collect();
-            jet.phase.lift(&direction).scalar(&function.formula).eps
+            jet.phase.lift(&direction).scalar(function).eps
         };
         self.unit.iter().map(gain).collect()
     }
 
-    fn products(&self, degree: u32, below: &[Term]) -> impl Iterator<Item = Column> {
+    fn products(&self, degree: u32, below: &[Formula]) -> impl Iterator<Item = Column> {
         let highest = self.effort.ansatz.positions;
         let monomials = self.variables.monomials(degree, 0..=highest);
         (0..below.len()).flat_map(move |factor| {
@@ -147,7 +155,7 @@ impl Rotors<'_> {
 
     /// Sets up the equations of first order; the rotor's components are the last columns.
     fn linear(&self) -> Result<System, SearchError> {
-        let over = factors(self.below, self.case);
+        let over = factors(self.below)?;
         let seed = self.effort.options.seed;
         let mut given = Vec::new();
         let mut system =
@@ -162,12 +170,19 @@ impl Rotors<'_> {
     }
 
     /// Returns the number of directions to first order, and those whose coefficients are known.
-    fn directions(&self, system: &System, report: &mut Report) -> Option<(usize, Vec<Direction>)> {
-        let at = system.at(0, 0)?;
+    fn directions(
+        &self,
+        system: &System,
+        report: &mut Report,
+    ) -> Result<Option<(usize, Vec<Direction>)>, FormulaError> {
         let first = system.columns.len() - 3;
-        let mut columns = system.distinct(&at, &(0..first).collect::<Vec<_>>())?;
-        columns.extend(first..first + 3);
-        let vectors = system.null_space(&at, &columns)?;
+        let solved = system.at(0, 0).and_then(|at| {
+            let mut columns = system.distinct(&at, &(0..first).collect::<Vec<_>>())?;
+            columns.extend(first..first + 3);
+            let vectors = system.null_space(&at, &columns)?;
+            Some((columns, vectors))
+        });
+        let Some((columns, vectors)) = solved else { return Ok(None) };
         let mut found = Vec::new();
         let mut dimension = 0;
         for vector in &vectors {
@@ -186,31 +201,43 @@ impl Rotors<'_> {
             };
             let component = |axis: usize| {
                 let place = support.iter().position(|column| *column == first + axis);
-                place.map_or("0".to_string(), |place| coefficients.text(place))
+                place.map_or(Ok(Formula::number(0)), |place| coefficients.formula(place))
             };
             let own: Vec<usize> = (0..support.len()).filter(|k| support[*k] < first).collect();
-            let text =
-                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
-            let linear = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
-            let rotor = format!("[{}, {}, {}]", component(0), component(1), component(2));
-            found.push(Direction { rotor, linear });
+            let linear = self.sum(system, &coefficients, &support, &own)?;
+            let [a, b, c] = [component(0)?, component(1)?, component(2)?];
+            found.push(Direction { rotor: Formula::vector(&[&a, &b, &c])?, linear });
         }
-        Some((dimension, found))
+        Ok(Some((dimension, found)))
+    }
+
+    /// Σ coefficient · function over some columns of a support.
+    fn sum(
+        &self,
+        system: &System,
+        coefficients: &Coefficients,
+        support: &[usize],
+        own: &[usize],
+    ) -> Composed {
+        let function =
+            |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
+        let functions: Vec<Ratio> =
+            own.iter().map(function).collect::<Result<_, FormulaError>>()?;
+        Ok(coefficients.sum(own, &functions)?.unwrap_or_else(|| Formula::number(0)))
     }
 
     /// Finds terms of second order for each product of two directions; `None` where there are none.
-    fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<String>>, SearchError> {
+    fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<Formula>>, SearchError> {
         if self.degree < 2 {
-            return Ok(vec![Some("0".to_string()); pairs(directions.len()).len()]);
+            return Ok(vec![Some(Formula::number(0)); pairs(directions.len()).len()]);
         }
-        let vocabulary = &self.case.model.vocabulary;
-        let linear = read(directions.iter().map(|own| own.linear.clone()).collect(), vocabulary);
+        let linear: Vec<Formula> = directions.iter().map(|own| own.linear.clone()).collect();
         let units: Vec<Model> = directions
             .iter()
             .filter_map(|own| with_gyrostat(&self.case.model, &own.rotor))
             .collect();
         let along = Rotors { unit: &units, integral: self.integral.clone(), ..*self };
-        let over = factors(self.below, self.case);
+        let over = factors(self.below)?;
         let seed = self.effort.options.seed;
         let pairs = pairs(directions.len());
         let mut given = Vec::new();
@@ -233,27 +260,29 @@ impl Rotors<'_> {
         let Some(at) = system.at(0, 0) else { return Ok(vec![None; pairs.len()]) };
         let own: Vec<usize> = (0..first).collect();
         let Some(distinct) = system.distinct(&at, &own) else { return Ok(vec![None; pairs.len()]) };
-        let solved = |pair: usize| -> Option<String> {
+        let solved = |pair: usize| -> Result<Option<Formula>, FormulaError> {
             let kept = distinct.iter().copied().filter(|column| *column != own[0]);
             let columns: Vec<usize> = kept.chain([first + pair]).collect();
-            let vector = system.null_space(&at, &columns)?.pop()?;
+            let vector = system.null_space(&at, &columns).and_then(|mut found| found.pop());
+            let Some(vector) = vector else { return Ok(None) };
             let used = columns.iter().zip(&vector).filter(|(_, entry)| **entry != 0);
             let support: Vec<usize> = used.map(|(column, _)| *column).collect();
             if support.last() != Some(&(first + pair)) {
-                return None;
+                return Ok(None);
             }
-            let coefficients = Coefficients::of(&system, &support)?;
+            let Some(coefficients) = Coefficients::of(&system, &support) else { return Ok(None) };
             let last = support.len() - 1;
             let own: Vec<usize> = (0..last).collect();
-            let text =
-                |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
-            let sum = coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>());
-            Some(match coefficients.text(last).as_str() {
-                "1" => sum,
-                below => format!("({sum})/({below})"),
-            })
+            let sum = self.sum(&system, &coefficients, &support, &own)?;
+            let below = coefficients.formula(last)?;
+            match is_one(&below) {
+                true => Ok(Some(sum)),
+                false => (sum.bracketed() / &below.bracketed()).map(Some),
+            }
         };
-        Ok((0..pairs.len()).map(solved).collect())
+        let found: Result<Vec<Option<Formula>>, FormulaError> =
+            (0..pairs.len()).map(solved).collect();
+        Ok(found?)
     }
 
     /// Reports the integral with all directions that admit one, each with a free constant; returns
@@ -261,10 +290,7 @@ impl Rotors<'_> {
     fn tell(&self, directions: &[Direction], report: &mut Report) -> Result<usize, SearchError> {
         let mut kept: Vec<&Direction> = directions.iter().collect();
         while !kept.is_empty() {
-            let own: Vec<Direction> = kept
-                .iter()
-                .map(|one| Direction { rotor: one.rotor.clone(), linear: one.linear.clone() })
-                .collect();
+            let own: Vec<Direction> = kept.iter().map(|one| (*one).clone()).collect();
             let quadratic = self.quadratic(&own)?;
             let pairs = pairs(own.len());
             // Drop a direction without a term for its square first, then the last one in a pair
@@ -284,24 +310,24 @@ impl Rotors<'_> {
         &self,
         own: &[Direction],
         pairs: &[(usize, usize)],
-        quadratic: &[Option<String>],
+        quadratic: &[Option<Formula>],
         report: &mut Report,
     ) -> Result<usize, SearchError> {
-        let (mut extended, names) = with_constants(self.case, "s", own.len());
-        let rotor = combination(names.iter().zip(own.iter().map(|one| &one.rotor)));
-        let linear = combination(names.iter().zip(own.iter().map(|one| &one.linear)));
+        let (mut extended, names) = with_constants(self.case, "s", own.len())?;
+        let rotor = combination(names.iter().zip(own.iter().map(|one| &one.rotor)))?;
+        let linear = combination(names.iter().zip(own.iter().map(|one| &one.linear)))?;
+        let (Some(rotor), Some(linear)) = (rotor, linear) else { return Ok(0) };
         let Some(model) = with_gyrostat(&extended.model, &rotor) else { return Ok(0) };
         extended.model = model;
-        let mut formula = format!("{} + {linear}", self.integral.text);
+        let mut formula = (&self.integral + &linear)?;
         for ((k, l), term) in pairs.iter().zip(quadratic) {
-            if let Some(term) = term.as_ref().filter(|term| *term != "0") {
-                formula.push_str(&format!(" + {}*{}*({term})", names[*k], names[*l]));
+            let is_zero = |term: &&Formula| term.constant().is_some_and(|value| value.is_zero());
+            if let Some(term) = term.as_ref().filter(|term| !is_zero(term)) {
+                formula = (formula + &(&names[*k] * &names[*l] * &term.bracketed())?)?;
             }
         }
-        let claim = [format!("integral = {}", quoted(&formula))];
-        let Some(verdict) = judged(&extended, &claim, self.effort)?.into_iter().next() else {
-            return Ok(0);
-        };
+        let verdict = judged_alone(&extended, Claim::integral(&formula), self.effort)?;
+        let Some(verdict) = verdict else { return Ok(0) };
         if !holds(&verdict) {
             report.remark(format!(
                 "found, but not proved ({}): {formula} with S = {rotor}",
@@ -310,7 +336,7 @@ impl Rotors<'_> {
             return Ok(0);
         }
         let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
-        one.with = vec![("gyrostat", rotor)];
+        one.with = vec![("gyrostat", rotor.to_string())];
         report.found.push(one);
         Ok(own.len())
     }

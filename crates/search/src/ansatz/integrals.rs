@@ -1,19 +1,21 @@
 //! Search for integrals that are polynomials in velocities and positions over a denominator of the
 //! geometry.
 
-use super::super::ask::{holds, judged, quoted};
+use super::super::ask::{holds, judged_alone};
 use super::super::integrals::tell;
 use super::super::products::Generators;
-use super::super::terms::{Term, read};
+use super::super::terms::{is_one, read};
 use super::super::{Effort, Excluded, Report, SearchError, library};
 use super::characters::Characters;
-use super::coefficients::Coefficients;
+use super::coefficients::{Coefficients, Ratio};
 use super::monomials::Variables;
 use super::size::Size;
 use super::subspace::complement;
 use super::system::{Column, System};
 use super::{coordinates, factors};
 use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::{Model, System as Motion};
 use liouville::verdict::Verdict;
 
@@ -65,7 +67,7 @@ pub fn integrals(
             ));
             return Ok(());
         }
-        for below in denominators(&case.model) {
+        for below in denominators(&case.model)? {
             let mut search = Search {
                 case,
                 effort,
@@ -84,16 +86,18 @@ pub fn integrals(
 }
 
 /// Lists denominators of polynomials, simple ones first: all that a pole of the field allows.
-fn denominators(model: &Model) -> Vec<Term> {
-    let mut texts = library::denominators(model);
+fn denominators(model: &Model) -> Result<Vec<Formula>, FormulaError> {
+    let mut found = library::denominators(model);
     let further: &[&str] = match &model.system {
         Motion::Rubber(_) => &["D_T", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"],
         Motion::FlatBase(_) => &["(I1*I2 + m*(I1*r1² + I2*r2²))"],
         _ => &[],
     };
-    texts.extend(further.iter().map(|text| text.to_string()));
-    texts.extend(texts.clone().into_iter().skip(1).map(|text| format!("({text})²")));
-    read(texts, &model.vocabulary)
+    found.extend(read(further.iter().copied(), &model.vocabulary));
+    let squares: Result<Vec<Formula>, FormulaError> =
+        found.iter().skip(1).map(|one| one.bracketed().raised(2)).collect();
+    found.extend(squares?);
+    Ok(found)
 }
 
 /// The search in one degree in the velocities, over one denominator.
@@ -103,7 +107,7 @@ struct Search<'a> {
     variables: &'a Variables,
     degree: u32,
     mixed: bool,
-    below: Term,
+    below: Formula,
     /// Known integrals, including those found so far.
     known: &'a mut Generators,
 }
@@ -143,15 +147,13 @@ impl Search<'_> {
         let Self { case, effort, variables, .. } = *self;
         let seed = effort.options.seed;
         let below = std::slice::from_ref(&self.below);
-        let over = factors(below, case);
+        let over = factors(below)?;
         let generators = &*self.known;
-        let names: Vec<String> = generators.names().map(str::to_string).collect();
-        let known = read(names, &case.model.vocabulary);
+        let known: Vec<Formula> = generators.formulas().cloned().collect();
         let mut outputs = Vec::new();
         let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
             recording.derive(jet.along_field(), &variables.terms, &over);
-            outputs =
-                known.iter().map(|term| recording.give(jet.phase.scalar(&term.formula))).collect();
+            outputs = known.iter().map(|term| recording.give(jet.phase.scalar(term))).collect();
         })?;
         let lowest = if self.mixed { 0 } else { self.degree };
         let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
@@ -213,29 +215,26 @@ impl Search<'_> {
         let Some(coefficients) = Coefficients::of(system, &support) else {
             report.remark(format!(
                 "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
-                self.degree, support.len(), self.below.text
+                self.degree, support.len(), self.below
             ));
             return Ok(Outcome::Open);
         };
-        let functions: Vec<String> =
+        let functions: Result<Vec<Ratio>, FormulaError> =
             support.iter().map(|k| self.monomial(&system.columns[*k])).collect();
         let all: Vec<usize> = (0..support.len()).collect();
-        let sum = coefficients.sum(&all, &functions);
-        let formula = match self.below.text.as_str() {
-            "1" => sum,
-            below => format!("({sum})/({below})"),
+        let sum = coefficients.sum(&all, &functions?)?.unwrap_or_else(|| Formula::number(0));
+        let formula = match is_one(&self.below) {
+            true => sum,
+            false => (sum.bracketed() / &self.below.bracketed())?,
         };
-        let claim = [format!("integral = {}", quoted(&formula))];
-        let Some(verdict) = judged(case, &claim, effort)?.into_iter().next() else {
-            return Ok(Outcome::Open);
-        };
+        let verdict = judged_alone(case, Claim::integral(&formula), effort)?;
+        let Some(verdict) = verdict else { return Ok(Outcome::Open) };
         if !holds(&verdict) {
             report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
             return Ok(Outcome::Open);
         }
-        let names: Vec<String> = self.known.names().map(quoted).chain([quoted(&formula)]).collect();
-        let claim = [format!("independent = [{}]", names.join(", "))];
-        let independence = judged(case, &claim, effort)?.into_iter().next();
+        let all = self.known.formulas().cloned().chain([formula.clone()]).collect();
+        let independence = judged_alone(case, Claim::independent(all), effort)?;
         match independence.map(|report| report.verdict) {
             Some(Verdict::Proved) => {
                 let before = report.found.len();
@@ -256,17 +255,17 @@ impl Search<'_> {
         }
     }
 
-    fn monomial(&self, column: &Column) -> String {
+    fn monomial(&self, column: &Column) -> Result<Ratio, FormulaError> {
         match column {
-            Column::Product { exponents, .. } => self.variables.text(exponents),
-            Column::Given(_) => "1".to_string(),
+            Column::Product { exponents, .. } => self.variables.monomial(exponents).map(Ratio::of),
+            Column::Given(_) => Ok(Ratio::of(Formula::number(1))),
         }
     }
 
     fn words(&self, positions: u32) -> String {
-        let below = match self.below.text.as_str() {
-            "1" => String::new(),
-            below => format!(" over {below}"),
+        let below = match is_one(&self.below) {
+            true => String::new(),
+            false => format!(" over {}", self.below),
         };
         let degree = if self.mixed { "at most " } else { "" };
         format!(

@@ -28,9 +28,11 @@ pub mod subspace;
 pub mod system;
 
 use super::conditions::components;
-use super::terms::{Term, read};
+use super::terms::{is_one, one, read};
 use super::{Effort, Report, SearchError};
+use coefficients::Ratio;
 use liouville::case::Case;
+use liouville::formula::{Formula, FormulaError};
 use monomials::Variables;
 pub use poisson::Hamiltonians;
 use system::Column;
@@ -78,27 +80,27 @@ pub fn search(
 
 /// Lists the parameters' components in which coefficients are written, including those of J if
 /// there is one.
-pub fn coordinates(case: &Case) -> Vec<Term> {
-    let entries = ["J1", "J2", "J3", "J12", "J13", "J23"].map(str::to_string);
-    let tensor = read(entries.to_vec(), &case.model.vocabulary);
+pub fn coordinates(case: &Case) -> Vec<Formula> {
+    let tensor = read(["J1", "J2", "J3", "J12", "J13", "J23"], &case.model.vocabulary);
     [components(case), tensor].concat()
 }
 
 /// Lists the factors 1/d for the denominators d.
-fn factors(below: &[Term], case: &Case) -> Vec<Term> {
-    let over = |term: &Term| format!("1/({})", term.text);
-    read(below.iter().map(over).collect(), &case.model.vocabulary)
+fn factors(below: &[Formula]) -> Result<Vec<Formula>, FormulaError> {
+    below.iter().map(|term| one() / &term.bracketed()).collect()
 }
 
-/// Writes the function that a column differentiates.
-fn written(variables: &Variables, below: &[Term], column: &Column) -> String {
+/// Function that a column differentiates.
+fn written(
+    variables: &Variables,
+    below: &[Formula],
+    column: &Column,
+) -> Result<Ratio, FormulaError> {
     match column {
-        Column::Given(_) => "1".to_string(),
+        Column::Given(_) => Ok(Ratio::of(one())),
         Column::Product { factor, exponents, .. } => {
-            match (variables.text(exponents), below[*factor].text.as_str()) {
-                (above, "1") => above,
-                (above, below) => format!("{above}/{below}"),
-            }
+            let below = Some(below[*factor].clone()).filter(|below| !is_one(below));
+            Ok(Ratio { above: variables.monomial(exponents)?, below })
         }
     }
 }

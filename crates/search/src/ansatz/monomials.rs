@@ -5,8 +5,9 @@
 //! does not, and γ₂ at most once.
 
 use crate::series::exponents;
-use crate::terms::{Term, read};
+use crate::terms::{one, read};
 use liouville::case::Case;
+use liouville::formula::{Composed, Formula};
 use liouville::mechanics::{Chart, Role, System};
 
 /// The relations of the level, by which some monomials are redundant.
@@ -24,7 +25,7 @@ enum Ideal {
 #[derive(Clone, Debug)]
 pub struct Variables {
     /// Components of the state as formulas.
-    pub terms: Vec<Term>,
+    pub terms: Vec<Formula>,
     /// Whether each of them is a velocity.
     is_velocity: Vec<bool>,
     ideal: Ideal,
@@ -55,8 +56,8 @@ impl Variables {
             }
             _ => return None,
         };
-        let names = (0..model.dimension()).map(|k| model.component_name(k)).collect();
-        let terms = read(names, &model.vocabulary);
+        let names: Vec<String> = (0..model.dimension()).map(|k| model.component_name(k)).collect();
+        let terms = read(names.iter().map(String::as_str), &model.vocabulary);
         (terms.len() == model.dimension()).then_some(Self { terms, is_velocity, ideal })
     }
 
@@ -111,10 +112,9 @@ impl Variables {
         }
     }
 
-    /// Writes a monomial.
-    pub fn text(&self, exponents: &[u32]) -> String {
-        let names: Vec<&str> = self.terms.iter().map(|term| term.text.as_str()).collect();
-        power_product(&names, exponents)
+    /// Monomial with these exponents.
+    pub fn monomial(&self, exponents: &[u32]) -> Composed {
+        power_product(&self.terms, exponents)
     }
 }
 
@@ -122,18 +122,23 @@ fn first(velocities: usize, all: usize) -> Vec<bool> {
     (0..all).map(|k| k < velocities).collect()
 }
 
-/// Writes Π x^a; `1` for the empty product.
-pub fn power_product(names: &[&str], exponents: &[u32]) -> String {
-    let used = names.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
-    let powers: Vec<String> = used
-        .map(|(name, exponent)| match exponent {
-            1 => name.to_string(),
-            2 => format!("{name}²"),
-            3 => format!("{name}³"),
-            n => format!("{name}^{n}"),
-        })
-        .collect();
-    if powers.is_empty() { "1".to_string() } else { powers.join("*") }
+/// Product of powers Π x^a; 1 for the empty product.
+pub fn power_product(factors: &[Formula], exponents: &[u32]) -> Composed {
+    let used = factors.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
+    let mut product: Option<Formula> = None;
+    for (factor, exponent) in used {
+        let power = match exponent {
+            1 => factor.clone(),
+            2 => factor.raised(2)?,
+            3 => factor.raised(3)?,
+            n => factor.power(&Formula::number(i64::from(*n)))?,
+        };
+        product = Some(match product {
+            None => power,
+            Some(before) => (before * &power)?,
+        });
+    }
+    Ok(product.unwrap_or_else(one))
 }
 
 #[cfg(test)]
@@ -153,7 +158,8 @@ mod tests {
         // minus the multiples of γ.
         assert_eq!(variables.monomials(0, 0..=4).len(), 25);
         assert_eq!(variables.monomials(2, 0..=4).len(), 102, "as a table of sizes has it");
-        assert_eq!(variables.text(&[1, 0, 0, 2, 0, 1]), "ω1*γ1²*γ3");
-        assert_eq!(variables.text(&[0; 6]), "1");
+        let text = |exponents| variables.monomial(exponents).expect("a product").to_string();
+        assert_eq!(text(&[1, 0, 0, 2, 0, 1]), "ω1*γ1²*γ3");
+        assert_eq!(text(&[0; 6]), "1");
     }
 }

@@ -8,14 +8,16 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::ask::{holds, judged, quoted};
+use super::super::ask::{holds, judged, judged_alone};
 use super::super::linear::Functions;
 use super::super::series::exponents;
-use super::super::terms::{Term, integers, read, recorded};
+use super::super::terms::{integers, one, recorded};
 use super::super::{Effort, Excluded, Found, Report, SearchError};
+use super::brackets::Weight;
 use super::components;
 use liouville::case::Case;
-use liouville::formula::Type;
+use liouville::claim::Claim;
+use liouville::formula::{Formula, Type};
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -60,28 +62,26 @@ pub fn brackets(
         ));
         return Ok(());
     }
-    let known: Vec<String> = {
-        let claimed = report.claimed.iter().map(|one| one.formula.as_str());
-        report.formulas("integral").chain(claimed).map(str::to_string).collect()
+    let known: Vec<Formula> = {
+        let claimed = report.claimed.iter().map(|one| &one.formula);
+        report.functions("integral").chain(claimed).cloned().collect()
     };
-    let names = match wanted {
+    let functions = match wanted {
         Hamiltonians::Known => known.clone(),
-        Hamiltonians::Given(text) => vec![text.clone()],
+        Hamiltonians::Given(text) => vec![super::super::Term::from(text.as_str()).read(model)?],
     };
-    if names.is_empty() {
+    if functions.is_empty() {
         report.remark(
             "no bracket is looked for: no integral is known; give a Hamiltonian with --poisson=H"
                 .to_string(),
         );
     }
     let weights = weights(case, effort)?;
-    for name in names {
+    for hamiltonian in functions {
         effort.halt.check()?;
+        let name = hamiltonian.to_string();
         progress(&format!("brackets with the Hamiltonian {name}"));
-        let Some(hamiltonian) = read(vec![name.clone()], &model.vocabulary).pop() else {
-            return Err(SearchError::NoTerm(name));
-        };
-        let family = Family::new(case, effort, hamiltonian, weights.clone());
+        let family = Family::new(case, effort, hamiltonian, weights.clone())?;
         // A function that claims about a bracket cannot read, such as `energy`, is not tried as a
         // Hamiltonian.
         if family.with_bracket(&[]).and_then(|asked| family.reads(&asked)).is_err() {
@@ -97,13 +97,16 @@ pub fn brackets(
 
 /// Lists 1, the components of the parameters, and their inverses, without those that depend on
 /// others.
-fn weights(case: &Case, effort: &Effort) -> Result<Vec<Term>, SearchError> {
-    let own: Vec<String> = components(case).into_iter().map(|term| term.text).collect();
-    let inverse = own.iter().map(|text| format!("1/{text}"));
-    let texts = ["1".to_string()].into_iter().chain(own.iter().cloned()).chain(inverse);
-    let all = read(texts.collect(), &case.model.vocabulary);
+fn weights(case: &Case, effort: &Effort) -> Result<Vec<Weight>, SearchError> {
+    let own = components(case);
+    let above = [one()].into_iter().chain(own.iter().cloned()).map(Weight::Above);
+    let all: Vec<Weight> = above.chain(own.iter().cloned().map(Weight::Below)).collect();
+    let mut formulas = Vec::new();
+    for weight in &all {
+        formulas.push(weight.formula()?);
+    }
     let (graph, values) = recorded(case, |jet| {
-        all.iter().map(|term| vec![jet.phase.scalar(&term.formula)]).collect::<Vec<_>>()
+        formulas.iter().map(|weight| vec![jet.phase.scalar(weight)]).collect::<Vec<_>>()
     })?;
     let mut functions = Functions::new(case, &graph, &values, effort.options.seed)?;
     let defined = functions.defined();
@@ -123,16 +126,21 @@ pub(super) struct Unknown {
 pub(super) struct Family<'a> {
     pub(super) case: &'a Case,
     effort: &'a Effort,
-    hamiltonian: Term,
-    pub(super) weights: Vec<Term>,
-    /// Names of the state's components.
-    pub(super) names: Vec<String>,
+    hamiltonian: Formula,
+    pub(super) weights: Vec<Weight>,
+    /// Components of the state.
+    pub(super) names: Vec<Formula>,
     degree: u32,
     pub(super) unknowns: Vec<Unknown>,
 }
 
 impl<'a> Family<'a> {
-    fn new(case: &'a Case, effort: &'a Effort, hamiltonian: Term, weights: Vec<Term>) -> Self {
+    fn new(
+        case: &'a Case,
+        effort: &'a Effort,
+        hamiltonian: Formula,
+        weights: Vec<Weight>,
+    ) -> Result<Self, SearchError> {
         let dimension = case.model.dimension();
         let pairs: Vec<(usize, usize)> =
             (0..dimension).flat_map(|i| (i + 1..dimension).map(move |j| (i, j))).collect();
@@ -155,12 +163,15 @@ impl<'a> Family<'a> {
             degree -= 1;
             own = unknowns(degree);
         }
-        let names = (0..dimension).map(|k| case.model.component_name(k)).collect();
-        Self { case, effort, hamiltonian, weights, names, degree, unknowns: own }
+        let mut names = Vec::new();
+        for k in 0..dimension {
+            names.push(case.formula(&case.model.component_name(k))?);
+        }
+        Ok(Self { case, effort, hamiltonian, weights, names, degree, unknowns: own })
     }
 
-    fn search(&self, known: &[String], report: &mut Report) -> Result<(), SearchError> {
-        let name = &self.hamiltonian.text;
+    fn search(&self, known: &[Formula], report: &mut Report) -> Result<(), SearchError> {
+        let name = &self.hamiltonian;
         let (graph, columns) = self.recorded()?;
         let functions = Functions::new(self.case, &graph, &columns, self.effort.options.seed);
         let relations = match functions.and_then(|mut functions| functions.relations()) {
@@ -190,12 +201,16 @@ impl<'a> Family<'a> {
     fn recorded(&self) -> Result<(liouville::graph::Graph, Vec<Vec<Expr>>), SearchError> {
         let dimension = self.names.len();
         let zero = || Expr::rational(&Rational::from(0));
+        let mut weights = Vec::new();
+        for weight in &self.weights {
+            weights.push(weight.formula()?);
+        }
         Ok(recorded(self.case, |jet| {
             let state = jet.phase.state().to_vec();
-            let slope = |i| jet.phase.lift_along(i).scalar(&self.hamiltonian.formula).eps;
+            let slope = |i| jet.phase.lift_along(i).scalar(&self.hamiltonian).eps;
             let slopes: Vec<Expr> = (0..dimension).map(slope).collect();
             let weights: Vec<Expr> =
-                self.weights.iter().map(|term| jet.phase.scalar(&term.formula)).collect();
+                weights.iter().map(|weight| jet.phase.scalar(weight)).collect();
             let column = |unknown: &Unknown| {
                 let (i, j) = unknown.pair;
                 let powers = state.iter().zip(&unknown.exponents);
@@ -217,11 +232,11 @@ impl<'a> Family<'a> {
         &self,
         solution: &[Rational],
         beside: &[Vec<Rational>],
-        known: &[String],
+        known: &[Formula],
         report: &mut Report,
     ) -> Result<(), SearchError> {
         let model = &self.case.model;
-        let name = &self.hamiltonian.text;
+        let name = &self.hamiltonian;
         let sum = |a: &Rational, b: &Rational, sign: i64| {
             let ((a, below_a), (b, below_b)) = (a.parts(), b.parts());
             (a * &below_b + b * sign * &below_a, below_a * below_b)
@@ -238,32 +253,30 @@ impl<'a> Family<'a> {
         for multiples in [integers(solution)].into_iter().chain(shifted) {
             self.effort.halt.check()?;
             tried += 1;
-            let entries = self.entries(&multiples);
+            let entries = self.entries(&multiples)?;
             let asked = self.with_bracket(&entries)?;
-            let claims = [
-                format!("hamiltonian = {}", quoted(name)),
-                "jacobi-identity = \"holds\"".to_string(),
-            ];
+            let claims = [Claim::hamiltonian(asked.in_variables(name)?), Claim::jacobi_identity()];
             let reports = judged(&asked, &claims, self.effort)?;
             if !reports.iter().all(holds) {
                 continue;
             }
-            let mut with = vec![("Hamiltonian", name.clone())];
-            for casimir in known.iter().filter(|other| *other != name) {
+            let mut with = vec![("Hamiltonian", name.to_string())];
+            for casimir in known.iter().filter(|other| other.text() != name.text()) {
                 if self.is_casimir(&asked, casimir)? {
-                    with.push(("Casimir", casimir.clone()));
+                    with.push(("Casimir", casimir.to_string()));
                 }
             }
             // Use the weaker of the two verdicts.
             let weaker = reports.into_iter().min_by_key(|own| own.verdict == Verdict::Proved);
             if let Some(weaker) = weaker {
-                let mut found = Found::new("bracket", &self.shown(&entries), None, weaker, model);
+                let (text, parts) = (self.shown(&entries), entries.iter().collect::<Vec<_>>());
+                let mut found = Found::of_several("bracket", text, &parts, weaker, model);
                 found.with = with;
                 report.found.push(found);
             }
             return Ok(());
         }
-        let entries = self.entries(&integers(solution));
+        let entries = self.entries(&integers(solution))?;
         report.remark(format!(
             "v = P ∂H with H = {name} and {}, but this P fails Jacobi's identity, or is not proved; so do {} others of the {}-dimensional family that were tried",
             self.shown(&entries),
@@ -277,10 +290,10 @@ impl<'a> Family<'a> {
     /// solutions: then the rank of the unknowns' columns is that modulo the prime, and the rank
     /// with v is not below that.
     fn exclude(&self, beside: &[Vec<Rational>], report: &mut Report) -> Result<(), SearchError> {
-        let name = &self.hamiltonian.text;
+        let name = &self.hamiltonian;
         for vector in beside {
             self.effort.halt.check()?;
-            let asked = self.with_bracket(&self.entries(&integers(vector)))?;
+            let asked = self.with_bracket(&self.entries(&integers(vector))?)?;
             if !self.is_casimir(&asked, name)? {
                 report.remark(format!(
                     "no bracket was found with {name}; that there is none is not proved"
@@ -288,7 +301,10 @@ impl<'a> Family<'a> {
                 return Ok(());
             }
         }
-        let weights: Vec<&str> = self.weights.iter().map(|term| term.text.as_str()).collect();
+        let mut weights = Vec::new();
+        for weight in &self.weights {
+            weights.push(weight.formula()?.to_string());
+        }
         let (degree, weights) = (self.degree, weights.join(", "));
         let coefficients = match weights.as_str() {
             "1" => "numbers as coefficients".to_string(),
@@ -310,17 +326,16 @@ impl<'a> Family<'a> {
         Ok(())
     }
 
-    fn is_casimir(&self, asked: &Case, function: &str) -> Result<bool, SearchError> {
-        match judged(asked, &[format!("casimir = {}", quoted(function))], self.effort) {
-            // The Hamiltonian contains names that formulas in the variables of a bracket cannot.
-            Err(SearchError::Unreadable(_)) => Ok(false),
-            reports => Ok(reports?.iter().any(|own| own.verdict == Verdict::Proved)),
-        }
+    fn is_casimir(&self, asked: &Case, function: &Formula) -> Result<bool, SearchError> {
+        // The function may contain names that formulas in the variables of a bracket cannot.
+        let Ok(function) = asked.in_variables(function) else { return Ok(false) };
+        let report = judged_alone(asked, Claim::casimir(function), self.effort)?;
+        Ok(report.is_some_and(|own| own.verdict == Verdict::Proved))
     }
 
     /// Checks that the Hamiltonian can be read in the variables of a bracket.
     fn reads(&self, asked: &Case) -> Result<(), SearchError> {
-        let claim = format!("[[claim]]\ncasimir = {}\n", quoted(&self.hamiltonian.text));
-        Ok(asked.ask(&claim).map(|_| ())?)
+        asked.with_claims(&[Claim::casimir(asked.in_variables(&self.hamiltonian)?)])?;
+        Ok(())
     }
 }

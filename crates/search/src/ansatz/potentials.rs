@@ -5,17 +5,19 @@
 //! and G. Both are polynomials over some denominators, without constant terms. With P_i = (∂F/∂ω,
 //! A(e_i)) the first term is the derivative of U along γ → γ + tP.
 
-use super::super::ask::{holds, judged, quoted};
+use super::super::ask::{holds, is_energy, judged_alone};
 use super::super::products::Generators;
-use super::super::terms::{Term, read};
+use super::super::terms::read;
 use super::super::{Effort, Excluded, Found, Report, SearchError};
-use super::coefficients::Coefficients;
+use super::coefficients::{Coefficients, Ratio};
 use super::forces::{combination, with_constants, with_potential};
 use super::monomials::Variables;
 use super::size::Size;
 use super::system::{Column, System};
 use super::{coordinates, factors, written};
 use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::mechanics::{Model, Phase};
 use liouville::number::rational::Rational;
@@ -33,25 +35,27 @@ pub fn potentials(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    let axes = read(["γ1", "γ2", "γ3"], &case.model.vocabulary);
     let unit: Option<Vec<Model>> =
-        (1..=3).map(|i| with_potential(&case.model, &format!("γ{i}"))).collect();
+        axes.iter().map(|component| with_potential(&case.model, component)).collect();
+    let unit = unit.filter(|unit| unit.len() == 3);
     let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
         let reason = "the system takes none, or has one with free coefficients";
         report.remark(format!("no potential is looked for: {reason}"));
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
-    let own: Vec<String> = generators
+    let own: Vec<Formula> = generators
         .each()
-        .filter(|(name, degree)| *name != "energy" && (1..=2).contains(degree))
-        .map(|(name, _)| name.to_string())
+        .filter(|(formula, degree)| !is_energy(formula) && (1..=2).contains(degree))
+        .map(|(formula, _)| formula.clone())
         .collect();
     if own.is_empty() {
         report.remark(
             "no integral of degree 1 or 2 is known that a potential could keep".to_string(),
         );
     }
-    for integral in read(own, &case.model.vocabulary) {
+    for integral in own {
         effort.halt.check()?;
         let family = Family { case, effort, variables: &variables, unit: &unit, integral };
         family.search(report, progress)?;
@@ -66,7 +70,7 @@ struct Family<'a> {
     variables: &'a Variables,
     /// Models with an additional potential γ_i.
     unit: &'a [Model],
-    integral: Term,
+    integral: Formula,
 }
 
 impl Family<'_> {
@@ -76,9 +80,9 @@ impl Family<'_> {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let vocabulary = &self.case.model.vocabulary;
-        let below = ["1", "γ1²", "γ2²", "γ3²", "(γ,B*γ)", "(γ,J⁻¹*γ)"].map(str::to_string);
-        let below = read(below.to_vec(), vocabulary);
-        let mut system = self.recorded(&factors(&below, self.case))?;
+        let below = ["1", "γ1²", "γ2²", "γ3²", "(γ,B*γ)", "(γ,J⁻¹*γ)"];
+        let below = read(below, vocabulary);
+        let mut system = self.recorded(&factors(&below)?)?;
         let product = |derivation| {
             move |(factor, exponents): (usize, Vec<u32>)| Column::Product {
                 derivation,
@@ -101,7 +105,7 @@ impl Family<'_> {
         system.columns = gains.into_iter().chain(potentials).collect();
         let count = system.columns.len();
         let size = Size::of(&[(0..count).collect()]);
-        let what = format!("potentials that keep {}", self.integral.text);
+        let what = format!("potentials that keep {}", self.integral);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
             report.remark(format!("{what}: not tried; {size}; {reason}"));
@@ -133,14 +137,18 @@ impl Family<'_> {
             let sum = |potential: bool| {
                 let own = |k: &usize| (support[*k] >= first) == potential;
                 let own: Vec<usize> = (0..support.len()).filter(own).collect();
-                let text =
+                let function =
                     |k: &usize| written(self.variables, &below, &system.columns[support[*k]]);
-                coefficients.sum(&own, &own.iter().map(text).collect::<Vec<_>>())
+                let functions: Vec<Ratio> =
+                    own.iter().map(function).collect::<Result<_, FormulaError>>()?;
+                coefficients.sum(&own, &functions)
             };
-            found.push((sum(true), sum(false)));
+            // the support ends with a column of a potential
+            let Some(potential) = sum(true)? else { continue };
+            found.push((potential, sum(false)?));
         }
         let told = self.tell(&found, report)?;
-        let names: Vec<&str> = below.iter().map(|term| term.text.as_str()).collect();
+        let names: Vec<&str> = below.iter().map(Formula::text).collect();
         let names = names.join(", ");
         let dimension = vectors.len();
         report.excluded.push(Excluded {
@@ -151,7 +159,7 @@ impl Family<'_> {
             theorem: format!(
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent potentials of this form, \
                  constants aside, allow an integral {} + G(γ) with G = Σ p/d, p of degree at most {GAIN}{}.",
-                self.integral.text,
+                self.integral,
                 if told == dimension && told > 0 { ": those told here" } else { "" }
             ),
         });
@@ -159,7 +167,7 @@ impl Family<'_> {
     }
 
     /// Records derivatives along γ → γ + tP with P_i = (∂F/∂ω, A(e_i)), and along the motion.
-    fn recorded(&self, over: &[Term]) -> Result<System, SearchError> {
+    fn recorded(&self, over: &[Formula]) -> Result<System, SearchError> {
         let Self { case, effort, variables, .. } = self;
         System::record(case, &coordinates(case), effort.options.seed, |jet, recording| {
             let state = jet.phase.state();
@@ -168,7 +176,7 @@ impl Family<'_> {
                 let beside: Phase<'_, _> = jet.phase.in_model(model, &state);
                 let moved = beside.field().iter().zip(field);
                 let direction: Vec<_> = moved.map(|(with, without)| *with - *without).collect();
-                jet.phase.lift(&direction).scalar(&self.integral.formula).eps
+                jet.phase.lift(&direction).scalar(&self.integral).eps
             });
             let gains: Vec<Expr> = gains.collect();
             let velocities = state.len() - gains.len();
@@ -181,24 +189,27 @@ impl Family<'_> {
 
     /// Reports all potentials together, each with a free constant, and the integral with all of
     /// them; returns the number proved.
-    fn tell(&self, found: &[(String, String)], report: &mut Report) -> Result<usize, SearchError> {
+    fn tell(
+        &self,
+        found: &[(Formula, Option<Formula>)],
+        report: &mut Report,
+    ) -> Result<usize, SearchError> {
         if found.is_empty() {
             return Ok(0);
         }
-        let (mut extended, names) = with_constants(self.case, "ε", found.len());
-        let potential = combination(names.iter().zip(found.iter().map(|(u, _)| u)));
-        let gains = names.iter().zip(found.iter().map(|(_, g)| g));
-        let gain = combination(gains.filter(|(_, gain)| *gain != "0"));
+        let (mut extended, names) = with_constants(self.case, "ε", found.len())?;
+        let potential = combination(names.iter().zip(found.iter().map(|(u, _)| u)))?;
+        let gains = names.iter().zip(found).filter_map(|(name, (_, g))| Some((name, g.as_ref()?)));
+        let gain = combination(gains)?;
+        let Some(potential) = potential else { return Ok(0) };
         let Some(model) = with_potential(&extended.model, &potential) else { return Ok(0) };
         extended.model = model;
-        let formula = match gain.as_str() {
-            "" => self.integral.text.clone(),
-            gain => format!("{} + {gain}", self.integral.text),
+        let formula = match gain {
+            None => self.integral.clone(),
+            Some(gain) => (&self.integral + &gain)?,
         };
-        let claim = [format!("integral = {}", quoted(&formula))];
-        let Some(verdict) = judged(&extended, &claim, self.effort)?.into_iter().next() else {
-            return Ok(0);
-        };
+        let verdict = judged_alone(&extended, Claim::integral(&formula), self.effort)?;
+        let Some(verdict) = verdict else { return Ok(0) };
         if !holds(&verdict) {
             report.remark(format!(
                 "found, but not proved ({}): {formula} with U = {potential}",
@@ -207,7 +218,7 @@ impl Family<'_> {
             return Ok(0);
         }
         let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
-        one.with = vec![("potential", potential)];
+        one.with = vec![("potential", potential.to_string())];
         report.found.push(one);
         Ok(found.len())
     }

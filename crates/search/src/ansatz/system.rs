@@ -10,9 +10,10 @@ use num_dual::Dual;
 use super::super::SearchError;
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
-use super::super::terms::{Term, recorded};
+use super::super::terms::recorded;
 use liouville::case::Case;
 use liouville::claim::Place;
+use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::calculus::Jet;
 use liouville::mechanics::{Draw, Phase};
@@ -71,13 +72,12 @@ impl Recording {
     pub fn derive(
         &mut self,
         moved: &Phase<'_, Dual<Expr>>,
-        variables: &[Term],
-        factors: &[Term],
+        variables: &[Formula],
+        factors: &[Formula],
     ) -> usize {
         let start = self.outputs.len();
         for terms in [variables, factors] {
-            let values: Vec<Dual<Expr>> =
-                terms.iter().map(|term| moved.scalar(&term.formula)).collect();
+            let values: Vec<Dual<Expr>> = terms.iter().map(|term| moved.scalar(term)).collect();
             self.outputs.extend(values.iter().map(|value| value.re));
             self.outputs.extend(values.iter().map(|value| value.eps));
         }
@@ -93,7 +93,7 @@ impl Recording {
     pub fn derive_growing(
         &mut self,
         moved: &Phase<'_, Dual<Expr>>,
-        variables: &[Term],
+        variables: &[Formula],
         growth: Expr,
     ) -> usize {
         let direction = self.derive(moved, variables, &[]);
@@ -124,7 +124,7 @@ pub struct System {
     derivations: Vec<Derivation>,
     /// Number of outputs before the coordinates of the parameters.
     own: usize,
-    coordinates: Vec<String>,
+    coordinates: Vec<Formula>,
     seed: u64,
 }
 
@@ -132,7 +132,7 @@ impl System {
     /// Records the values that `make` needs at a state of the level; the columns are added later.
     pub fn record(
         case: &Case,
-        coordinates: &[Term],
+        coordinates: &[Formula],
         seed: u64,
         make: impl FnOnce(&Jet<'_, Expr>, &mut Recording),
     ) -> Result<Self, SearchError> {
@@ -140,7 +140,7 @@ impl System {
             let mut recording = Recording::default();
             make(jet, &mut recording);
             let own = recording.outputs.len();
-            let values = coordinates.iter().map(|term| jet.phase.scalar(&term.formula));
+            let values = coordinates.iter().map(|term| jet.phase.scalar(term));
             recording.outputs.extend(values);
             (recording, own)
         })?;
@@ -161,12 +161,12 @@ impl System {
             coordinates: Vec::new(),
             seed,
         };
-        system.coordinates = coordinates.iter().map(|term| term.text.clone()).collect();
+        system.coordinates = coordinates.to_vec();
         Ok(system)
     }
 
-    /// Returns the names of the parameters' coordinates.
-    pub fn coordinates(&self) -> &[String] {
+    /// Returns the parameters' coordinates.
+    pub fn coordinates(&self) -> &[Formula] {
         &self.coordinates
     }
 

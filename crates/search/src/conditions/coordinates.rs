@@ -1,15 +1,15 @@
 //! Parameters of a case as coordinates: the components that vary, by name.
 
-use crate::terms::{Term, read};
+use crate::terms::read;
 use liouville::case::Case;
-use liouville::formula::Type;
+use liouville::formula::{Formula, Type};
 use liouville::mechanics::Origin;
 
 /// Lists the components of the drawn parameters, including constant and equal ones.
-pub fn components(case: &Case) -> Vec<Term> {
+pub fn components(case: &Case) -> Vec<Formula> {
     let model = &case.model;
     let drawn = model.parameters.iter().filter(|p| matches!(p.origin, Origin::Free(_)));
-    let texts = drawn.flat_map(|parameter| {
+    let names = drawn.flat_map(|parameter| {
         let name = &parameter.name;
         match parameter.kind {
             Type::Scalar => vec![name.clone()],
@@ -30,5 +30,6 @@ pub fn components(case: &Case) -> Vec<Term> {
             }
         }
     });
-    read(texts.collect(), &model.vocabulary)
+    let names: Vec<String> = names.collect();
+    read(names.iter().map(String::as_str), &model.vocabulary)
 }

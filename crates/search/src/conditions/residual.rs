@@ -40,7 +40,11 @@ pub struct Seen {
 impl Residual {
     /// Records the residual of a claim or, without one, of the criterion for a density of the
     /// configuration.
-    pub fn of(case: &Case, claim: Option<&PlacedClaim>, seed: u64) -> Result<Option<Self>, SearchError> {
+    pub fn of(
+        case: &Case,
+        claim: Option<&PlacedClaim>,
+        seed: u64,
+    ) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
         let terms = components(case);
         let (graph, (residual, values)) = recorded(case, |jet| {
@@ -48,7 +52,7 @@ impl Residual {
                 Some(claim) => Some(claim.kind.residual(jet, &claim.place.kept)),
                 None => model.system.criterion(&jet.phase).map(|value| vec![value]),
             };
-            let values = terms.iter().map(|term| jet.phase.scalar(&term.formula)).collect();
+            let values = terms.iter().map(|term| jet.phase.scalar(term)).collect();
             (residual, values)
         })?;
         let Some(residual) = residual else { return Ok(None) };
@@ -60,7 +64,7 @@ impl Residual {
         let fixed = vec![None; sampler.recipes().len()];
         let height = residual.len();
         let (graph, outputs) = sampler.compose(&graph, &[residual, values], &fixed)?;
-        let names = terms.into_iter().map(|term| term.text).collect();
+        let names = terms.iter().map(ToString::to_string).collect();
         let parameters = model.parameter_draws();
         let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
         let mut residual =

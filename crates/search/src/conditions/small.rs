@@ -175,5 +175,5 @@ fn written(equation: &[i64], monomials: &[String]) -> String {
     use liouville::number::rational::Rational;
     let coefficients: Vec<Rational> = equation.iter().map(|a| Rational::from(*a)).collect();
     let texts: Vec<&str> = monomials.iter().map(String::as_str).collect();
-    format!("{} = 0", crate::terms::sum(&coefficients, &texts))
+    crate::terms::equation(&coefficients, &texts)
 }

@@ -2,7 +2,7 @@
 
 use crate::echelon::Echelon;
 use crate::series::exponents;
-use crate::terms::sum;
+use crate::terms::equation;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
@@ -40,7 +40,7 @@ pub fn equations(
             .null_space()
             .into_iter()
             .filter_map(rational)
-            .map(|vector| format!("{} = 0", sum(&vector, &texts)))
+            .map(|vector| equation(&vector, &texts))
             .collect();
         if !found.is_empty() {
             return Some(found);

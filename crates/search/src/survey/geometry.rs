@@ -8,11 +8,12 @@ use toml::de::DeTable;
 
 use super::axis::{self, Axis};
 use super::data;
-use super::question::{Definition, Question, define};
+use super::question::{Definition, define, defined};
 use liouville::case::Case;
+use liouville::claim::{Claim, Entry, Identity, Integral, Statement};
 use liouville::formula::{Scope, Type};
 use liouville::mechanics::{Surface, System};
-use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict};
+use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
 
 /// A fact about a geometry, with its proof or its witness.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -53,7 +54,7 @@ struct Asked {
     words: String,
     given: Option<String>,
     unless: Option<String>,
-    claim: String,
+    claim: Claim,
 }
 
 impl Geometry {
@@ -175,7 +176,7 @@ impl Geometry {
             words,
             given: None,
             unless: None,
-            claim: claim("identity", &identity),
+            claim: Claim::of(Identity::NAME, Entry::Text(identity)),
         };
         let words = format!("{what} of revolution about {name}");
         let turned = asked("revolution", words, format!("(r, {a} × γ)*E + {tensor} = 0*E"));
@@ -197,7 +198,8 @@ impl Geometry {
             if !case.model.vocabulary.lookup(name).is_some_and(|(_, found)| found == kind) {
                 return Ok(false);
             }
-            let claim = claim("identity", &format!("{meaning} = {name}"));
+            let identity = Entry::Text(format!("{meaning} = {name}"));
+            let claim = Claim::of(Identity::NAME, identity);
             Ok(decided(case, options, &names, &claim)?.as_ref().is_some_and(is_true))
         };
         if self.has("ball") {
@@ -217,18 +219,14 @@ impl Geometry {
 
 /// Reads a fact of a file; a test ensures that each can be read.
 fn asked(fact: &DeTable<'_>) -> Option<Asked> {
-    let statement = |key: &str| Some(claim(key, &data::word(fact, key)?));
+    let statement = |key: &'static str| Some(Claim::of(key, Entry::Text(data::word(fact, key)?)));
     Some(Asked {
         id: data::word(fact, "id")?,
         words: data::word(fact, "words")?,
         given: data::word(fact, "given"),
         unless: data::word(fact, "unless"),
-        claim: statement("identity").or_else(|| statement("integral"))?,
+        claim: statement(Identity::NAME).or_else(|| statement(Integral::NAME))?,
     })
-}
-
-fn claim(key: &str, text: &str) -> String {
-    format!("[[claim]]\n{key} = \"{text}\"\n")
 }
 
 /// Judges one claim; `None` if it cannot be stated.
@@ -236,11 +234,13 @@ fn decided(
     case: &Case,
     options: &Options,
     names: &[Definition],
-    claim: &str,
+    claim: &Claim,
 ) -> Result<Option<ClaimReport>, JudgeError> {
-    let question = Question::plain("geometry", names, claim.to_string());
-    let findings = question.ask(case, options)?.unwrap_or_default();
-    Ok(findings.into_iter().next().map(|finding| finding.claim))
+    let asked = defined(case, names);
+    match asked.and_then(|named| named.with_claims(std::slice::from_ref(claim)).ok()) {
+        Some(asked) => Ok(judge(&asked, options)?.claims.into_iter().next()),
+        None => Ok(None),
+    }
 }
 
 fn is_true(claim: &ClaimReport) -> bool {

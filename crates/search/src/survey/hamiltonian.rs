@@ -10,9 +10,11 @@
 //!
 //! BMB 2013, (2.14)-(2.19), (2.28), for any potential and without a rotor.
 
-use super::question::{Definition, Finding, Question, define, merged, used_by};
+use super::question::{Definition, Finding, Question, define, defined, merged, used_by};
 use super::shown::Typesetter;
 use liouville::case::Case;
+use liouville::claim::{Claim, Entry};
+use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::{JudgeError, Options};
 
@@ -45,18 +47,24 @@ pub fn form(
         }
     };
     let potential = if body.potential.is_some() { " + U" } else { "" };
-    let body = format!(
-        "[variables]\nM = \"M\"\n\"γ\" = \"γ\"\n[poisson]\nstructure = \"e(3)\"\n\
-         [[claim]]\nname = \"H\"\nhamiltonian = \"{energy}{potential}\"\nmultiplier = \"N\"\n\
-         [[claim]]\nname = \"ρ\"\ndensity-in-variables = \"1/N\"\n"
-    );
-    let mut question = Question::plain("conformally Hamiltonian form", &names, body);
+    let claims = vec![
+        Claim::hamiltonian(Entry::Text(format!("{energy}{potential}")))
+            .with("multiplier", "N")
+            .named("H"),
+        Claim::density_in_variables("1/N").named("ρ"),
+    ];
+    let asked = defined(case, &names)
+        .and_then(|named| in_momenta(&named))
+        .and_then(|bracketed| bracketed.with_claims(&claims).ok());
+    let mut question = Question::plain("conformally Hamiltonian form", &names, claims);
     question.source = match volume {
         "" => "BMB 2013, (2.14)-(2.19)".to_string(),
         _ => "BMB 2013, (2.28)".to_string(),
     };
-    let mut found = question.ask(case, options)?.unwrap_or_default();
-    let asked = case.ask(&question.text()).ok();
+    let mut found = match &asked {
+        Some(asked) => question.findings(asked, options)?,
+        None => Vec::new(),
+    };
     for finding in &mut found {
         // H is written in the new variables, so its text is not among the names of the case.
         let text = match finding.claim.kind {
@@ -79,4 +87,13 @@ pub fn form(
         finding.claim.formula = Some(text);
     }
     Ok(found)
+}
+
+/// Returns the case in the variables M and γ with the bracket of e(3), M as the case defines it.
+fn in_momenta(named: &Case) -> Option<Case> {
+    let variable = |name: &str| Some((name.to_string(), named.formula(name).ok()?));
+    let changed = named.with_variables(&[variable("M")?, variable("γ")?]).ok()?;
+    let names = &changed.model.variables.as_ref()?.model.vocabulary;
+    let hat = |name: &str| Formula::call("hat", &[&Formula::name(name, names).ok()?]).ok();
+    changed.with_bracket(&[((0, 0), hat("M")?), ((0, 1), hat("γ")?)]).ok()
 }

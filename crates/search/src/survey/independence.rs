@@ -2,9 +2,11 @@
 
 use serde::Serialize;
 
-use super::question::{Definition, Finding, Question, merged};
+use super::question::{Definition, Finding, defined, merged};
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict};
+use liouville::claim::Claim;
+use liouville::formula::Formula;
+use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
 
 /// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -82,10 +84,14 @@ fn independent(
     findings: &[&Finding],
 ) -> Result<Option<ClaimReport>, JudgeError> {
     let (definitions, formulas) = merged(bindings, findings);
-    let energy = energy.then(|| "energy".to_string());
-    let quoted: Vec<String> =
-        energy.iter().chain(&formulas).map(|text| format!("\"{text}\"")).collect();
-    let body = format!("[[claim]]\nindependent = [{}]\n", quoted.join(", "));
-    let found = Question::plain("independence", &definitions, body).ask(case, options)?;
-    Ok(found.and_then(|found| found.into_iter().next()).map(|finding| finding.claim))
+    let Some(named) = defined(case, &definitions) else { return Ok(None) };
+    let energy = energy.then_some("energy");
+    let texts = energy.into_iter().chain(formulas.iter().map(String::as_str));
+    let functions: Option<Vec<Formula>> = texts.map(|text| named.formula(text).ok()).collect();
+    let claim = functions.map(Claim::independent);
+    let asked = claim.and_then(|claim| named.with_claims(&[claim]).ok());
+    match asked {
+        Some(asked) => Ok(judge(&asked, options)?.claims.into_iter().next()),
+        None => Ok(None),
+    }
 }

@@ -8,7 +8,8 @@
 use super::mirrors::Mirror;
 use super::question::{Finding, FixedSet, Question};
 use liouville::case::Case;
-use liouville::formula::Type;
+use liouville::claim::{Claim, Reversor, Statement, Symmetry};
+use liouville::formula::{Composed, Formula, Type};
 use liouville::mechanics::{Surface, System};
 use liouville::verdict::{JudgeError, Options};
 
@@ -24,20 +25,16 @@ struct Turn {
 struct Candidate {
     name: String,
     key: &'static str,
-    images: Vec<(String, String)>,
+    images: Vec<(String, Formula)>,
     fixed_set: Option<FixedSet>,
 }
 
 /// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
 pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
     let candidates = candidates(case);
-    let claim = |one: &Candidate| {
-        let images = one.images.iter().map(|(name, image)| format!("\"{name}\" = \"{image}\""));
-        let images = images.collect::<Vec<_>>().join(", ");
-        format!("[[claim]]\nname = \"{}\"\n{} = {{ {images} }}\n", one.name, one.key)
-    };
-    let body: String = candidates.iter().map(claim).collect();
-    let question = Question::plain("maps of the frame", &[], body);
+    let claim = |one: &Candidate| Claim::of(one.key, one.images.clone()).named(&one.name);
+    let claims = candidates.iter().map(claim).collect();
+    let question = Question::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
     for (finding, candidate) in found.iter_mut().zip(&candidates) {
         finding.fixed_set = candidate.fixed_set;
@@ -48,55 +45,62 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> 
 
 fn candidates(case: &Case) -> Vec<Candidate> {
     let turns = || Turn::all().into_iter();
+    let variable = |name: &str| case.formula(name);
     match &case.model.system {
         System::Rubber(_) => {
-            let candidate = |map: &Map, axial: i8| Candidate {
-                name: map.name(axial < 0),
-                key: key(axial),
-                images: vec![
-                    ("ω".into(), map.image("ω", axial * map.determinant())),
-                    ("γ".into(), map.image("γ", 1)),
-                ],
-                // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
-                fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
-                    1 => along.checked_sub(1).map(|d| d + velocity),
-                    _ => along.checked_sub(1).map(|d| d + velocity - 1),
-                }),
+            let (Ok(omega), Ok(gamma)) = (variable("ω"), variable("γ")) else {
+                return Vec::new();
+            };
+            let candidate = |map: &Map, axial: i8| {
+                let turned = map.image(&omega, axial * map.determinant()).ok()?;
+                Some(Candidate {
+                    name: map.name(axial < 0),
+                    key: key(axial),
+                    images: vec![("ω".into(), turned), ("γ".into(), map.image(&gamma, 1).ok()?)],
+                    // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+                    fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
+                        1 => along.checked_sub(1).map(|d| d + velocity),
+                        _ => along.checked_sub(1).map(|d| d + velocity - 1),
+                    }),
+                })
             };
             both(Map::all(case), candidate)
         }
         System::Ball(ball) => {
             let is_level = matches!(ball.surface, Surface::Level(_));
             let second = if is_level { "r" } else { "γ" };
-            both(Map::all(case), |map, axial| Candidate {
-                name: map.name(axial < 0),
-                key: key(axial),
-                images: vec![
-                    ("M".into(), map.image("M", axial * map.determinant())),
-                    (second.into(), map.image(second, 1)),
-                ],
-                fixed_set: fixed(axial, map, |along, velocity| match is_level {
-                    true => Some(along + velocity),
-                    false => along.checked_sub(1).map(|d| d + velocity),
-                }),
+            let (Ok(momentum), Ok(place)) = (variable("M"), variable(second)) else {
+                return Vec::new();
+            };
+            both(Map::all(case), |map, axial| {
+                let turned = map.image(&momentum, axial * map.determinant()).ok()?;
+                Some(Candidate {
+                    name: map.name(axial < 0),
+                    key: key(axial),
+                    images: vec![("M".into(), turned), (second.into(), map.image(&place, 1).ok()?)],
+                    fixed_set: fixed(axial, map, |along, velocity| match is_level {
+                        true => Some(along + velocity),
+                        false => along.checked_sub(1).map(|d| d + velocity),
+                    }),
+                })
             })
         }
         System::FlatBase(_) => {
             let about_axis = turns().filter(|turn| turn.places[2] == 2 && turn.signs[2] == 1);
             both(about_axis.collect(), |turn: &Turn, axial| {
-                let across = |name: &str, sign: i8| {
-                    (0..2)
-                        .map(|i| (format!("{name}{}", i + 1), turn.component(name, i, sign)))
-                        .collect::<Vec<_>>()
+                let across = |name: &str, sign: i8| -> Option<Vec<(String, Formula)>> {
+                    let own = |i: usize| variable(&format!("{name}{}", i + 1)).ok();
+                    let image = |i: usize| Some(signed(own(turn.places[i])?, turn.signs[i] * sign));
+                    (0..2).map(|i| Some((format!("{name}{}", i + 1), image(i)?))).collect()
                 };
-                let mut images = across("ω", axial * turn.determinant());
-                images.extend(across("r", 1));
+                let mut images = across("ω", axial * turn.determinant())?;
+                images.extend(across("r", 1)?);
                 // Both fixed spaces contain the axis in addition to vectors in the plane.
                 let fixed_set = fixed(axial, turn, |along, velocity| {
                     let of_axis = usize::from(axial * turn.determinant() == 1);
                     Some(along - 1 + velocity - of_axis)
                 });
-                Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set }
+                Some(Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set })
             })
         }
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
@@ -106,7 +110,12 @@ fn candidates(case: &Case) -> Vec<Candidate> {
 }
 
 fn key(axial: i8) -> &'static str {
-    if axial < 0 { "reversor" } else { "symmetry" }
+    if axial < 0 { Reversor::NAME } else { Symmetry::NAME }
+}
+
+/// A formula, or its negative.
+fn signed(formula: Formula, sign: i8) -> Formula {
+    if sign < 0 { -formula } else { formula }
 }
 
 /// Computes the dimension of the fixed set of a reversor from those of the fixed spaces of polar
@@ -123,11 +132,14 @@ fn fixed(
 }
 
 /// Lists reversors (axial −1) of all involutions, then symmetries (axial 1) except the identity.
-fn both<M: Orthogonal>(maps: Vec<M>, candidate: impl Fn(&M, i8) -> Candidate) -> Vec<Candidate> {
+fn both<M: Orthogonal>(
+    maps: Vec<M>,
+    candidate: impl Fn(&M, i8) -> Option<Candidate>,
+) -> Vec<Candidate> {
     let involutions = maps.iter().filter(|map| map.is_involution());
-    let mut all: Vec<Candidate> = involutions.map(|map| candidate(map, -1)).collect();
+    let mut all: Vec<Candidate> = involutions.filter_map(|map| candidate(map, -1)).collect();
     let others = maps.iter().filter(|map| !map.is_identity());
-    all.extend(others.map(|map| candidate(map, 1)));
+    all.extend(others.filter_map(|map| candidate(map, 1)));
     all
 }
 
@@ -160,11 +172,11 @@ impl Map {
         }
     }
 
-    /// Writes sign·Q x as a formula.
-    fn image(&self, name: &str, sign: i8) -> String {
+    /// sign·Q x as a formula, x a variable.
+    fn image(&self, x: &Formula, sign: i8) -> Composed {
         match self {
-            Self::Turn(turn) => turn.image(name, sign),
-            Self::Mirror(mirror) => mirror.image(name, sign),
+            Self::Turn(turn) => turn.image(x, sign),
+            Self::Mirror(mirror) => mirror.image(x, sign),
         }
     }
 }
@@ -213,12 +225,13 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
         return Vec::new();
     }
     let mut all = Vec::new();
-    for key in ["reversor", "symmetry"] {
+    for key in [Reversor::NAME, Symmetry::NAME] {
         for mask in 1u32..1 << count {
             let (mut images, mut changed, mut bit) = (Vec::new(), Vec::new(), 0);
             let mut fixed = model.dimension();
             for variable in &model.state {
                 let name = &variable.name;
+                let Ok(own) = case.formula(name) else { return Vec::new() };
                 let flips: Vec<bool> =
                     (bit..bit + parts(variable.kind)).map(|b| mask >> b & 1 == 1).collect();
                 bit += flips.len();
@@ -227,20 +240,20 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
                 }
                 let whole = !flips.contains(&false);
                 fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
-                let sign =
-                    |k: usize| format!("{}{name}[{}]", if flips[k] { "−" } else { "" }, k + 1);
-                let image = match whole {
-                    true => format!("−{name}"),
-                    false => {
-                        let signs: Vec<String> = (0..flips.len()).map(sign).collect();
-                        format!("[{}]", signs.join(", "))
-                    }
+                let part = |k: usize| -> Composed {
+                    Ok(signed(own.component(&[k + 1])?, if flips[k] { -1 } else { 1 }))
                 };
+                let parts: Result<Vec<Formula>, _> = (0..flips.len()).map(part).collect();
+                let image = match whole {
+                    true => Ok(-&own),
+                    false => parts.and_then(|parts| variable.kind.filled(&parts)),
+                };
+                let Ok(image) = image else { return Vec::new() };
                 changed.push(format!("{name} → {image}"));
                 images.push((name.clone(), image));
             }
             // On a level the dimension depends on the intersection with the fixed space.
-            let known = key == "reversor" && model.level.is_empty();
+            let known = key == Reversor::NAME && model.level.is_empty();
             let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
             all.push(Candidate {
                 name: format!("{key} {}", changed.join(", ")),
@@ -266,15 +279,18 @@ impl Turn {
             .collect()
     }
 
-    /// Writes component i of sign·Q x as a formula.
-    fn component(self, name: &str, i: usize, sign: i8) -> String {
-        let minus = if self.signs[i] * sign < 0 { "−" } else { "" };
-        format!("{minus}{name}{}", self.places[i] + 1)
+    /// Writes where axis i goes, such as `−2`.
+    fn axis(self, i: usize) -> String {
+        let minus = if self.signs[i] < 0 { "−" } else { "" };
+        format!("{minus}{}", self.places[i] + 1)
     }
 
-    fn image(self, name: &str, sign: i8) -> String {
-        let parts = [0, 1, 2].map(|i| self.component(name, i, sign));
-        format!("[{}]", parts.join(", "))
+    fn image(self, x: &Formula, sign: i8) -> Composed {
+        let part = |i: usize| -> Composed {
+            Ok(signed(x.element(self.places[i] + 1)?, self.signs[i] * sign))
+        };
+        let [a, b, c] = [part(0)?, part(1)?, part(2)?];
+        Formula::vector(&[&a, &b, &c])
     }
 
     /// Returns the name in BMB 2013, A.1, if it has one.
@@ -288,8 +304,8 @@ impl Turn {
             ([0, 1, 2], 2) => format!("Π{tilde}({})", odd_one(1)),
             ([0, 1, 2], _) => format!("Σ{tilde}(0)"),
             _ => {
-                let parts = [0, 1, 2].map(|i| self.component("", i, 1));
-                let word = if reverses { "reversor" } else { "symmetry" };
+                let parts = [0, 1, 2].map(|i| self.axis(i));
+                let word = if reverses { Reversor::NAME } else { Symmetry::NAME };
                 format!("{word} ({})", parts.join(" "))
             }
         }

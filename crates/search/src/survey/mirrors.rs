@@ -5,14 +5,14 @@
 //! vector of the case: a parameter, or a normal to two parameters.
 
 use liouville::case::Case;
-use liouville::formula::Type;
+use liouville::formula::{Composed, Formula, Type};
 use liouville::mechanics::Model;
 
 /// A reflection, E − 2 n⊗n/(n,n), or a half turn, which is its negative.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Mirror {
-    /// Vector n as a formula.
-    normal: String,
+    /// Vector n.
+    normal: Formula,
     is_turn: bool,
 }
 
@@ -20,7 +20,7 @@ impl Mirror {
     /// Lists the candidate reflections and half turns.
     pub fn all(case: &Case) -> Vec<Self> {
         let both =
-            |normal: String| [false, true].map(|is_turn| Self { normal: normal.clone(), is_turn });
+            |normal: Formula| [false, true].map(|is_turn| Self { normal: normal.clone(), is_turn });
         normals(&case.model).into_iter().flat_map(both).collect()
     }
 
@@ -34,13 +34,13 @@ impl Mirror {
         if self.is_turn == (sign > 0) { 1 } else { 2 }
     }
 
-    /// Writes sign·Q x as a formula.
-    pub fn image(&self, name: &str, sign: i8) -> String {
+    /// sign·Q x as a formula, x a variable.
+    pub fn image(&self, x: &Formula, sign: i8) -> Composed {
         let n = &self.normal;
-        let along = format!("2*({name},{n})/({n},{n})*{n}");
+        let along = (Formula::number(2) * &x.dot(n)? / &n.dot(n)? * n)?;
         match self.is_turn == (sign > 0) {
-            true => format!("{along} − {name}"),
-            false => format!("{name} − {along}"),
+            true => &along - x,
+            false => x - &along,
         }
     }
 
@@ -48,21 +48,25 @@ impl Mirror {
     pub fn name(&self, reverses: bool) -> String {
         let letter = if self.is_turn { 'Π' } else { 'Σ' };
         let tilde = if reverses { "\u{303}" } else { "" };
-        format!("{letter}{tilde}({})", self.normal.trim_matches(['(', ')']))
+        format!("{letter}{tilde}({})", self.normal.text().trim_matches(['(', ')']))
     }
 }
 
 /// Lists possible normals of planes of symmetry, as formulas in brackets.
-fn normals(model: &Model) -> Vec<String> {
+fn normals(model: &Model) -> Vec<Formula> {
     let named = model.parameters.iter().filter(|one| one.kind == Type::VECTOR);
     // The coefficients of an arbitrary function define no direction.
-    let vectors: Vec<&str> =
-        named.map(|one| one.name.as_str()).filter(|name| !name.contains('[')).collect();
-    let mut normals: Vec<String> = vectors.iter().map(|name| name.to_string()).collect();
+    let named = named.filter(|one| !one.name.contains('['));
+    let read = |name: &str| Formula::name(name, &model.vocabulary).ok();
+    let vectors: Vec<Formula> = named.filter_map(|one| read(&one.name)).collect();
+    let mut normals = vectors.clone();
+    let across = |a: &Formula, b: &Formula| Some(a.cross(b).ok()?.bracketed());
+    let (zero, one) = (Formula::number(0), Formula::number(1));
+    let axis = Formula::vector(&[&zero, &zero, &one]).ok();
     for (k, a) in vectors.iter().enumerate() {
-        normals.extend(vectors[k + 1..].iter().map(|b| format!("({a} × {b})")));
+        normals.extend(vectors[k + 1..].iter().filter_map(|b| across(a, b)));
         // If only this vector is tilted, any plane through it will do.
-        normals.push(format!("({a} × [0, 0, 1])"));
+        normals.extend(axis.as_ref().and_then(|axis| across(a, axis)));
     }
     normals
 }
@@ -73,9 +77,15 @@ mod tests {
 
     #[test]
     fn a_half_turn_is_minus_a_reflection() {
+        let text = "title='t'\nsystem='field'\n[parameters]\nc='vector(1..2)'\n[state]\n\
+                    x='vector(1..2)'\n[field]\nx='c'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let [normal, x] = ["c", "x"].map(|name| case.formula(name).expect("a name"));
         let [mirror, turn] =
-            [false, true].map(|is_turn| Mirror { normal: "c".to_string(), is_turn });
-        assert_eq!(mirror.image("γ", -1), turn.image("γ", 1), "−(γ − 2(γ,c)c/(c,c))");
+            [false, true].map(|is_turn| Mirror { normal: normal.clone(), is_turn });
+        let text = |one: &Mirror, sign| one.image(&x, sign).expect("a vector").to_string();
+        assert_eq!(text(&mirror, -1), text(&turn, 1), "−(γ − 2(γ,c)c/(c,c))");
+        assert_eq!(text(&mirror, 1), "x − 2*(x,c)/(c,c)*c");
         assert_eq!((mirror.fixed_space(1), mirror.fixed_space(-1)), (2, 1), "a plane, a line");
         assert_eq!((turn.fixed_space(1), turn.fixed_space(-1)), (1, 2), "the axis, and across it");
         assert_eq!(turn.name(true), "Π\u{303}(c)", "named by its axis");

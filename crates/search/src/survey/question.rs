@@ -1,6 +1,7 @@
-//! Questions put to a case as text, and the resulting findings.
+//! Questions put to a case, and the resulting findings.
 //!
-//! A question consists of claims like any other: `Case::ask` reads them, `verdict::judge` decides.
+//! A question consists of claims like any other: of a family's file, or made by the program;
+//! `verdict::judge` decides.
 
 use serde::Serialize;
 use toml::de::DeTable;
@@ -9,6 +10,7 @@ use super::data;
 use super::family::Family;
 use super::shown::{Shown, Typesetter};
 use liouville::case::Case;
+use liouville::claim::{Claim, Entry};
 use liouville::mechanics::Meaning;
 use liouville::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
 
@@ -34,8 +36,23 @@ pub struct Question {
     pub is_general: bool,
     /// Definitions in order.
     pub definitions: Vec<Definition>,
-    /// Tables `[[claim]]`, and `[variables]` and `[poisson]` if there are any.
-    pub body: String,
+    /// Claims to be judged.
+    pub body: Body,
+}
+
+/// Claims of a question.
+#[derive(Clone, Debug)]
+pub enum Body {
+    /// Tables `[[claim]]` of a family's file.
+    File(String),
+    /// Claims as values.
+    Claims(Vec<Claim>),
+}
+
+impl Default for Body {
+    fn default() -> Self {
+        Body::Claims(Vec::new())
+    }
 }
 
 /// A claim that was tested, with its verdict.
@@ -101,7 +118,7 @@ impl Finding {
 
     fn beside(family: &str, case: &Case, claim: ClaimReport, names: Vec<Definition>) -> Self {
         let definitions = used_by(&[claim.formula.as_deref().unwrap_or_default()], &names);
-        let asked = case.ask(&definitions_text(&definitions)).ok();
+        let asked = defined(case, &definitions);
         let paper = Typesetter(&asked.as_ref().unwrap_or(case).model.vocabulary);
         let shown = Shown {
             statement: claim.formula.as_deref().and_then(|text| paper.formula(text)),
@@ -176,36 +193,52 @@ impl Question {
             note: family.note.clone(),
             is_general: family.general,
             definitions: distinct(bindings.iter().cloned().chain(own)),
-            body: family.claims.clone(),
+            body: Body::File(family.claims.clone()),
         }
     }
 
     /// Makes a question of claims alone.
-    pub fn plain(family: &str, bindings: &[Definition], body: String) -> Self {
-        let family = family.to_string();
+    pub fn plain(family: &str, bindings: &[Definition], claims: Vec<Claim>) -> Self {
+        let (family, body) = (family.to_string(), Body::Claims(claims));
         Self { family, definitions: bindings.to_vec(), body, ..Self::default() }
     }
 
-    /// Returns the text of the question.
-    pub fn text(&self) -> String {
-        format!("{}{}", definitions_text(&self.definitions), self.body)
+    /// Returns the case with the names and the claims of the question; `None` if it is meaningless
+    /// there.
+    fn asked(&self, case: &Case) -> Option<Case> {
+        let named = defined(case, &self.definitions)?;
+        match &self.body {
+            Body::File(text) => named.ask(text).ok(),
+            Body::Claims(claims) => named.with_claims(claims).ok(),
+        }
     }
 
     /// Puts the question to a case and judges it; `None` if it is meaningless for the case, for
     /// example because of a name that the case does not have.
     pub fn ask(&self, case: &Case, options: &Options) -> Result<Option<Vec<Finding>>, JudgeError> {
-        let Ok(asked) = case.ask(&self.text()) else { return Ok(None) };
-        let report = judge(&asked, options)?;
+        match self.asked(case) {
+            Some(asked) => self.findings(&asked, options).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Judges the claims of a case as those of the question.
+    pub fn findings(&self, asked: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
+        let report = judge(asked, options)?;
         let tables = self.tables();
         let images = tables.into_iter().chain(std::iter::repeat(Vec::new()));
         let found = report.claims.into_iter().zip(images);
         let paper = Typesetter(&asked.model.vocabulary);
-        Ok(Some(found.map(|(claim, images)| self.finding(claim, images, &paper)).collect()))
+        Ok(found.map(|(claim, images)| self.finding(claim, images, &paper)).collect())
     }
 
     /// Returns the tables of formulas in the claims, one for each claim.
     fn tables(&self) -> Vec<Vec<Definition>> {
-        let Ok(document) = DeTable::parse(&self.body) else { return Vec::new() };
+        let text = match &self.body {
+            Body::Claims(claims) => return claims.iter().map(table_of).collect(),
+            Body::File(text) => text,
+        };
+        let Ok(document) = DeTable::parse(text) else { return Vec::new() };
         let claims = data::tables(document.get_ref(), "claim");
         let table = |claim: &&DeTable<'_>| {
             let entries = TABLES.iter().flat_map(|key| data::pairs(claim, key));
@@ -252,13 +285,25 @@ impl Question {
     }
 }
 
-/// Writes a `[let]` table of these definitions.
-pub fn definitions_text(definitions: &[Definition]) -> String {
-    if definitions.is_empty() {
-        return String::new();
+/// Returns the table of formulas in a claim, if it has one.
+fn table_of(claim: &Claim) -> Vec<Definition> {
+    match claim.entry(claim.key()) {
+        Some(Entry::Table(table)) => {
+            table.iter().map(|(name, formula)| define(name, formula.text())).collect()
+        }
+        _ => Vec::new(),
     }
-    let line = |d: &Definition| format!("\"{}\" = \"{}\"\n", d.name, d.formula);
-    format!("[let]\n{}\n", definitions.iter().map(line).collect::<String>())
+}
+
+/// Returns the case with these definitions, each in the names of those before it; `None` if one has
+/// no meaning there.
+pub fn defined(case: &Case, definitions: &[Definition]) -> Option<Case> {
+    let mut named = case.clone();
+    for definition in definitions {
+        let formula = named.formula(&definition.formula).ok()?;
+        named.define(&definition.name, &formula).ok()?;
+    }
+    Some(named)
 }
 
 /// Makes a definition.

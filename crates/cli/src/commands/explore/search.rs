@@ -83,7 +83,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
-        terms: options.terms.clone(),
+        terms: options.terms.iter().map(|text| text.as_str().into()).collect(),
         conditions: options.conditions.as_ref().map(|name| match name.as_str() {
             "" => Wanted::Existence,
             name => Wanted::Claim(name.to_string()),
