@@ -72,19 +72,25 @@ fn entries() -> Vec<Entry> {
     entries
 }
 
-/// Removes the marks of Markdown, line by line.
+/// Removes the marks of Markdown.
 fn plain(text: &str) -> String {
-    let line = |line: &str| {
-        let line = line.replace("**", "").replace('`', "");
-        let pieces: Vec<&str> = line.split('*').collect();
-        let inner = pieces.iter().skip(1).step_by(2);
-        // An emphasised word is between stars; a product has one, or other characters.
-        match pieces.len() % 2 == 1 && inner.clone().all(|piece| is_emphasised(piece)) {
-            true => pieces.concat(),
-            false => line,
-        }
-    };
-    text.lines().map(|one| line(one) + "\n").collect()
+    let text = text.replace("**", "").replace('`', "");
+    let (mut out, mut rest) = (String::new(), text.as_str());
+    // An emphasised word is between stars; stars of products stay.
+    while let Some((before, after)) = rest.split_once('*') {
+        out.push_str(before);
+        rest = match after.split_once('*') {
+            Some((inner, behind)) if is_emphasised(inner) => {
+                out.push_str(inner);
+                behind
+            }
+            _ => {
+                out.push('*');
+                after
+            }
+        };
+    }
+    out + rest
 }
 
 fn is_emphasised(text: &str) -> bool {
@@ -116,6 +122,7 @@ mod tests {
         assert!(explained("Level set").starts_with("Level set. The states"), "of two words");
         let verdict = explained("refuted");
         assert!(verdict.contains("- refuted: the residual is not zero"), "{verdict}");
+        assert!(verdict.contains("- confirmed: zero") && verdict.contains("p*sin(π)"), "{verdict}");
         assert!(explained("flibber").contains("there are claim, state, level set"), "unknown");
         for entry in entries() {
             let text = plain(&entry.text);

@@ -42,7 +42,8 @@ pub fn run(options: &Names) -> Result<Answer, String> {
             _ = writeln!(text, "{}", line.trim_end());
         }
     }
-    let functions: Vec<&str> = function_names().collect();
+    let mut functions: Vec<&str> = function_names().collect();
+    functions.dedup();
     _ = writeln!(text, "constants\n  π, e, E (unit matrix)\nfunctions\n  {}", wrapped(&functions));
     Ok(Answer { text, code: 0 })
 }

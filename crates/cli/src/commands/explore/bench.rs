@@ -1,4 +1,4 @@
-//! The command `liouville bench`.
+//! The command `liouville measure bench`.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
