@@ -22,7 +22,7 @@ mod lax;
 mod limit;
 mod lyapunov;
 pub mod motion;
-mod no_density;
+mod no_density_near;
 mod place;
 mod point;
 mod reader;
@@ -54,7 +54,7 @@ pub use integral::Integral;
 pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;
-pub use no_density::NoDensity;
+pub use no_density_near::NoDensityNear;
 pub use place::Place;
 
 pub use reader::{Complex, Reader};
@@ -169,7 +169,7 @@ kinds! {
     Map,
     Independent,
     FixedPoint,
-    NoDensity,
+    NoDensityNear,
     Lyapunov,
     Form,
     Limit,

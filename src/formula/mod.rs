@@ -84,6 +84,7 @@ pub(crate) use algebra::adjugate;
 pub use compose::Composed;
 pub use error::FormulaError;
 pub(crate) use error::excerpt;
+pub use functions::names as function_names;
 pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
