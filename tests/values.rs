@@ -160,9 +160,9 @@ fn claims_that_do_not_fit_are_refused() {
     let found = refusal(&case, Claim::hamiltonian(&x));
     assert!(found.contains("new variables"), "{found}");
     let found = refusal(&case, Claim::symmetry_field(vec![("y".to_string(), x.clone())]));
-    assert!(found.contains("`y` is no state variable"), "{found}");
+    assert!(found.contains("`y` is not a state variable"), "{found}");
     let found = refusal(&case, Claim::integral(&x).at(Locus::Equation("x = 0".to_string())));
-    assert!(found.contains("no place"), "{found}");
+    assert!(found.contains("not a place"), "{found}");
     let twice = [Claim::integral(&x).named("F"), Claim::density(1).named("F")];
     assert!(case.with_claims(&twice).is_err(), "a name is given once");
 }
@@ -236,7 +236,7 @@ fn builders_return_the_first_mistake() {
         (Model::field().state("x", "-2..2", "[1, 2, 3]").build(), "is a vector"),
         (Model::field().parameter("x", 1).state("x", "-2..2", "1").build(), "taken already"),
         (Model::field().parameter("2x", 1).build(), "not a name"),
-        (Model::field().rate("x", "1").build(), "no state variable"),
+        (Model::field().rate("x", "1").build(), "not a state variable"),
         (Model::field().support("1").build(), "no body"),
         (Model::rubber_plane().support("|γ|").build(), "unknown name `m`"),
         (Model::rubber_plane().level("ω1", "0").build(), "is known"),

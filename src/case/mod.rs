@@ -56,7 +56,7 @@ pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
-pub use value::{Source, Value};
+pub use value::{FormulaSource, ValueSpec};
 pub use values::ClaimError;
 
 /// Limit on the size of a case file, above that of any real one.

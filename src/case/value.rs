@@ -7,9 +7,9 @@ use crate::formula::{Composed, Formula, FormulaError, Scope, Type};
 use crate::mechanics::{Draw, Recipe};
 use crate::number::rational::Rational;
 
-/// Value of a parameter, or the range of a state variable.
+/// ValueSpec of a parameter, or the range of a state variable.
 #[derive(Clone, Debug)]
-pub enum Value {
+pub enum ValueSpec {
     /// Number.
     Number(Rational),
     /// Components, row by row.
@@ -22,73 +22,73 @@ pub enum Value {
     Text(String),
 }
 
-impl From<&str> for Value {
+impl From<&str> for ValueSpec {
     fn from(text: &str) -> Self {
-        Value::Text(text.to_string())
+        ValueSpec::Text(text.to_string())
     }
 }
 
-impl From<i64> for Value {
+impl From<i64> for ValueSpec {
     fn from(number: i64) -> Self {
-        Value::Number(Rational::from(number))
+        ValueSpec::Number(Rational::from(number))
     }
 }
 
-impl From<Rational> for Value {
+impl From<Rational> for ValueSpec {
     fn from(number: Rational) -> Self {
-        Value::Number(number)
+        ValueSpec::Number(number)
     }
 }
 
-impl From<Recipe> for Value {
+impl From<Recipe> for ValueSpec {
     fn from(recipe: Recipe) -> Self {
-        Value::Drawn(recipe)
+        ValueSpec::Drawn(recipe)
     }
 }
 
-impl From<Formula> for Value {
+impl From<Formula> for ValueSpec {
     fn from(formula: Formula) -> Self {
-        Value::Formula(formula)
+        ValueSpec::Formula(formula)
     }
 }
 
-impl From<&Formula> for Value {
+impl From<&Formula> for ValueSpec {
     fn from(formula: &Formula) -> Self {
-        Value::Formula(formula.clone())
+        ValueSpec::Formula(formula.clone())
     }
 }
 
-impl From<Range<i64>> for Value {
+impl From<Range<i64>> for ValueSpec {
     fn from(range: Range<i64>) -> Self {
-        Value::from(Rational::from(range.start)..Rational::from(range.end))
+        ValueSpec::from(Rational::from(range.start)..Rational::from(range.end))
     }
 }
 
-impl From<Range<Rational>> for Value {
+impl From<Range<Rational>> for ValueSpec {
     fn from(range: Range<Rational>) -> Self {
         let range = crate::mechanics::Range { low: range.start, high: range.end };
-        Value::Drawn(Recipe::Scalar(Draw::Within(range)))
+        ValueSpec::Drawn(Recipe::Scalar(Draw::Within(range)))
     }
 }
 
-impl Value {
+impl ValueSpec {
     /// The value in the form of the file's reader.
     pub(super) fn given(&self, scope: &dyn Scope) -> Result<Given, String> {
         let is_empty = |range: &crate::mechanics::Range| range.low >= range.high;
         match self {
-            Value::Number(number) => Ok(Given::Fixed(Type::Scalar, vec![number.clone()])),
-            Value::Components(kind, values) if values.len() == kind.size() => {
+            ValueSpec::Number(number) => Ok(Given::Fixed(Type::Scalar, vec![number.clone()])),
+            ValueSpec::Components(kind, values) if values.len() == kind.size() => {
                 Ok(Given::Fixed(*kind, values.clone()))
             }
-            Value::Components(kind, values) => {
+            ValueSpec::Components(kind, values) => {
                 Err(format!("{} components do not fill a {kind}", values.len()))
             }
-            Value::Drawn(Recipe::Scalar(Draw::Within(range))) if is_empty(range) => {
+            ValueSpec::Drawn(Recipe::Scalar(Draw::Within(range))) if is_empty(range) => {
                 Err(format!("the range {}..{} is empty", range.low, range.high))
             }
-            Value::Drawn(recipe) => Ok(Given::Drawn(recipe.clone())),
-            Value::Formula(formula) => Ok(Given::Formula(formula.to_string())),
-            Value::Text(text) => described(text, scope).map_err(|refusal| match refusal {
+            ValueSpec::Drawn(recipe) => Ok(Given::Drawn(recipe.clone())),
+            ValueSpec::Formula(formula) => Ok(Given::Formula(formula.to_string())),
+            ValueSpec::Text(text) => described(text, scope).map_err(|refusal| match refusal {
                 Refusal::Message(message) => message,
                 Refusal::Size(error, _) => error.to_string(),
             }),
@@ -98,7 +98,7 @@ impl Value {
 
 /// A formula, or the text of one in the names of the system.
 #[derive(Clone, Debug)]
-pub enum Source {
+pub enum FormulaSource {
     /// Formula.
     Formula(Formula),
     /// Text.
@@ -107,29 +107,29 @@ pub enum Source {
     Failed(FormulaError),
 }
 
-impl From<&str> for Source {
+impl From<&str> for FormulaSource {
     fn from(text: &str) -> Self {
-        Source::Text(text.to_string())
+        FormulaSource::Text(text.to_string())
     }
 }
 
-impl From<Formula> for Source {
+impl From<Formula> for FormulaSource {
     fn from(formula: Formula) -> Self {
-        Source::Formula(formula)
+        FormulaSource::Formula(formula)
     }
 }
 
-impl From<&Formula> for Source {
+impl From<&Formula> for FormulaSource {
     fn from(formula: &Formula) -> Self {
-        Source::Formula(formula.clone())
+        FormulaSource::Formula(formula.clone())
     }
 }
 
-impl From<Composed> for Source {
+impl From<Composed> for FormulaSource {
     fn from(composed: Composed) -> Self {
         match composed {
-            Ok(formula) => Source::Formula(formula),
-            Err(error) => Source::Failed(error),
+            Ok(formula) => FormulaSource::Formula(formula),
+            Err(error) => FormulaSource::Failed(error),
         }
     }
 }

@@ -80,7 +80,7 @@ impl Case {
             values.complaint(kind.name(), message.to_string(), remedy)
         })?;
         if let Some(cell) = claim.cell().filter(|cell| !TABLE_ROWS.contains(cell)) {
-            let message = format!("`{cell}` is no row of the paper's tables");
+            let message = format!("`{cell}` is not a row of the paper's tables");
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
             return Err(values.complaint(kind.name(), message, &remedy));
         }
@@ -180,7 +180,7 @@ impl Values<'_> {
             Locus::Equation(text) => match Place::equation(model, text) {
                 Some(place) => Ok((place, false)),
                 None => {
-                    let message = format!("`{text}` is no place of this case");
+                    let message = format!("`{text}` is not a place of this case");
                     let remedy = "give one of the equations of the level set";
                     Err(self.complaint(self.claim.key(), message, remedy))
                 }

@@ -20,18 +20,18 @@ pub type Composed = Result<Formula, FormulaError>;
 
 /// Text and tree of a formula in the making.
 #[derive(Default)]
-struct Draft {
-    text: String,
-    arena: Arena,
+pub(super) struct Draft {
+    pub text: String,
+    pub arena: Arena,
 }
 
 impl Draft {
-    fn write(&mut self, text: &str) {
+    pub fn write(&mut self, text: &str) {
         self.text.push_str(text);
     }
 
     /// Appends a formula, in brackets if asked to.
-    fn place(&mut self, formula: &Formula, in_brackets: bool) -> Operand {
+    pub fn place(&mut self, formula: &Formula, in_brackets: bool) -> Operand {
         let first = self.text.len();
         self.write(if in_brackets { "(" } else { "" });
         let start = self.text.len();
@@ -81,7 +81,7 @@ impl Draft {
     }
 
     /// Builds the last operation.
-    fn build(self, build: impl FnOnce(&mut Builder<'_>) -> Built) -> Composed {
+    pub fn build(self, build: impl FnOnce(&mut Builder<'_>) -> Built) -> Composed {
         let Self { text, arena } = self;
         let mut builder = Builder { arena, text: &text };
         build(&mut builder)?;
@@ -140,7 +140,7 @@ impl Formula {
     }
 
     /// Joins two formulas, each in brackets unless it binds as tightly as is required.
-    fn joined(&self, infix: Infix, other: &Self) -> Composed {
+    pub(super) fn joined(&self, infix: Infix, other: &Self) -> Composed {
         let (sign, left, right) = match infix {
             Infix::Add => (" + ", Bond::Sum, Bond::Cross),
             Infix::Subtract => (" − ", Bond::Sum, Bond::Cross),
@@ -238,109 +238,8 @@ impl Formula {
         })
     }
 
-    /// Dot product `(a,b)`.
-    pub fn dot(&self, other: &Formula) -> Composed {
-        Self::listed("(", ",", &[self, other], ")", |builder, parts, span| match parts {
-            [a, b] => builder.dot(a, b, span),
-            _ => Err(FormulaError::new(span, "a dot product takes two vectors")),
-        })
-    }
-
-    /// Cross product `a × b`.
-    pub fn cross(&self, other: &Formula) -> Composed {
-        self.joined(Infix::Cross, other)
-    }
-
-    /// Outer product `a ⊗ b`.
-    pub fn outer(&self, other: &Formula) -> Composed {
-        self.joined(Infix::Outer, other)
-    }
-
-    /// Norm of a vector, or absolute value of a scalar.
-    pub fn modulus(&self) -> Composed {
-        Self::listed("|", "", &[self], "|", |builder, parts, span| match parts {
-            [a] => builder.modulus(a, span),
-            _ => Err(FormulaError::new(span, "bars stand around one value")),
-        })
-    }
-
-    /// Square root.
-    pub fn sqrt(&self) -> Composed {
-        let mut draft = Draft::default();
-        draft.write("√");
-        let a = draft.place(self, self.bond() < Bond::Prefix);
-        draft.build(|builder| {
-            let span = 0..a.span.end;
-            builder.root(&a, span)
-        })
-    }
-
-    /// Component of a vector, or entry of a matrix, counted from 1: `γ[3]`, `I[1,2]`.
-    pub fn component(&self, indices: &[usize]) -> Composed {
-        let mut draft = Draft::default();
-        let a = draft.place(self, self.bond() < Bond::Whole);
-        let open = draft.text.len();
-        draft.write("[");
-        let mut places = Vec::new();
-        for (k, index) in indices.iter().enumerate() {
-            draft.write(if k == 0 { "" } else { "," });
-            let start = draft.text.len();
-            draft.write(&index.to_string());
-            places.push((i64::try_from(*index).unwrap_or(i64::MAX), start..draft.text.len()));
-        }
-        draft.write("]");
-        let brackets = open..draft.text.len();
-        draft.build(|builder| builder.index(&a, &places, brackets))
-    }
-
-    /// Component of a named vector by its name, counted from 1: `γ3`, where the scope has no name of
-    /// its own for it; as [`component`] otherwise.
-    ///
-    /// [`component`]: Formula::component
-    pub fn element(&self, index: usize) -> Composed {
-        let is_named =
-            matches!(self.arena.nodes.as_slice(), [only] if only.operation == Operation::Symbol(0));
-        let has_digits = self.written().ends_with(|c: char| c.is_ascii_digit());
-        if !is_named || has_digits || self.bond() < Bond::Whole || !(1..=9).contains(&index) {
-            return self.component(&[index]);
-        }
-        let mut draft = Draft::default();
-        let vector = draft.place(self, false);
-        draft.write(&index.to_string());
-        let span = 0..draft.text.len();
-        draft.arena.nodes[vector.node].span = span.clone();
-        let place = [(i64::try_from(index).unwrap_or(i64::MAX), span.clone())];
-        let end = span.end..span.end;
-        draft.build(|builder| builder.index(&Operand { span, ..vector }, &place, end))
-    }
-
-    /// Vector `[a, b, …]` of scalars.
-    pub fn vector(parts: &[&Formula]) -> Composed {
-        Self::listed("[", ", ", parts, "]", |builder, parts, span| builder.vector(parts, span))
-    }
-
-    /// Matrix `[[a, b], [c, d]]` of the rows.
-    pub fn rows(rows: &[Vec<&Formula>]) -> Composed {
-        let rows: Vec<Formula> =
-            rows.iter().map(|row| Self::vector(row)).collect::<Result<_, _>>()?;
-        let rows: Vec<&Formula> = rows.iter().collect();
-        Self::listed("[", ", ", &rows, "]", |builder, rows, span| builder.rows(rows, span))
-    }
-
-    /// Call of a function of the language, such as `det`, `hat` or `exp`.
-    pub fn call(function: &str, arguments: &[&Formula]) -> Composed {
-        if !functions::is_function(function) {
-            let message = format!("`{function}` is not a function");
-            return Err(FormulaError::new(0..function.len(), message));
-        }
-        let open = format!("{function}(");
-        Self::listed(&open, ", ", arguments, ")", |builder, parts, span| {
-            functions::call(builder, function, parts, span)
-        })
-    }
-
     /// Writes parts between brackets, and builds the operation on them.
-    fn listed(
+    pub(super) fn listed(
         open: &str,
         between: &str,
         parts: &[&Formula],
@@ -360,36 +259,6 @@ impl Formula {
             return Err(FormulaError::new(span, "there is nothing between these brackets"));
         }
         draft.build(|builder| build(builder, &operands, span))
-    }
-
-    /// Names used, each once, in the order of first use, as the scope spells them.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.arena.names.iter().map(String::as_str)
-    }
-
-    /// Whether the formula uses a name of its scope, by itself or by a component: `γ3` uses `γ`.
-    pub fn uses(&self, name: &str) -> bool {
-        let canonical = super::canonical_name(name);
-        let name = canonical.as_deref().unwrap_or(name);
-        self.names().any(|own| own == name)
-    }
-
-    /// Same formula with other symbols for its names; `None` where `other` has none.
-    pub(crate) fn with_symbols(
-        &self,
-        other: impl FnMut(Symbol, &str, Type) -> Option<Symbol>,
-    ) -> Option<Self> {
-        Some(Self { text: self.text.clone(), arena: self.arena.with_symbols(other)? })
-    }
-
-    /// Types of the symbols used.
-    pub fn symbol_types(&self) -> impl Iterator<Item = Type> {
-        self.arena.symbols.iter().map(|(_, kind)| *kind)
-    }
-
-    /// Symbols used, with their names.
-    pub fn named_symbols(&self) -> impl Iterator<Item = (Symbol, &str)> {
-        self.symbols().zip(self.names())
     }
 }
 
@@ -427,29 +296,6 @@ impl Draft {
         }
         draft.fix(product);
         Ok(Formula { text: draft.text, arena: draft.arena })
-    }
-}
-
-impl Type {
-    /// Formula of this type with the given components, row by row.
-    ///
-    /// # Errors
-    /// There are too few or too many components.
-    pub fn filled(self, components: &[Formula]) -> Composed {
-        let parts: Vec<&Formula> = components.iter().collect();
-        match (self, parts.as_slice()) {
-            (_, all) if all.len() != self.size() => {
-                let message = format!("{} components do not fill a {self}", all.len());
-                Err(FormulaError::new(0..0, message))
-            }
-            (Type::Scalar, all) => Ok(all[0].clone()),
-            (Type::Vector(_), all) => Formula::vector(all),
-            (Type::Matrix(_, columns), all) => {
-                let rows: Vec<Vec<&Formula>> =
-                    all.chunks(columns.max(1)).map(<[&Formula]>::to_vec).collect();
-                Formula::rows(&rows)
-            }
-        }
     }
 }
 

@@ -1,0 +1,216 @@
+//! The case that the declarations make.
+
+use super::super::value::FormulaSource;
+use super::super::{Case, ClaimError, build, shadows};
+use super::{Build, ModelBuilder, Part};
+use crate::formula::{Formula, Scope, Symbol, Type, names_in};
+use crate::mechanics::{
+    Chart, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity, Reach,
+    Rubber, Shape, System, Variable, of_rubber,
+};
+
+impl ModelBuilder {
+    /// Builds the case.
+    ///
+    /// # Errors
+    /// The first mistake in what was declared, or what is missing.
+    pub fn build(mut self) -> Result<Case, ClaimError> {
+        if let Some(error) = self.error.take() {
+            return Err(error);
+        }
+        let system = match self.build {
+            Build::Field => None,
+            Build::Rubber { curved } => Some(self.body(curved)?),
+        };
+        let rates = self.read_rates()?;
+        let (system, extension, chart) = match system {
+            None => {
+                if self.state.variables.is_empty() {
+                    let message = "the field has no state variables";
+                    return Err(ClaimError::new(&self.title, message, "declare some by `state`"));
+                }
+                let chart = if self.level.is_empty() { Chart::Free } else { Chart::Equations };
+                (System::Field(rates), Vec::new(), chart)
+            }
+            Some(system) => (system, rates, Chart::Rolling),
+        };
+        self.name_rates();
+        let hidden = shadows::all(&self.vocabulary, Vec::new());
+        let warnings = hidden.iter().map(|name| shadows::warning(name));
+        let warnings = warnings.chain(shadows::look_alikes(&self.vocabulary)).collect();
+        let fixed = self.fixed();
+        let model = Model {
+            system,
+            vocabulary: self.vocabulary,
+            parameters: self.parameters,
+            state: self.state.variables,
+            extension,
+            variables: None,
+            abbreviations: self.abbreviations,
+            level: self.level,
+            fixed,
+        };
+        let mut case = Case {
+            title: self.title,
+            source: String::new(),
+            system: match self.build {
+                Build::Field => "field",
+                Build::Rubber { curved: false } => "rubber-plane",
+                Build::Rubber { curved: true } => "rubber-sphere",
+            }
+            .to_string(),
+            model,
+            chart,
+            free_draws: self.state.draws,
+            claims: Vec::new(),
+            motions: Vec::new(),
+            absences: Vec::new(),
+            column: None,
+            section: None,
+            one_sided: None,
+            notes: Vec::new(),
+            warnings,
+        };
+        build::extend_support(&mut case.model);
+        let is_open = |equation: &&LevelEquation| match &equation.function {
+            LevelFunction::Formula(function) => case.model.has_antiderivative(function),
+            _ => false,
+        };
+        let open = case.model.level.iter().find(is_open).map(|equation| equation.text.clone());
+        match open {
+            None => Ok(case),
+            Some(text) => {
+                let message = "a level equation has no ∫ in it: its constant is open";
+                Err(ClaimError::new(&text, message, "write the antiderivative out"))
+            }
+        }
+    }
+
+    fn read_rates(&self) -> Result<Vec<Formula>, ClaimError> {
+        let variables = self.state.variables.iter().zip(&self.rates).skip(self.own);
+        let read = |(variable, rate): (&Variable, &Option<FormulaSource>)| {
+            let what = format!("{}'", variable.name);
+            match rate {
+                Some(rate) => self.read(&what, rate, Some(variable.kind), Reach::Phase),
+                None => Err(ClaimError::new(&what, "the rate is missing", "give it by `rate`")),
+            }
+        };
+        variables.map(read).collect()
+    }
+
+    /// Gives the rate of each state variable a name, unless the name is taken.
+    fn name_rates(&mut self) {
+        for (index, variable) in self.state.variables.iter().enumerate() {
+            let name = format!("{}'", variable.name);
+            if self.vocabulary.find(&name).is_none() {
+                let meaning = Meaning::Quantity(Quantity::Rate(index));
+                self.vocabulary.add(&name, meaning, variable.kind, Reach::Phase);
+            }
+        }
+    }
+
+    /// Symbols of whole numbers that sizes contain.
+    fn fixed(&self) -> Vec<Symbol> {
+        let names = self.sizes.iter().flat_map(|text| names_in(text));
+        let whole = |name: String| {
+            let is_whole = self.vocabulary.find(&name)?.whole.is_some();
+            self.vocabulary.lookup(&name).filter(|_| is_whole).map(|(symbol, _)| symbol)
+        };
+        names.filter_map(whole).collect()
+    }
+
+    fn source(&self, part: Part) -> Option<&FormulaSource> {
+        self.parts.iter().find(|(own, _)| *own == part).map(|(_, source)| source)
+    }
+
+    /// Reads a constant of the body, or the parameter that stands for it.
+    fn constant(&self, part: Part, name: &str, kind: Type) -> Result<Formula, ClaimError> {
+        let default = FormulaSource::from(name);
+        let source = self.source(part).unwrap_or(&default);
+        self.read(name, source, Some(kind), Reach::Parameters)
+    }
+
+    fn body(&mut self, curved: bool) -> Result<System, ClaimError> {
+        let mass = self.constant(Part::Mass, "m", Type::Scalar)?;
+        let inertia = self.constant(Part::Inertia, "I", Type::MATRIX)?;
+        let curvature =
+            curved.then(|| self.constant(Part::Curvature, "k", Type::Scalar)).transpose()?;
+        let rotor = self.source(Part::Gyrostat);
+        let gyrostat = rotor
+            .map(|rotor| self.read("gyrostat", rotor, Some(Type::VECTOR), Reach::Parameters))
+            .transpose()?;
+        let shape = self.shape()?;
+        let has = |name: &str, kind: Type| {
+            self.vocabulary.lookup(name).is_some_and(|(_, found)| found == kind)
+        };
+        let features = Features {
+            radius: has("R", Type::Scalar),
+            displacement: has("c", Type::VECTOR),
+            curvature: curved,
+            potential: self.source(Part::Potential).is_some(),
+            profile: false,
+        };
+        let quantities = of_rubber(features);
+        // the potential may use h, and not itself
+        let is_potential = |quantity: &Quantity| *quantity == Quantity::Potential;
+        let (own, others): (Vec<_>, Vec<_>) =
+            quantities.into_iter().partition(|(_, quantity, _, _)| is_potential(quantity));
+        self.name_quantities(others);
+        let given = self.source(Part::Potential);
+        let potential = given
+            .map(|given| self.read("U", given, Some(Type::Scalar), Reach::Configuration))
+            .transpose()?;
+        self.name_quantities(own);
+        self.level = vec![
+            LevelEquation {
+                text: "|γ| = 1".to_string(),
+                function: LevelFunction::UnitNormal,
+                root: None,
+            },
+            LevelEquation {
+                text: "(ω,γ) = 0".to_string(),
+                function: LevelFunction::NoSpin,
+                root: None,
+            },
+        ];
+        Ok(System::Rubber(Box::new(Rubber {
+            mass,
+            inertia,
+            shape,
+            curvature,
+            gyrostat,
+            potential: potential.map(Potential::Formula),
+            moment: None,
+        })))
+    }
+
+    fn name_quantities(&mut self, quantities: Vec<(&'static str, Quantity, Type, Reach)>) {
+        for (name, quantity, kind, reach) in quantities {
+            if self.vocabulary.find(name).is_none() {
+                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
+            }
+        }
+    }
+
+    fn shape(&self) -> Result<Shape, ClaimError> {
+        let reach = Reach::Configuration;
+        let (scalar, vector) = (Some(Type::Scalar), Some(Type::VECTOR));
+        let given = [Part::Support, Part::Contact];
+        let mut given = given.into_iter().filter_map(|part| Some((part, self.source(part)?)));
+        match (given.next(), given.next()) {
+            (Some((Part::Support, source)), None) => {
+                self.read("support", source, scalar, reach).map(Shape::Support)
+            }
+            (Some((_, source)), None) => {
+                self.read("contact", source, vector, reach).map(Shape::Contact)
+            }
+            (None, _) => {
+                let remedy = "give `support` or `contact`";
+                Err(ClaimError::new("body", "the body has no shape", remedy))
+            }
+            (Some(_), Some(_)) => {
+                Err(ClaimError::new("body", "the body has two shapes", "give one of them"))
+            }
+        }
+    }
+}

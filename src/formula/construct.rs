@@ -1,0 +1,135 @@
+//! Vectors, products of vectors, components and calls, made of formulas.
+
+use super::arena::Operation;
+use super::bond::Bond;
+use super::compose::{Composed, Draft};
+use super::error::FormulaError;
+use super::kind::Type;
+use super::typing::{Infix, Operand};
+use super::{Formula, functions};
+
+impl Formula {
+    /// Dot product `(a,b)`.
+    pub fn dot(&self, other: &Formula) -> Composed {
+        Self::listed("(", ",", &[self, other], ")", |builder, parts, span| match parts {
+            [a, b] => builder.dot(a, b, span),
+            _ => Err(FormulaError::new(span, "a dot product takes two vectors")),
+        })
+    }
+
+    /// Cross product `a × b`.
+    pub fn cross(&self, other: &Formula) -> Composed {
+        self.joined(Infix::Cross, other)
+    }
+
+    /// Outer product `a ⊗ b`.
+    pub fn outer(&self, other: &Formula) -> Composed {
+        self.joined(Infix::Outer, other)
+    }
+
+    /// Norm of a vector, or absolute value of a scalar.
+    pub fn modulus(&self) -> Composed {
+        Self::listed("|", "", &[self], "|", |builder, parts, span| match parts {
+            [a] => builder.modulus(a, span),
+            _ => Err(FormulaError::new(span, "bars stand around one value")),
+        })
+    }
+
+    /// Square root.
+    pub fn sqrt(&self) -> Composed {
+        let mut draft = Draft::default();
+        draft.write("√");
+        let a = draft.place(self, self.bond() < Bond::Prefix);
+        draft.build(|builder| {
+            let span = 0..a.span.end;
+            builder.root(&a, span)
+        })
+    }
+
+    /// Component of a vector, or entry of a matrix, counted from 1: `γ[3]`, `I[1,2]`.
+    pub fn component(&self, indices: &[usize]) -> Composed {
+        let mut draft = Draft::default();
+        let a = draft.place(self, self.bond() < Bond::Whole);
+        let open = draft.text.len();
+        draft.write("[");
+        let mut places = Vec::new();
+        for (k, index) in indices.iter().enumerate() {
+            draft.write(if k == 0 { "" } else { "," });
+            let start = draft.text.len();
+            draft.write(&index.to_string());
+            places.push((i64::try_from(*index).unwrap_or(i64::MAX), start..draft.text.len()));
+        }
+        draft.write("]");
+        let brackets = open..draft.text.len();
+        draft.build(|builder| builder.index(&a, &places, brackets))
+    }
+
+    /// Component of a named vector by its name, counted from 1: `γ3`, where the scope has no name of
+    /// its own for it; as [`component`] otherwise.
+    ///
+    /// [`component`]: Formula::component
+    pub fn element(&self, index: usize) -> Composed {
+        let is_named =
+            matches!(self.arena.nodes.as_slice(), [only] if only.operation == Operation::Symbol(0));
+        let has_digits = self.written().ends_with(|c: char| c.is_ascii_digit());
+        if !is_named || has_digits || self.bond() < Bond::Whole || !(1..=9).contains(&index) {
+            return self.component(&[index]);
+        }
+        let mut draft = Draft::default();
+        let vector = draft.place(self, false);
+        draft.write(&index.to_string());
+        let span = 0..draft.text.len();
+        draft.arena.nodes[vector.node].span = span.clone();
+        let place = [(i64::try_from(index).unwrap_or(i64::MAX), span.clone())];
+        let end = span.end..span.end;
+        draft.build(|builder| builder.index(&Operand { span, ..vector }, &place, end))
+    }
+
+    /// Vector `[a, b, …]` of scalars.
+    pub fn vector(parts: &[&Formula]) -> Composed {
+        Self::listed("[", ", ", parts, "]", |builder, parts, span| builder.vector(parts, span))
+    }
+
+    /// Matrix `[[a, b], [c, d]]` of the rows.
+    pub fn rows(rows: &[Vec<&Formula>]) -> Composed {
+        let rows: Vec<Formula> =
+            rows.iter().map(|row| Self::vector(row)).collect::<Result<_, _>>()?;
+        let rows: Vec<&Formula> = rows.iter().collect();
+        Self::listed("[", ", ", &rows, "]", |builder, rows, span| builder.rows(rows, span))
+    }
+
+    /// Call of a function of the language, such as `det`, `hat` or `exp`.
+    pub fn call(function: &str, arguments: &[&Formula]) -> Composed {
+        if !functions::is_function(function) {
+            let message = format!("`{function}` is not a function");
+            return Err(FormulaError::new(0..function.len(), message));
+        }
+        let open = format!("{function}(");
+        Self::listed(&open, ", ", arguments, ")", |builder, parts, span| {
+            functions::call(builder, function, parts, span)
+        })
+    }
+}
+
+impl Type {
+    /// Formula of this type with the given components, row by row.
+    ///
+    /// # Errors
+    /// There are too few or too many components.
+    pub fn filled(self, components: &[Formula]) -> Composed {
+        let parts: Vec<&Formula> = components.iter().collect();
+        match (self, parts.as_slice()) {
+            (_, all) if all.len() != self.size() => {
+                let message = format!("{} components do not fill a {self}", all.len());
+                Err(FormulaError::new(0..0, message))
+            }
+            (Type::Scalar, all) => Ok(all[0].clone()),
+            (Type::Vector(_), all) => Formula::vector(all),
+            (Type::Matrix(_, columns), all) => {
+                let rows: Vec<Vec<&Formula>> =
+                    all.chunks(columns.max(1)).map(<[&Formula]>::to_vec).collect();
+                Formula::rows(&rows)
+            }
+        }
+    }
+}
