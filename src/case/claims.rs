@@ -213,7 +213,11 @@ pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
-            Err(other(&text, format!("`{}` is not a row of the paper's tables", text.value), &remedy))
+            Err(other(
+                &text,
+                format!("`{}` is not a row of the paper's tables", text.value),
+                &remedy,
+            ))
         }
         found => Ok(found.map(|text| text.value)),
     }
