@@ -182,11 +182,15 @@ fn theorem(found: &ProvedOrbit, changes: bool) -> String {
         found.segments,
         found.contraction
     );
-    match changes {
-        false => orbit,
-        true => format!(
-            "{orbit}; so no invariant measure has a density that is continuous and positive on it, \
-             for these parameters and all near them"
-        ),
+    if !changes {
+        return orbit;
     }
+    let near = match found.kept {
+        0 => "and all near them",
+        _ => "and all near them for which the motion keeps the same functions",
+    };
+    format!(
+        "{orbit}; so no invariant measure has a density that is continuous and positive on it, for \
+         these parameters {near}"
+    )
 }

@@ -45,11 +45,7 @@ pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
     case.motions.iter().map(|claim| report(claim, look(claim), options)).collect()
 }
 
-fn look(
-    claim: &MotionClaim,
-    scene: &Scene<'_>,
-    options: &Options,
-) -> Result<Finding, FlowError> {
+fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {
     match &claim.kind {
         Motion::Exponent(claim) => exponents::exponent(claim, scene),
         Motion::MeanDivergence(claim) => exponents::mean_divergence(claim, scene),
@@ -81,9 +77,7 @@ fn report(
     }
     let agrees = match claim.expect {
         Expect::Open => true,
-        Expect::Holds => {
-            verdict == Verdict::Proved || verdict == Verdict::Confirmed && enough
-        }
+        Expect::Holds => verdict == Verdict::Proved || verdict == Verdict::Confirmed && enough,
         Expect::Fails => verdict == Verdict::Refuted,
     };
     ClaimReport {

@@ -19,8 +19,7 @@ const BALL: Ball<LANES> = Ball;
 
 /// Plan with the coefficients of its rows, orders 0 to `order`.
 ///
-/// Rows other than the state end at `order` - 1. With each coefficient x there are bounds of |x|,
-/// and of its radius and its share of the rounding in a sum of products.
+/// Rows other than the state end at `order` - 1. With each coefficient x there is a bound of |x|.
 pub struct Coefficients<'p> {
     pub plan: &'p Plan,
     pub order: usize,
@@ -28,7 +27,6 @@ pub struct Coefficients<'p> {
     mid: Vec<Lane>,
     rad: Vec<Lane>,
     magnitude: Vec<Lane>,
-    blur: Vec<Lane>,
 }
 
 impl<'p> Coefficients<'p> {
@@ -36,15 +34,7 @@ impl<'p> Coefficients<'p> {
     pub fn new(plan: &'p Plan, order: usize) -> Self {
         let stride = order + 1;
         let zeros = vec![[0.0; LANES]; plan.rows * stride];
-        Self {
-            plan,
-            order,
-            stride,
-            mid: zeros.clone(),
-            rad: zeros.clone(),
-            magnitude: zeros.clone(),
-            blur: zeros,
-        }
+        Self { plan, order, stride, mid: zeros.clone(), rad: zeros.clone(), magnitude: zeros }
     }
 
     /// Computes all coefficients at boxes of states, one in each lane.
@@ -80,33 +70,33 @@ impl<'p> Coefficients<'p> {
     #[inline(always)]
     fn put(&mut self, row: Row, n: usize, value: &Block) {
         let place = row * self.stride + n;
-        // The error of a sum of n products is at most γ_n times the sum of their magnitudes.
-        let share = (self.order as f64 + 8.0) * f64::EPSILON / 2.0;
         for lane in 0..LANES {
             let (mid, rad) = (value.mid[lane], value.rad[lane]);
-            let magnitude = raised(mid.abs() + rad, 1);
             self.mid[place][lane] = mid;
             self.rad[place][lane] = rad;
-            self.magnitude[place][lane] = magnitude;
-            self.blur[place][lane] = raised(rad + share * magnitude, 2);
+            self.magnitude[place][lane] = raised(mid.abs() + rad, 1);
         }
     }
 
     /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
     #[inline(always)]
     fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Block {
-        let (mut mid, mut rad) = ([0.0; LANES], [0.0; LANES]);
+        let (mut mid, mut rad, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (x, y) = (x * self.stride, y * self.stride + n);
         for k in first..=last {
             let (xm, ym) = (&self.mid[x + k], &self.mid[y - k]);
-            let (xr, ya) = (&self.rad[x + k], &self.magnitude[y - k]);
-            let (xa, yb) = (&self.magnitude[x + k], &self.blur[y - k]);
+            let (xr, yr) = (&self.rad[x + k], &self.rad[y - k]);
+            let (xa, ya) = (&self.magnitude[x + k], &self.magnitude[y - k]);
             for lane in 0..LANES {
                 mid[lane] += xm[lane] * ym[lane];
-                rad[lane] += xr[lane] * ya[lane] + xa[lane] * yb[lane];
+                rad[lane] += xr[lane] * ya[lane] + xa[lane] * yr[lane];
+                size[lane] += xa[lane] * ya[lane];
             }
         }
-        Balls::new(mid, rad.map(|rad| raised(rad, 2 * n + 4)))
+        // The error of a sum of n products is at most γ_n times the sum of their magnitudes.
+        let share = (n as f64 + 4.0) * f64::EPSILON / 2.0;
+        let rad = std::array::from_fn(|lane| raised(rad[lane] + share * size[lane], 2 * n + 4));
+        Balls::new(mid, rad)
     }
 
     /// Encloses Σ k x_k y_{n-k} over k from 1 to `last`.
@@ -261,8 +251,10 @@ fn plus(x: &Block, weight: Enclosure, y: &Block) -> Block {
 }
 
 fn power(x: &Block, exponent: &Exponent) -> Block {
-    let Some(exact) = &exponent.exact else { return apply(Function::Sqrt, x) };
+    if exponent.is_root {
+        return apply(Function::Sqrt, x);
+    }
     let mut out = constant(Enclosure::ZERO);
-    BALL.power(x, exact, &mut out);
+    BALL.power(x, &exponent.exact, &mut out);
     out
 }

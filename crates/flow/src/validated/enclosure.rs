@@ -65,7 +65,8 @@ impl Enclosure {
             return Self { mid: f64::NAN, rad: f64::NAN };
         }
         let mid = self.mid + (other.mid - self.mid) / 2.0;
-        let reach = |x: Self| (mid - x.mid).abs() + x.rad + f64::EPSILON * (mid.abs() + x.mid.abs());
+        let reach =
+            |x: Self| (mid - x.mid).abs() + x.rad + f64::EPSILON * (mid.abs() + x.mid.abs());
         Self { mid, rad: raised(reach(self).max(reach(other)), 4) }
     }
 

@@ -2,6 +2,7 @@
 
 use super::enclosure::Enclosure;
 use super::motion::Boxed;
+use super::sharp;
 use crate::error::FlowError;
 use crate::motion::filled;
 use liouville::formula::Formula;
@@ -10,6 +11,7 @@ use liouville::mechanics::calculus::Jet;
 use liouville::mechanics::{Model, Phase};
 use liouville::number::ball::Ball;
 use liouville::number::rational::Rational;
+use liouville::number::twofold::{TwofoldBall, Twofolds};
 
 /// Functions with their gradients, recorded.
 pub struct Functions {
@@ -100,6 +102,15 @@ impl Functions {
         let gradient = |index: &usize| gradients[index * state.len()..][..state.len()].to_vec();
         let values = self.used.iter().map(|index| values[*index]).collect();
         (values, self.used.iter().map(gradient).collect())
+    }
+
+    /// Encloses the values at a state less other numbers, in double-double.
+    pub fn sharp(&self, state: &[f64], less: &[Rational]) -> Vec<Enclosure> {
+        let mut evaluator = Evaluator::new(&self.tape, TwofoldBall::<1>);
+        let exact = |x: &f64| Twofolds { hi: [*x], lo: [0.0], rad: [0.0] };
+        evaluator.run(&state.iter().map(exact).collect::<Vec<_>>());
+        let values = self.used.iter().map(|index| evaluator.output(*index));
+        values.zip(less).map(|(value, less)| sharp::difference(value, less)).collect()
     }
 
     /// Orthonormal basis of the directions along which no function changes, at a state.

@@ -43,11 +43,6 @@ impl Nodes {
         Ok(Some(Self { states, shares, period: time }))
     }
 
-    /// Number of unknowns: the nodes and the period.
-    pub fn unknowns(&self) -> usize {
-        self.states.iter().map(Vec::len).sum::<usize>() + 1
-    }
-
     /// Adds a step to all unknowns.
     pub fn move_by(&mut self, step: &[f64]) {
         let mut step = step.iter();

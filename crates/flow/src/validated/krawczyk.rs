@@ -72,12 +72,6 @@ impl Inverse {
         }
         (moved, largest)
     }
-
-    /// Largest row sum of magnitudes.
-    pub fn norm(&self) -> f64 {
-        let sums = self.entries.chunks(self.size).map(|row| row.iter().map(|c| c.abs()).sum());
-        sums.fold(0.0, f64::max)
-    }
 }
 
 /// Whether every matrix inside a square one of enclosures is regular, by an approximate inverse.

@@ -14,8 +14,11 @@ mod guess;
 mod krawczyk;
 mod motion;
 mod plan;
+mod sharp;
 mod shooting;
 mod tail;
+#[cfg(test)]
+mod tests;
 
 use crate::error::FlowError;
 use crate::start::Start;
@@ -106,9 +109,7 @@ pub enum Obstacle {
     #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
     NoStep(f64),
     /// The boxes are not mapped into themselves.
-    #[error(
-        "the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so"
-    )]
+    #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
     NoContraction(f64),
     /// The gradients of the kept functions are not proved independent.
     #[error("the gradients of the functions kept are not proved independent along the orbit")]
@@ -125,12 +126,15 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
     if functions.of_level_in_use() < functions.of_level {
         return Err(Obstacle::Level);
     }
-    let mut values: Vec<Enclosure> = values.into_iter().map(Enclosure::exact).collect();
-    values[..functions.of_level].fill(Enclosure::ZERO);
-    if request.keeps_energy && let Some(energy) = request.energy {
+    let known = values.into_iter().map(|value| Rational::from_f64(value).ok_or(Obstacle::NoOrbit));
+    let mut values = known.collect::<Result<Vec<Rational>, _>>()?;
+    values[..functions.of_level].fill(Rational::from(0));
+    if request.keeps_energy
+        && let Some(energy) = request.energy
+    {
         let place = functions.of_level;
         if functions.uses(place) {
-            values[place] = Enclosure::of(energy);
+            values[place] = energy.clone();
         }
     }
     let motion = Motion::new(model, &start.parameters)?;
@@ -174,8 +178,7 @@ impl<'s> Search<'s> {
             let passages = passages(shooting, &nodes, &starts, Enclosure::exact(nodes.period))?;
             let columns = shooting.derivative(&nodes, &frames, &starts, &passages);
             let inverse = Inverse::new(&columns, &order).ok_or(Obstacle::Degenerate)?;
-            let ends: Vec<Boxed> = passages.into_iter().map(|passage| passage.end).collect();
-            let step = inverse.times(&shooting.residual(&nodes, &frames, &ends));
+            let step = inverse.times(&residual(shooting, &nodes, &frames)?);
             let length = step.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
             if !length.is_finite() || length > size {
                 return Err(Obstacle::NoOrbit);
@@ -196,13 +199,12 @@ impl<'s> Search<'s> {
     }
 
     /// Finds boxes that Krawczyk's operator maps into their interior.
-    fn prove(self) -> Result<ProvedOrbit, Obstacle> {
+    fn prove(mut self) -> Result<ProvedOrbit, Obstacle> {
+        // To the last digit of f64: the residual has twice as many.
+        let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
+        self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
         let Self { shooting, nodes, frames, inverse } = &self;
-        let period = Enclosure::exact(nodes.period);
-        let ends = shooting.motion.ends(&boxes(nodes, None), &times(nodes, period));
-        let ends = all(nodes, ends)?;
-        // The phase is a hyperplane through the first node, whose place has moved.
-        let offsets = inverse.bounds(&shooting.residual(nodes, frames, &ends));
+        let offsets = inverse.bounds(&residual(shooting, nodes, frames)?);
         let unknowns: Vec<f64> =
             nodes.states.iter().flatten().copied().chain([nodes.period]).collect();
         let floor = |x: &f64| LEAST_RADIUS * x.abs().max(1.0);
@@ -218,7 +220,7 @@ impl<'s> Search<'s> {
             contraction = norm;
             let images: Vec<f64> = offsets.iter().zip(&moved).map(|(z, d)| raised(z, d)).collect();
             if images.iter().zip(&radii).all(|(image, radius)| image < radius) {
-                return self.proved(&starts, &passages, &radii, norm);
+                return self.proved(&starts, &passages, &images, norm);
             }
             if !images.iter().all(|x| x.is_finite()) {
                 break;
@@ -228,7 +230,8 @@ impl<'s> Search<'s> {
         Err(Obstacle::NoContraction(contraction))
     }
 
-    /// Checks that the segments fit together, and gathers the enclosures.
+    /// Checks that the segments fit together, and gathers the enclosures. The zero lies in the image
+    /// of the boxes, which is narrower.
     fn proved(
         &self,
         starts: &[Boxed],
@@ -255,7 +258,7 @@ impl<'s> Search<'s> {
         let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
         let volumes = passages.iter().map(|passage| passage.volume);
         Ok(ProvedOrbit {
-            start: starts[0].clone(),
+            start: boxes(nodes, Some(radii)).swap_remove(0),
             period: share * period,
             volume: volumes.fold(Enclosure::ZERO, |sum, volume| sum + volume),
             segments: starts.len(),
@@ -281,12 +284,24 @@ fn passages(
     all(nodes, shooting.motion.passages(starts, &times(nodes, period)))
 }
 
+fn residual(
+    shooting: &Shooting,
+    nodes: &Nodes,
+    frames: &Frames,
+) -> Result<Vec<Enclosure>, Obstacle> {
+    shooting.residual(nodes, frames).map_err(|index| Obstacle::NoStep(time(nodes, index)))
+}
+
+/// Approximate time of a node.
+fn time(nodes: &Nodes, index: usize) -> f64 {
+    nodes.shares[..index].iter().sum::<f64>() * nodes.period
+}
+
 /// Results of all segments, or the time of the first that has none.
 fn all<T>(nodes: &Nodes, found: Vec<Option<T>>) -> Result<Vec<T>, Obstacle> {
     let failed = found.iter().position(Option::is_none);
-    let time = |index: usize| nodes.shares[..index].iter().sum::<f64>() * nodes.period;
     match failed {
-        Some(index) => Err(Obstacle::NoStep(time(index))),
+        Some(index) => Err(Obstacle::NoStep(time(nodes, index))),
         None => Ok(found.into_iter().flatten().collect()),
     }
 }

@@ -3,7 +3,8 @@
 use super::coefficients::{Block, Coefficients, LANES};
 use super::enclosure::Enclosure;
 use super::plan::Plan;
-use super::tail;
+use super::sharp;
+use super::tail::{self, End};
 use crate::error::FlowError;
 use crate::motion::point;
 use crate::program::Program;
@@ -54,9 +55,28 @@ impl Motion {
         Ok(Self { dimension: n, state, full })
     }
 
-    /// Encloses the states after the steps `h`. `None` where a step is not proved.
-    pub fn ends(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Boxed>> {
-        steps(&self.state, starts, h)
+    /// Encloses how far the states after steps of `shares` of a period are from `targets`, in
+    /// double-double. `None` where a step is not proved.
+    pub fn gaps(
+        &self,
+        starts: &[Vec<f64>],
+        shares: &[f64],
+        period: f64,
+        targets: &[&[f64]],
+    ) -> Vec<Option<Boxed>> {
+        let boxed: Vec<Boxed> = starts
+            .iter()
+            .map(|state| state.iter().map(|x| Enclosure::exact(*x)).collect())
+            .collect();
+        let times = shares.iter().map(|share| Enclosure::exact(*share) * Enclosure::exact(period));
+        let rests = steps(&self.state, &boxed, &times.collect::<Vec<_>>());
+        let gaps = sharp::gaps(&self.state, ORDER, starts, shares, period, targets);
+        let widened = |(gap, end): (Boxed, Option<End>)| {
+            let rest = end?.rest;
+            let gap = gap.iter().zip(rest).map(|(x, rest)| *x + Enclosure::about(0.0, rest));
+            Some(gap.collect())
+        };
+        gaps.into_iter().zip(rests).map(widened).collect()
     }
 
     /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
@@ -67,10 +87,12 @@ impl Motion {
         let vectors: Vec<Enclosure> = vectors.chain([Enclosure::ZERO]).collect();
         let starts: Vec<Boxed> =
             starts.iter().map(|state| [state.as_slice(), &vectors].concat()).collect();
-        let passage = |mut end: Boxed| {
+        let passage = |end: End| {
+            let mut end = end.state;
             let columns = end.split_off(n);
-            let derivative =
-                (0..n).map(|row| (0..n).map(|column| columns[column * n + row]).collect()).collect();
+            let derivative = (0..n)
+                .map(|row| (0..n).map(|column| columns[column * n + row]).collect())
+                .collect();
             Passage { end, derivative, volume: columns[n * n] }
         };
         steps(&self.full, &starts, h).into_iter().map(|end| end.map(passage)).collect()
@@ -109,7 +131,7 @@ fn plan(
     Plan::new(&Program::exact(&graph, &rates)?)
 }
 
-fn steps(plan: &Plan, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Boxed>> {
+fn steps(plan: &Plan, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
     let mut coefficients = Coefficients::new(plan, ORDER);
     let mut ends = Vec::new();
     for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {

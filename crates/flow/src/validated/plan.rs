@@ -5,6 +5,7 @@ use crate::form::{Form, Row};
 use crate::program::{Program, Rule};
 
 use super::enclosure::Enclosure;
+use liouville::number::rational::Rational;
 
 /// Largest number of terms of a sum, which the allowance for rounding in `tail` covers.
 const MOST_TERMS: usize = 1000;
@@ -49,8 +50,10 @@ pub enum Operation {
 /// Exponent of a power.
 #[derive(Clone, Debug)]
 pub struct Exponent {
-    /// The number itself; `None` for 1/2, a root.
-    pub exact: Option<liouville::number::rational::Rational>,
+    /// Whether it is 1/2, and the power a root.
+    pub is_root: bool,
+    /// The number itself.
+    pub exact: Rational,
     /// The number in an enclosure.
     pub value: Enclosure,
 }
@@ -61,6 +64,8 @@ pub struct Sum {
     pub constant: Option<Enclosure>,
     pub linear: Vec<(Enclosure, Row)>,
     pub products: Vec<(Enclosure, Row, Row)>,
+    /// The same with exact coefficients.
+    pub form: Form,
 }
 
 impl Sum {
@@ -70,6 +75,7 @@ impl Sum {
             constant: form.constant.as_ref().map(Enclosure::of),
             linear: form.linear.iter().map(|(c, x)| (Enclosure::of(c), *x)).collect(),
             products: products.map(|(c, x, y)| (Enclosure::of(c), *x, *y)).collect(),
+            form: form.clone(),
         }
     }
 }
@@ -105,13 +111,13 @@ impl Plan {
                 Rule::Theta(x) => Operation::Theta(*x),
                 Rule::Recip(x) => Operation::Recip(*x),
                 Rule::Sqrt(x) => {
-                    let value = Enclosure::exact(0.5);
-                    let exponent = Exponent { exact: None, value };
+                    let (exact, value) = (Rational::new(1, 2), Enclosure::exact(0.5));
+                    let exponent = Exponent { is_root: true, exact, value };
                     Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
                 }
                 Rule::Power { x, exponent } => {
-                    let value = Enclosure::of(exponent);
-                    let exponent = Exponent { exact: Some(exponent.clone()), value };
+                    let (exact, value) = (exponent.clone(), Enclosure::of(exponent));
+                    let exponent = Exponent { is_root: false, exact, value };
                     Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
                 }
                 Rule::Exp(x) => Operation::Exp(*x),
@@ -130,9 +136,7 @@ impl Plan {
 
     /// Row of 1/x, made once.
     fn inverse(&mut self, x: Row) -> Row {
-        let is_own = |(_, operation): &&(Row, Operation)| {
-            matches!(operation, Operation::Recip(own) if *own == x)
-        };
+        let is_own = |(_, operation): &&(Row, Operation)| matches!(operation, Operation::Recip(own) if *own == x);
         if let Some((row, _)) = self.operations.iter().find(is_own) {
             return *row;
         }

@@ -13,12 +13,13 @@ use super::enclosure::Enclosure;
 use super::functions::Functions;
 use super::guess::Nodes;
 use super::motion::{Boxed, Motion, Passage};
+use liouville::number::rational::Rational;
 
 /// System with the functions that it keeps, and their values on the orbit.
 pub struct Shooting {
     pub motion: Motion,
     pub functions: Functions,
-    pub values: Vec<Enclosure>,
+    pub values: Vec<Rational>,
 }
 
 /// Matrix by columns, each a list of rows and entries.
@@ -61,22 +62,24 @@ impl Shooting {
         phase.iter().all(|x| x.is_finite()).then_some(Frames { across, phase })
     }
 
-    /// Encloses the left sides of all equations at the nodes, given the ends of the segments.
-    pub fn residual(&self, nodes: &Nodes, frames: &Frames, ends: &[Boxed]) -> Vec<Enclosure> {
+    /// Encloses the left sides of all equations at the nodes. Fails at the first segment that is not
+    /// proved.
+    pub fn residual(&self, nodes: &Nodes, frames: &Frames) -> Result<Vec<Enclosure>, usize> {
         let count = nodes.states.len();
+        let next = |index: usize| (index + 1) % count;
+        let targets: Vec<&[f64]> =
+            (0..count).map(|index| nodes.states[next(index)].as_slice()).collect();
+        let gaps = self.motion.gaps(&nodes.states, &nodes.shares, nodes.period, &targets);
         let mut rows = Vec::new();
-        for (index, end) in ends.iter().enumerate() {
-            let next = (index + 1) % count;
-            let parts = end.iter().zip(&nodes.states[next]);
-            let gap: Boxed = parts.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
-            rows.extend(frames.across[next].iter().map(|direction| combined(direction, &gap)));
-            let at: Boxed = nodes.states[index].iter().map(|x| Enclosure::exact(*x)).collect();
-            let values = self.functions.at(&at).0;
-            rows.extend(values.iter().zip(&self.values).map(|(value, level)| *value - *level));
+        for (index, gap) in gaps.into_iter().enumerate() {
+            let gap = gap.ok_or(index)?;
+            let directions = frames.across[next(index)].iter();
+            rows.extend(directions.map(|direction| combined(direction, &gap)));
+            rows.extend(self.functions.sharp(&nodes.states[index], &self.values));
         }
         // The node itself has the phase.
         rows.push(Enclosure::ZERO);
-        rows
+        Ok(rows)
     }
 
     /// Encloses the derivative of the equations over boxes of the nodes, given the passages.

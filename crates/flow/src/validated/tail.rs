@@ -158,8 +158,8 @@ impl<'c, 'p> Tails<'c, 'p> {
                 let q = exponent.value.magnitude();
                 // x_N^q = z_N + τ with x_N θτ = q τ θx_N + [q z_N θx_N - x_N θz_N].
                 let bound = self.reciprocal(*inverse, *x, 0.0, lane);
-                let rest = q * self.cross_weighted(out, *x, lane)
-                    + self.cross_weighted(*x, out, lane);
+                let rest =
+                    q * self.cross_weighted(out, *x, lane) + self.cross_weighted(*x, out, lane);
                 let slope = q * bound * self.weighted_norm(*x, lane) / n;
                 let own = over_rest(bound * rest / n, slope);
                 // (1 + w)^q - 1 has the majorant (1 - w)^(-|q|) - 1 ≤ e^(|q| w/(1 - w)) - 1.
@@ -281,9 +281,17 @@ impl<'c, 'p> Tails<'c, 'p> {
     }
 }
 
+/// End of a step.
+pub struct End {
+    /// Enclosed state.
+    pub state: Vec<Enclosure>,
+    /// Bounds of what the polynomials of the components leave out.
+    pub rest: Vec<f64>,
+}
+
 /// Encloses the states after the times `h` > 0, one in each lane. `None` in a lane where no tail is
 /// found.
-pub fn states(coefficients: &Coefficients<'_>, h: &Block) -> [Option<Vec<Enclosure>>; LANES] {
+pub fn states(coefficients: &Coefficients<'_>, h: &Block) -> [Option<End>; LANES] {
     let (plan, order) = (coefficients.plan, coefficients.order);
     let mut tails = Tails::new(coefficients);
     let longest: Lane = std::array::from_fn(|lane| raised(h.mid[lane] + h.rad[lane], 1));
@@ -314,15 +322,17 @@ pub fn states(coefficients: &Coefficients<'_>, h: &Block) -> [Option<Vec<Enclosu
         let ratio = above(longest[lane] / tails.radius[lane]);
         above((0..=order).fold(tails.integrated(row, lane), |p, _| p * ratio))
     };
-    let ends: Vec<Block> = (0..plan.dimension)
-        .map(|row| {
-            let rest = std::array::from_fn(|lane| remainder(row, lane));
-            add(&coefficients.polynomial(row, h), &Balls::new([0.0; LANES], rest))
-        })
+    let rests: Vec<Lane> =
+        (0..plan.dimension).map(|row| std::array::from_fn(|lane| remainder(row, lane))).collect();
+    let ends: Vec<Block> = rests
+        .iter()
+        .enumerate()
+        .map(|(row, rest)| add(&coefficients.polynomial(row, h), &Balls::new([0.0; LANES], *rest)))
         .collect();
     std::array::from_fn(|lane| {
         let end = |block: &Block| Enclosure { mid: block.mid[lane], rad: block.rad[lane] };
-        let ends: Vec<Enclosure> = ends.iter().map(end).collect();
-        (settled[lane] && ends.iter().all(|x| x.is_finite())).then_some(ends)
+        let state: Vec<Enclosure> = ends.iter().map(end).collect();
+        let rest = rests.iter().map(|rest| rest[lane]).collect();
+        (settled[lane] && state.iter().all(|x| x.is_finite())).then_some(End { state, rest })
     })
 }
