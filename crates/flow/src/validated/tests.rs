@@ -4,6 +4,7 @@ use liouville::graph::{Expr, record};
 use liouville::number::precise::Precise;
 use liouville::number::rational::Rational;
 use liouville::number::{Domain, Enclosing, Function, Operation};
+use liouville::scalar::Scalar;
 use num_dual::DualNum;
 
 use super::coefficients::{Block, Coefficients, LANES};
