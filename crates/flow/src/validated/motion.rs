@@ -133,11 +133,11 @@ fn plan(
 
 fn steps(plan: &Plan, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
     let mut coefficients = Coefficients::new(plan, ORDER);
-    let mut ends = Vec::new();
+    let (mut ends, mut hope) = (Vec::new(), tail::FIRST);
     for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
         coefficients.expand(&blocks(group));
         let h: Vec<Boxed> = h.iter().map(|h| vec![*h]).collect();
-        let found = tail::states(&coefficients, &blocks(&h)[0]);
+        let found = tail::states(&coefficients, &blocks(&h)[0], &mut hope);
         ends.extend(found.into_iter().take(group.len()));
     }
     ends

@@ -19,12 +19,13 @@ use super::coefficients::{Block, Coefficients, LANES, Lane, add};
 use super::enclosure::{Enclosure, raised};
 use super::plan::{Operation, Sum};
 use crate::form::Row;
+use liouville::graph::{Work, with_widest_vectors};
 use liouville::number::ball::Balls;
 
 /// Factor above the rounding of any bound here: sums of at most 10⁴ terms of either sign of none.
 const ALLOWANCE: f64 = 1.0 + 1e-11;
 /// Ratio of the first radius tried to the step, and of the least.
-const FIRST: f64 = 9.0;
+pub const FIRST: f64 = 9.0;
 const LEAST: f64 = 1.5;
 /// Factor by which the radius shrinks where it was too large.
 const SHRINK: f64 = 0.87;
@@ -33,6 +34,10 @@ const ROUNDS: usize = 40;
 /// Growth of tails from round to round, and their first size against the last coefficient.
 const GROWTH: f64 = 1.1;
 const FIRST_SIZE: f64 = 1.5;
+/// Growth of the largest tail of the state after which the radius is given up.
+const HOPELESS: f64 = 1e4;
+/// Factor above the radius found last at which the next search begins.
+const HOPE: f64 = 1.2;
 
 /// Bounds a number computed by few operations on non-negative numbers.
 #[inline(always)]
@@ -62,6 +67,8 @@ pub struct Tails<'c, 'p> {
     sums: Vec<Lane>,
     /// The same for k |a_k| ρ^k, of the rows whose derivative is read.
     weighted_sums: Vec<Lane>,
+    /// Bounds of ‖a_N‖, row by row.
+    norms: Vec<Lane>,
     tails: Vec<Lane>,
 }
 
@@ -76,11 +83,13 @@ impl<'c, 'p> Tails<'c, 'p> {
             terms: zeros.clone(),
             sums: zeros.clone(),
             weighted_sums: zeros,
+            norms: vec![[0.0; LANES]; coefficients.plan.rows],
             tails: vec![[0.0; LANES]; coefficients.plan.rows],
         }
     }
 
     /// Computes the norms of all rows for the present radii.
+    #[inline(always)]
     fn measure(&mut self) {
         let (order, stride) = (self.order, self.order + 1);
         let mut powers = vec![[1.0; LANES]; order];
@@ -101,12 +110,13 @@ impl<'c, 'p> Tails<'c, 'p> {
                         self.weighted_sums[place + k + 1][lane] + k as f64 * term;
                 }
             }
+            self.norms[row] = self.sums[place].map(above);
         }
     }
 
     /// Bounds ‖a_N‖.
     fn norm(&self, row: Row, lane: usize) -> f64 {
-        above(self.sums[row * (self.order + 1)][lane])
+        self.norms[row][lane]
     }
 
     /// Bounds ‖θa_N‖.
@@ -116,23 +126,26 @@ impl<'c, 'p> Tails<'c, 'p> {
 
     /// Bounds ‖[a_N b_N]‖, given the sums of b or those of θb.
     #[inline(always)]
-    fn crossed(&self, a: Row, b: Row, sums: &[Lane], lane: usize) -> f64 {
+    fn crossed(&self, a: Row, b: Row, sums: &[Lane]) -> Lane {
         let stride = self.order + 1;
         let (a, b) = (a * stride, b * stride);
-        let mut sum = 0.0;
+        let mut total = [0.0; LANES];
         for k in 1..self.order {
-            sum += self.terms[a + k][lane] * sums[b + self.order - k][lane];
+            let (term, sum) = (&self.terms[a + k], &sums[b + self.order - k]);
+            for lane in 0..LANES {
+                total[lane] += term[lane] * sum[lane];
+            }
         }
-        above(sum)
+        total.map(above)
     }
 
     fn cross(&self, a: Row, b: Row, lane: usize) -> f64 {
-        self.crossed(a, b, &self.sums, lane)
+        self.crossed(a, b, &self.sums)[lane]
     }
 
     /// Bounds ‖[a_N θb_N]‖.
     fn cross_weighted(&self, a: Row, b: Row, lane: usize) -> f64 {
-        self.crossed(a, b, &self.weighted_sums, lane)
+        self.crossed(a, b, &self.weighted_sums)[lane]
     }
 
     /// Bounds ‖1/b‖ for b with this tail, given the row of its reciprocal.
@@ -142,13 +155,12 @@ impl<'c, 'p> Tails<'c, 'p> {
     }
 
     /// Bounds the tail of a row from those of its arguments.
-    fn tail(&self, out: Row, operation: &Operation, crosses: &[Lane], lane: usize) -> f64 {
+    fn tail(&self, out: Row, operation: &Operation, lane: usize) -> f64 {
         let n = self.order as f64;
         let tail = |row: &Row| self.tails[*row][lane];
         let found = match operation {
-            Operation::Sum(sum) => self.tail_of_sum(sum, crosses, lane),
-            // Read by rules that do without.
-            Operation::Theta(_) => f64::INFINITY,
+            // Sums have their own rule; a derivative is read by rules that do without its tail.
+            Operation::Sum(_) | Operation::Theta(_) => f64::INFINITY,
             Operation::Recip(x) => {
                 let norm = self.norm(out, lane);
                 let defect = above(self.cross(out, *x, lane) + norm * tail(x));
@@ -202,72 +214,104 @@ impl<'c, 'p> Tails<'c, 'p> {
         above(found)
     }
 
-    fn tail_of_sum(&self, sum: &Sum, crosses: &[Lane], lane: usize) -> f64 {
-        let tail = |row: &Row| self.tails[*row][lane];
-        let mut total = 0.0;
+    #[inline(always)]
+    fn tail_of_sum(&self, sum: &Sum, crosses: &[Lane]) -> Lane {
+        let mut total = [0.0; LANES];
         for (weight, x) in &sum.linear {
-            total += weight.magnitude() * tail(x);
+            let (weight, tail) = (weight.magnitude(), &self.tails[*x]);
+            for lane in 0..LANES {
+                total[lane] += weight * tail[lane];
+            }
         }
         for ((weight, x, y), cross) in sum.products.iter().zip(crosses) {
-            let (a, b) = (tail(x), tail(y));
-            let moved = self.norm(*x, lane) * b + self.norm(*y, lane) * a + a * b;
-            total += weight.magnitude() * (cross[lane] + moved);
+            let weight = weight.magnitude();
+            let (a, b) = (&self.tails[*x], &self.tails[*y]);
+            let (norm, other) = (&self.norms[*x], &self.norms[*y]);
+            for lane in 0..LANES {
+                let moved = norm[lane] * b[lane] + other[lane] * a[lane] + a[lane] * b[lane];
+                total[lane] += weight * (cross[lane] + moved);
+            }
         }
-        total
+        total.map(above)
     }
 
     /// Bounds ‖[x_N y_N]‖ of all products of sums, in order.
-    fn crosses(&self) -> Vec<Vec<Lane>> {
-        let of_sum = |sum: &Sum| {
-            let products = sum.products.iter();
-            let cross = |x, y| std::array::from_fn(|lane| self.cross(x, y, lane));
-            products.map(|(_, x, y)| cross(*x, *y)).collect()
-        };
-        let operations = self.coefficients.plan.operations.iter();
-        operations
-            .map(|(_, operation)| match operation {
-                Operation::Sum(sum) => of_sum(sum),
-                _ => Vec::new(),
-            })
-            .collect()
+    #[inline(always)]
+    fn crosses(&self) -> Vec<Lane> {
+        let mut crosses = Vec::new();
+        for (_, operation) in &self.coefficients.plan.operations {
+            let Operation::Sum(sum) = operation else { continue };
+            for (_, x, y) in &sum.products {
+                crosses.push(self.crossed(*x, *y, &self.sums));
+            }
+        }
+        crosses
     }
 
-    /// Looks for tails that Picard's operator maps to themselves. Returns in which lanes.
-    fn settle(&mut self, last: &[Lane]) -> [bool; LANES] {
-        let plan = self.coefficients.plan;
+    /// Computes the tails of all rows from those of the state.
+    #[inline(always)]
+    fn spread(&mut self, crosses: &[Lane]) {
+        let mut rest = crosses;
+        for (out, operation) in &self.coefficients.plan.operations {
+            self.tails[*out] = match operation {
+                Operation::Sum(sum) => {
+                    let (own, others) = rest.split_at(sum.products.len());
+                    rest = others;
+                    self.tail_of_sum(sum, own)
+                }
+                _ => std::array::from_fn(|lane| self.tail(*out, operation, lane)),
+            };
+        }
+    }
+
+    /// Looks for tails that Picard's operator maps to themselves, for the present radii. Returns in
+    /// which lanes; there the tails of all rows belong to those of the state.
+    #[inline(always)]
+    fn settle(&mut self) -> [bool; LANES] {
+        self.measure();
+        let (plan, order) = (self.coefficients.plan, self.order);
+        let last: Vec<Lane> = (0..plan.dimension)
+            .map(|row| {
+                let last = self.coefficients.magnitudes(row)[order];
+                let power = |lane: usize| (0..order).fold(1.0, |p, _| p * self.radius[lane]);
+                std::array::from_fn(|lane| above(last[lane] * power(lane)))
+            })
+            .collect();
         let crosses = self.crosses();
         for (row, last) in last.iter().enumerate() {
             self.tails[row] = last.map(|x| above(FIRST_SIZE * x));
         }
-        let mut settled = [false; LANES];
+        let largest = |tails: &[Lane], lane: usize| {
+            tails[..plan.dimension].iter().fold(0.0, |a: f64, tail| a.max(tail[lane]))
+        };
+        // A state that is a polynomial has tails that are nothing but underflow.
+        let limit: Lane =
+            std::array::from_fn(|lane| (HOPELESS * largest(&self.tails, lane)).max(1e-40));
+        let (mut settled, mut hopeless) = ([false; LANES], [false; LANES]);
         for _ in 0..ROUNDS {
-            for ((out, operation), crosses) in plan.operations.iter().zip(&crosses) {
-                for lane in (0..LANES).filter(|lane| !settled[*lane]) {
-                    self.tails[*out][lane] = self.tail(*out, operation, crosses, lane);
-                }
-            }
-            for lane in 0..LANES {
-                if settled[lane] {
-                    continue;
-                }
-                let next: Vec<f64> = (0..plan.dimension)
-                    .map(|row| above(last[row][lane] + self.integrated(row, lane)))
-                    .collect();
+            // Where the state's tails are settled this changes nothing.
+            self.spread(&crosses);
+            for lane in (0..LANES).filter(|lane| !settled[*lane] && !hopeless[*lane]) {
                 let is_finite = |(row, operation): &(Row, Operation)| {
                     matches!(operation, Operation::Theta(_)) || self.tails[*row][lane].is_finite()
                 };
                 if !plan.operations.iter().all(is_finite) {
+                    hopeless[lane] = true;
                     continue;
                 }
+                let next = |row: usize| above(last[row][lane] + self.integrated(row, lane));
+                let next: Vec<f64> = (0..plan.dimension).map(next).collect();
                 settled[lane] = next.iter().zip(&self.tails).all(|(new, old)| *new <= old[lane]);
-                if !settled[lane] {
-                    for (row, new) in next.iter().enumerate() {
-                        let old = self.tails[row][lane];
-                        self.tails[row][lane] = old.max(above(GROWTH * new));
-                    }
+                if settled[lane] {
+                    continue;
                 }
+                for (row, new) in next.iter().enumerate() {
+                    let old = self.tails[row][lane];
+                    self.tails[row][lane] = old.max(above(GROWTH * new));
+                }
+                hopeless[lane] = !(largest(&self.tails, lane) <= limit[lane]);
             }
-            if settled == [true; LANES] {
+            if (0..LANES).all(|lane| settled[lane] || hopeless[lane]) {
                 break;
             }
         }
@@ -289,23 +333,27 @@ pub struct End {
     pub rest: Vec<f64>,
 }
 
+/// Work of settling tails, and the lanes where they are.
+struct Settling<'t, 'c, 'p>(&'t mut Tails<'c, 'p>, &'t mut [bool; LANES]);
+
+impl Work for Settling<'_, '_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        *self.1 = self.0.settle();
+    }
+}
+
 /// Encloses the states after the times `h` > 0, one in each lane. `None` in a lane where no tail is
-/// found.
-pub fn states(coefficients: &Coefficients<'_>, h: &Block) -> [Option<End>; LANES] {
+/// found. `hope` is the ratio of radii to steps at which the search begins, and becomes that of the
+/// next.
+pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Option<End>; LANES] {
     let (plan, order) = (coefficients.plan, coefficients.order);
     let mut tails = Tails::new(coefficients);
     let longest: Lane = std::array::from_fn(|lane| raised(h.mid[lane] + h.rad[lane], 1));
-    tails.radius = longest.map(|h| FIRST * h);
-    let settled = loop {
-        tails.measure();
-        let last: Vec<Lane> = (0..plan.dimension)
-            .map(|row| {
-                let last = coefficients.magnitudes(row)[order];
-                let power = |lane: usize| (0..order).fold(1.0, |p, _| p * tails.radius[lane]);
-                std::array::from_fn(|lane| above(last[lane] * power(lane)))
-            })
-            .collect();
-        let settled = tails.settle(&last);
+    tails.radius = longest.map(|h| hope.min(FIRST) * h);
+    let mut settled = [false; LANES];
+    loop {
+        with_widest_vectors(Settling(&mut tails, &mut settled));
         let mut shrinks = false;
         for lane in 0..LANES {
             let next = tails.radius[lane] * SHRINK;
@@ -315,9 +363,11 @@ pub fn states(coefficients: &Coefficients<'_>, h: &Block) -> [Option<End>; LANES
             }
         }
         if !shrinks {
-            break settled;
+            break;
         }
-    };
+    }
+    let ratios = tails.radius.iter().zip(&longest).map(|(radius, h)| radius / h);
+    *hope = HOPE * ratios.fold(LEAST, f64::max);
     let remainder = |row: usize, lane: usize| {
         let ratio = above(longest[lane] / tails.radius[lane]);
         above((0..=order).fold(tails.integrated(row, lane), |p, _| p * ratio))
