@@ -194,3 +194,20 @@ fn integrals_are_used_only_where_they_are_proved() {
     let reason = wrong.evidence.reason.unwrap_or_default();
     assert!(reason.contains("not proved that the motion keeps"), "{reason}");
 }
+
+#[test]
+fn kinds_are_proved_and_wrong_ones_refuted() {
+    let cycle = |kind: &str| {
+        judged(&van_der_pol("(1 − x²)", &format!("{CYCLE}\nstability = \"{kind}\""))).verdict
+    };
+    assert_eq!(cycle("sink"), Verdict::Proved, "it attracts");
+    for kind in ["source", "hyperbolic", "elliptic"] {
+        assert_eq!(cycle(kind), Verdict::Refuted, "it is not {kind}");
+    }
+    // The fixed point of the balanced ball has multipliers e^(±0.40008 i).
+    for kind in ["elliptic", "sink", "source", "hyperbolic"] {
+        let found = judged(&ball(&format!("stability = \"{kind}\"")));
+        assert_eq!(found.verdict, Verdict::Undecided, "{kind}: {:?}", found.evidence);
+        assert_known(&found, "λ₁ + λ₂", 2.0 * 0.40008_f64.cos(), 1e-5);
+    }
+}

@@ -1,6 +1,6 @@
 //! Closed orbits, with the change of volume along them.
 
-use super::{Beginning, Motional, Stated, required_number, word};
+use super::{Beginning, Motional, Stability, Stated, required_number, word};
 use crate::claim::Reader;
 use crate::formula::{Formula, Type};
 
@@ -24,6 +24,8 @@ pub struct ClosedOrbit {
     pub beginning: Beginning,
     /// Change of volume along the orbit.
     pub divergence: Option<Change>,
+    /// Stability on the level of the functions that are kept.
+    pub stability: Option<Stability>,
     /// Whether the orbit is to exclude densities.
     pub excludes_density: bool,
     /// Integrals that hold the orbit besides the level functions and the energy.
@@ -33,7 +35,7 @@ pub struct ClosedOrbit {
 impl Motional for ClosedOrbit {
     const NAME: &'static str = "closed-orbit";
     const COMPANIONS: &'static [&'static str] =
-        &["start", "state", "divergence", "density", "integrals"];
+        &["start", "state", "divergence", "stability", "density", "integrals"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let period = required_number(from, Self::NAME)?;
@@ -55,6 +57,7 @@ impl Motional for ClosedOrbit {
             period,
             beginning: Beginning::read(from)?,
             divergence: word(from, "divergence", &changes)?,
+            stability: word(from, "stability", &Stability::ALL)?,
             excludes_density: word(from, "density", &[("none", ())])?.is_some(),
             integrals,
         })
@@ -71,8 +74,11 @@ impl Motional for ClosedOrbit {
             Some(Change::Positive) => ", volume grows",
             Some(Change::Nonzero) => ", volume changes",
         };
+        let named = |stability| Stability::ALL.iter().find(|(_, one)| *one == stability);
+        let kind =
+            self.stability.and_then(named).map_or(String::new(), |(name, _)| format!("{name}, "));
         let density = if self.excludes_density { ", no density" } else { "" };
         let (period, start) = (&self.period.text, self.beginning.text());
-        format!("closed orbit of period {period} near {start}{volume}{density}")
+        format!("{kind}closed orbit of period {period} near {start}{volume}{density}")
     }
 }

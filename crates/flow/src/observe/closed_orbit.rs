@@ -4,7 +4,7 @@ use super::finding::Finding;
 use super::scene::Scene;
 use crate::{Enclosure, FlowError, Measured, Obstacle, ProvedOrbit, Request, Start, prove};
 use liouville::case::Case;
-use liouville::claim::motion::{Beginning, Change, ClosedOrbit, Stated};
+use liouville::claim::motion::{Beginning, Change, ClosedOrbit, Stability, Stated};
 use liouville::mechanics::{Chart, Draw, LevelFunction, Line};
 use liouville::verdict::{self, Options, Trust, Verdict};
 
@@ -61,6 +61,7 @@ fn enclosed(
         keeps_energy,
         energy,
         integrals: &claim.integrals.iter().collect::<Vec<_>>(),
+        wants_multipliers: claim.stability.is_some(),
     })
     .map_err(|obstacle| match obstacle {
         Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
@@ -151,7 +152,48 @@ fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut Finding) {
         }
         _ => {}
     }
-    finding.theorem = Some(theorem(found, changes));
+    let seen = claim.stability.and_then(|_| stability(found));
+    if let Some(claimed) = claim.stability {
+        if let Some(sum) = found.sum {
+            finding.note("λ₁ + λ₂", measured(sum), None);
+        }
+        match seen {
+            Some(seen) if seen == claimed => {}
+            Some(seen) => finding.refute(format!("the orbit is of another kind: {}", name(seen))),
+            None => finding.leave_open("its stability is not proved by the enclosures".to_string()),
+        }
+    }
+    finding.theorem = Some(theorem(found, changes, seen));
+}
+
+/// Stability by the enclosed multipliers, one or two of them. That their moduli are 1 is not proved.
+fn stability(found: &ProvedOrbit) -> Option<Stability> {
+    let grows = match (found.volume.is_positive(), (-found.volume).is_positive()) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    };
+    let by_volume = |grows| if grows { Stability::Source } else { Stability::Sink };
+    match found.multipliers {
+        1 => grows.map(by_volume),
+        2 => {
+            // The characteristic polynomial at ±1 is 1 + λ₁λ₂ ∓ (λ₁ + λ₂).
+            let sum = found.sum?;
+            let one_and_product = Enclosure::exact(1.0) + found.volume.exp();
+            let [ahead, behind] = [one_and_product - sum, one_and_product + sum];
+            if (-ahead).is_positive() || (-behind).is_positive() {
+                return Some(Stability::Hyperbolic);
+            }
+            let is_inside = ahead.is_positive() && behind.is_positive();
+            grows.filter(|_| is_inside).map(by_volume)
+        }
+        _ => None,
+    }
+}
+
+fn name(stability: Stability) -> &'static str {
+    let named = Stability::ALL.iter().find(|(_, one)| *one == stability);
+    named.map_or("", |(name, _)| name)
 }
 
 /// Compares an enclosed period with the digits stated.
@@ -168,12 +210,13 @@ fn compare_period(stated: &Stated, period: Enclosure, finding: &mut Finding) {
     }
 }
 
-fn theorem(found: &ProvedOrbit, changes: bool) -> String {
+fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> String {
     let state: Vec<String> = found.start.iter().map(|x| format!("{:.12}", x.mid)).collect();
     let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
+    let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
     let orbit = format!(
         "a closed orbit goes through ({}) ± {wide:.0e}, with period {:.13} ± {:.0e} and ∮ div v dt \
-         = {:.13} ± {:.0e} ({} segments, ‖1 − CG'‖ ≤ {:.0e})",
+         = {:.13} ± {:.0e} ({} segments, ‖1 − CG'‖ ≤ {:.0e}){kind}",
         state.join(", "),
         found.period.mid,
         found.period.rad,

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Operation};
+use liouville::number::{Domain, Function, Operation};
 
 /// Real number within `rad` of `mid`; a radius that is not finite encloses nothing known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,13 @@ impl Enclosure {
         let reach =
             |x: Self| (mid - x.mid).abs() + x.rad + f64::EPSILON * (mid.abs() + x.mid.abs());
         Self { mid, rad: raised(reach(self).max(reach(other)), 4) }
+    }
+
+    /// Encloses the exponentials.
+    pub fn exp(self) -> Self {
+        let mut out = Balls::new([0.0], [0.0]);
+        Ball::<1>.unary(Function::Exp, &self.block(), &mut out);
+        Self::first(&out)
     }
 
     fn combined(self, operation: Operation, other: Self) -> Self {

@@ -13,6 +13,7 @@ mod functions;
 mod guess;
 mod krawczyk;
 mod motion;
+mod multipliers;
 mod plan;
 mod sharp;
 mod shooting;
@@ -61,6 +62,8 @@ pub struct Request<'r> {
     pub energy: Option<&'r Rational>,
     /// Further functions proved to be kept.
     pub integrals: &'r [&'r Formula],
+    /// Whether the sum of two multipliers is to be enclosed.
+    pub wants_multipliers: bool,
 }
 
 /// A closed orbit that is proved to exist.
@@ -72,6 +75,10 @@ pub struct ProvedOrbit {
     pub period: Enclosure,
     /// Integral of the divergence on the level along it.
     pub volume: Enclosure,
+    /// Number of multipliers on the level of all functions that are kept.
+    pub multipliers: usize,
+    /// Sum of two multipliers, where asked for and enclosed.
+    pub sum: Option<Enclosure>,
     /// Number of segments.
     pub segments: usize,
     /// Largest radius of the boxes of its nodes.
@@ -143,7 +150,9 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
     for kappa in KAPPAS {
         let most = MOST_UNKNOWNS / model.dimension().max(1);
         let nodes = Nodes::along(model, start, request.period, kappa, most)?;
-        match Search::new(&shooting, nodes.ok_or(Obstacle::TooLong)?).and_then(Search::prove) {
+        match Search::new(&shooting, nodes.ok_or(Obstacle::TooLong)?)
+            .and_then(|search| search.prove(request.wants_multipliers))
+        {
             Ok(mut found) => {
                 let gap: Vec<f64> =
                     found.start.iter().zip(&state).map(|(x, y)| x.mid - y).collect();
@@ -199,7 +208,7 @@ impl<'s> Search<'s> {
     }
 
     /// Finds boxes that Krawczyk's operator maps into their interior.
-    fn prove(mut self) -> Result<ProvedOrbit, Obstacle> {
+    fn prove(mut self, wants_multipliers: bool) -> Result<ProvedOrbit, Obstacle> {
         // To the last digit of f64: the residual has twice as many.
         let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
         self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
@@ -220,7 +229,11 @@ impl<'s> Search<'s> {
             contraction = norm;
             let images: Vec<f64> = offsets.iter().zip(&moved).map(|(z, d)| raised(z, d)).collect();
             if images.iter().zip(&radii).all(|(image, radius)| image < radius) {
-                return self.proved(&starts, &passages, &images, norm);
+                let mut found = self.proved(&starts, &passages, &images, norm)?;
+                if wants_multipliers && found.multipliers == 2 {
+                    found.sum = multipliers::sum(shooting, frames, &starts, &passages);
+                }
+                return Ok(found);
             }
             if !images.iter().all(|x| x.is_finite()) {
                 break;
@@ -261,6 +274,8 @@ impl<'s> Search<'s> {
             start: boxes(nodes, Some(radii)).swap_remove(0),
             period: share * period,
             volume: volumes.fold(Enclosure::ZERO, |sum, volume| sum + volume),
+            multipliers: shooting.motion.dimension.saturating_sub(shooting.functions.len() + 1),
+            sum: None,
             segments: starts.len(),
             radius: radii.iter().copied().fold(0.0, f64::max),
             contraction,
