@@ -62,8 +62,8 @@ pub struct Case {
     pub title: String,
     /// Publication that the case is taken from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
-    /// `vakonomic`, `field` or `map`.
+    /// `rubber-plane`, `rubber-sphere`, `rolling-plane`, `rolling-sphere`, `flat-base`,
+    /// `ball-on-surface`, `nonholonomic`, `vakonomic`, `field` or `map`.
     pub system: String,
     /// Equations and names.
     pub model: Model,

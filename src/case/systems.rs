@@ -16,9 +16,49 @@ use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
     Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
+    of_spinning,
 };
 
-const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic, field or map";
+/// Reads the tables of a system after the parameters; the text is its name.
+type Reader = for<'a, 'r, 's> fn(&'a mut Reading<'r, 's>, &Text) -> Read;
+
+/// The systems by name, in the order of messages.
+const SYSTEMS: [(&str, Reader); 10] = [
+    ("rubber-plane", |reading, name| {
+        reading.rolling(name, Rolling { spins: false, curved: false })
+    }),
+    ("rubber-sphere", |reading, name| {
+        reading.rolling(name, Rolling { spins: false, curved: true })
+    }),
+    ("rolling-plane", |reading, name| {
+        reading.rolling(name, Rolling { spins: true, curved: false })
+    }),
+    ("rolling-sphere", |reading, name| {
+        reading.rolling(name, Rolling { spins: true, curved: true })
+    }),
+    ("flat-base", |reading, name| reading.flat_base(name)),
+    ("ball-on-surface", |reading, name| reading.ball(name)),
+    ("nonholonomic", |reading, _| reading.lagrangian(false)),
+    ("vakonomic", |reading, _| reading.lagrangian(true)),
+    ("field", |reading, _| reading.field()),
+    ("map", |reading, _| map::system(reading)),
+];
+
+/// The way in which a body of any shape rolls.
+#[derive(Clone, Copy)]
+pub(super) struct Rolling {
+    /// Whether it may spin about the normal.
+    pub spins: bool,
+    /// Whether it rolls on a sphere, with a curvature.
+    pub curved: bool,
+}
+
+/// Lists the names of all systems.
+fn names() -> String {
+    let [others @ .., (last, _)] = &SYSTEMS;
+    let others: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
+    format!("{} or {last}", others.join(", "))
+}
 
 /// A model with its chart and draws.
 pub struct Parts {
@@ -95,22 +135,13 @@ impl<'r, 's> Reading<'r, 's> {
     /// `None` if the system is not known.
     pub fn read(mut self) -> Option<(String, Parts)> {
         let text = self.kind()?;
-        let read = match text.value.as_str() {
-            "rubber-plane" => self.rubber(&text, false),
-            "rubber-sphere" => self.rubber(&text, true),
-            "flat-base" => self.flat_base(&text),
-            "ball-on-surface" => self.ball(&text),
-            "nonholonomic" => self.lagrangian(false),
-            "vakonomic" => self.lagrangian(true),
-            "field" => self.field(),
-            "map" => map::system(&mut self),
-            found => {
-                let message = format!("unknown system `{found}`");
-                let remedy = format!("write {SYSTEMS}");
-                self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
-                return None;
-            }
+        let Some((_, reader)) = SYSTEMS.iter().find(|(name, _)| *name == text.value) else {
+            let message = format!("unknown system `{}`", text.value);
+            let remedy = format!("write {}", names());
+            self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
+            return None;
         };
+        let read = reader(&mut self, &text);
         self.name_rates();
         self.settle(Stage::Rates);
         let is_whole = read.is_some();
@@ -164,31 +195,33 @@ impl<'r, 's> Reading<'r, 's> {
                 None
             }
             None => {
-                let remedy = format!("add system = \"…\" with {SYSTEMS}");
+                let remedy = format!("add system = \"…\" with {}", names());
                 self.mistakes().add(self.root.missing("system", &remedy));
                 None
             }
         }
     }
 
-    fn rubber(&mut self, name: &Text, curved: bool) -> Read {
+    fn rolling(&mut self, name: &Text, way: Rolling) -> Read {
         let nothing = DeTable::new();
         let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
-        let features = body::features(&section, curved, &self.vocabulary);
+        let features = body::features(&section, way.curved, &self.vocabulary);
         let own = [("ω", Type::VECTOR), ("γ", Type::VECTOR)];
-        self.declare(&own, &[], of_rubber(features), name);
+        let quantities = if way.spins { of_spinning(features) } else { of_rubber(features) };
+        self.declare(&own, &[], quantities, name);
         self.further_state();
         self.settle(Stage::State);
         let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
-        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters);
+        let system = body::rolling(&section, way, &arbitrary, names, &mut self.parameters);
         section.finish();
         self.further_rates(own.len());
         let system = system?;
         self.mistakes().keep(feedback::none(self, &section, &system))?;
-        self.level = vec![
-            equation("|γ| = 1", LevelFunction::UnitNormal),
-            equation("(ω,γ) = 0", LevelFunction::NoSpin),
-        ];
+        self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
+        if way.spins {
+            return Some((system, Chart::Sphere));
+        }
+        self.level.push(equation("(ω,γ) = 0", LevelFunction::NoSpin));
         Some((system, Chart::Rolling))
     }
 
