@@ -100,8 +100,8 @@ pub struct Column {
     pub words: Vec<(String, String)>,
 }
 
-/// Rows of the paper's tables.
-pub const TABLE_ROWS: [&str; 9] = [
+/// Rows of the papers' tables, and those of the table of rolling with and without spin.
+pub const TABLE_ROWS: [&str; 13] = [
     "body",
     "inertia",
     "surface",
@@ -111,6 +111,10 @@ pub const TABLE_ROWS: [&str; 9] = [
     "structure",
     "gyrostat",
     "generalisation",
+    "rubber-plane",
+    "rolling-plane",
+    "rubber-sphere",
+    "rolling-sphere",
 ];
 
 /// A claim with its expectation.

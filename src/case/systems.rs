@@ -218,11 +218,11 @@ impl<'r, 's> Reading<'r, 's> {
         let system = system?;
         self.mistakes().keep(feedback::none(self, &section, &system))?;
         self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
-        if way.spins {
-            return Some((system, Chart::Sphere));
+        if !way.spins {
+            self.level.push(equation("(ω,γ) = 0", LevelFunction::NoSpin));
         }
-        self.level.push(equation("(ω,γ) = 0", LevelFunction::NoSpin));
-        Some((system, Chart::Rolling))
+        let chart = system.chart();
+        Some((system, chart))
     }
 
     fn flat_base(&mut self, name: &Text) -> Read {
@@ -264,7 +264,8 @@ impl<'r, 's> Reading<'r, 's> {
         if by_support {
             self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
         }
-        Some((system, if by_support { Chart::Sphere } else { Chart::Free }))
+        let chart = system.chart();
+        Some((system, chart))
     }
 
     fn lagrangian(&mut self, vakonomic: bool) -> Read {

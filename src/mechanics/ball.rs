@@ -17,6 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::body::{Shape, axis, scalar, vector};
+use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::linear::{adjugate, determinant_with};
@@ -158,6 +159,13 @@ impl Dynamics for BallOnSurface {
 
     fn dimensional(&self) -> Vec<&Formula> {
         self.potential.iter().filter_map(Potential::formula).collect()
+    }
+
+    fn chart(&self) -> Chart {
+        match self.surface {
+            Surface::Level(_) => Chart::Free,
+            Surface::Support(_) => Chart::Sphere,
+        }
     }
 
     /// Returns the rates (M', r') or (M', γ').

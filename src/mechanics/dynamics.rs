@@ -3,6 +3,7 @@
 //! A new kind implements [`Dynamics`] in a file of its own and becomes a variant of
 //! [`System`](super::System); the compiler asks for the rest.
 
+use super::chart::Chart;
 use super::configuration::Configuration;
 use super::phase::Phase;
 use super::quantity::Quantity;
@@ -21,6 +22,11 @@ pub(super) trait Dynamics {
     /// parameters.
     fn dimensional(&self) -> Vec<&Formula> {
         self.functions()
+    }
+
+    /// Returns the chart of the level set that the system has by itself.
+    fn chart(&self) -> Chart {
+        Chart::Free
     }
 
     /// The time derivatives of the state's components, in order; of a map their images.

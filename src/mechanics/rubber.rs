@@ -7,6 +7,7 @@ use std::ops::{Deref, DerefMut};
 use nalgebra::Vector3;
 
 use super::body::{Polynomial, scalar, vector};
+use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::phase::Phase;
@@ -72,6 +73,10 @@ impl Dynamics for Rubber {
 
     fn dimensional(&self) -> Vec<&Formula> {
         self.0.dimensional()
+    }
+
+    fn chart(&self) -> Chart {
+        Chart::Rolling
     }
 
     /// Returns the rates (ω', γ').

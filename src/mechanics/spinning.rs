@@ -27,6 +27,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::body::axis;
+use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::linear::{adjugate, determinant_with};
@@ -156,6 +157,10 @@ impl Dynamics for Spinning {
 
     fn dimensional(&self) -> Vec<&Formula> {
         self.0.dimensional()
+    }
+
+    fn chart(&self) -> Chart {
+        Chart::Sphere
     }
 
     /// Returns the rates (ω', γ').

@@ -1,6 +1,7 @@
 //! The kinds of mechanical systems, and what each answers by its own file.
 
 use super::ball::BallOnSurface;
+use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::flat_base::FlatBase;
@@ -81,6 +82,11 @@ impl System {
     /// Returns the angular momentum of a rotor.
     pub fn gyrostat(&self) -> Option<&Formula> {
         for_each_kind!(self, one => one.gyrostat())
+    }
+
+    /// Returns the chart of the level set that the system has by itself.
+    pub fn chart(&self) -> Chart {
+        for_each_kind!(self, one => one.chart())
     }
 
     /// Whether time scales as for bodies: ω as 1/t, shapes and masses not at all.

@@ -39,7 +39,8 @@ pub struct Geometry {
     pub bindings: Vec<Definition>,
 }
 
-const TEXTS: [&str; 5] = [
+const TEXTS: [&str; 6] = [
+    include_str!("facts/rolling.toml"),
     include_str!("facts/rubber.toml"),
     include_str!("facts/sphere.toml"),
     include_str!("facts/flat-base.toml"),
