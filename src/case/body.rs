@@ -3,9 +3,9 @@
 use super::arbitrary::Arbitrary;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
+use super::kinds::Rolling;
 use super::parameters::has;
 use super::section::{Section, Text};
-use super::systems::Rolling;
 use crate::formula::{Formula, Type};
 use crate::mechanics::{
     Features, FlatBase, Parameter, Potential, Reach, RigidBody, Rubber, Shape, Spinning, System,

@@ -18,6 +18,7 @@ mod field;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
+mod kinds;
 mod lagrangian;
 mod lines;
 mod lists;

@@ -1,6 +1,7 @@
 //! Bodies that roll without slipping and may spin, compared with reference values.
 
 use liouville::number::rational::Rational;
+use liouville::verdict::evaluate_digits;
 use serde_json::Value;
 
 use super::common::{Reference, case, claim, claim_text, exact, rational, report, strings, text};
@@ -99,6 +100,11 @@ fn bodies_that_spin() {
                 for (k, reference) in point["chi"].as_array().expect("χ").iter().enumerate() {
                     check(reference, chi[k], &format!("χ[{k}]"));
                 }
+            }
+            let digits = evaluate_digits(&case, Some(&state), 1, 0, 30).expect("evaluated");
+            for (k, rate) in point["v"].as_array().expect("v").iter().enumerate() {
+                let ours = digits.field[k].as_deref().expect("a rate");
+                assert_eq!(exact(ours), exact(text(rate)), "{what}, v[{k}] to thirty digits");
             }
             let [along, across] = found.conditions.expect("C₁ and C₂");
             check(&point["C1"], along, "C₁");
