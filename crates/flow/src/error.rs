@@ -21,7 +21,9 @@ pub enum FlowError {
         state: Vec<f64>,
     },
     /// The section uses variables that this system does not have.
-    #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
+    #[error(
+        "sections in the variables (1.17) are for a body that rolls without spinning, with the state ω, γ alone"
+    )]
     NoAndoyer,
     /// The case has no section.
     #[error("the case has no [section]")]
