@@ -18,6 +18,7 @@ mod field;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
+mod kinds;
 mod lagrangian;
 mod lines;
 mod lists;
@@ -63,8 +64,8 @@ pub struct Case {
     pub title: String,
     /// Publication that the case is taken from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
-    /// `vakonomic`, `field` or `map`.
+    /// `rubber-plane`, `rubber-sphere`, `rolling-plane`, `rolling-sphere`, `flat-base`,
+    /// `ball-on-surface`, `nonholonomic`, `vakonomic`, `field` or `map`.
     pub system: String,
     /// Equations and names.
     pub model: Model,
@@ -101,8 +102,8 @@ pub struct Column {
     pub words: Vec<(String, String)>,
 }
 
-/// Rows of the paper's tables.
-pub const TABLE_ROWS: [&str; 9] = [
+/// Rows of the papers' tables, and those of the table of rolling with and without spin.
+pub const TABLE_ROWS: [&str; 13] = [
     "body",
     "inertia",
     "surface",
@@ -112,6 +113,10 @@ pub const TABLE_ROWS: [&str; 9] = [
     "structure",
     "gyrostat",
     "generalisation",
+    "rubber-plane",
+    "rolling-plane",
+    "rubber-sphere",
+    "rolling-sphere",
 ];
 
 /// A claim with its expectation.
