@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .variable("u", "-2..2")
         .variable("v", "-2..2");
     let [m, q, b] = [names.formula("m")?, names.formula("q")?, names.formula("B")?];
-    let [x, y] = [names.formula("x")?, names.formula("y")?];
+    let x = names.formula("x")?;
     let [u, v] = [names.formula("u")?, names.formula("v")?];
     let turning = (&q * &b / &m)?;
     let case = names

@@ -128,7 +128,8 @@ fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, 
         Some((canonical_name(name.trim())?, end(low)?, end(high)?))
     };
     let read = |part: &str| {
-        range(part).ok_or_else(|| wrong(format!("`{}` is not a range of indices", part.trim()), FORM))
+        range(part)
+            .ok_or_else(|| wrong(format!("`{}` is not a range of indices", part.trim()), FORM))
     };
     list.split(',').map(read).collect()
 }

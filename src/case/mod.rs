@@ -19,6 +19,7 @@ mod field;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
+mod kinds;
 mod lagrangian;
 mod lines;
 mod lists;
@@ -69,8 +70,8 @@ pub struct Case {
     pub title: String,
     /// Publication that the case is taken from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
-    /// `vakonomic`, `field` or `map`.
+    /// `rubber-plane`, `rubber-sphere`, `rolling-plane`, `rolling-sphere`, `flat-base`,
+    /// `ball-on-surface`, `nonholonomic`, `vakonomic`, `field` or `map`.
     pub system: String,
     /// Equations and names.
     pub model: Model,
@@ -107,8 +108,8 @@ pub struct Column {
     pub words: Vec<(String, String)>,
 }
 
-/// Rows of the paper's tables.
-pub const TABLE_ROWS: [&str; 9] = [
+/// Rows of the papers' tables, and those of the table of rolling with and without spin.
+pub const TABLE_ROWS: [&str; 13] = [
     "body",
     "inertia",
     "surface",
@@ -118,6 +119,10 @@ pub const TABLE_ROWS: [&str; 9] = [
     "structure",
     "gyrostat",
     "generalisation",
+    "rubber-plane",
+    "rolling-plane",
+    "rubber-sphere",
+    "rolling-sphere",
 ];
 
 /// A claim of a case: its statement at a place, with its expectation.

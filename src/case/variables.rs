@@ -88,7 +88,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
                 && images[index].text().trim() == own.name
         })
     };
-    let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
+    let is_body = model.system.body().is_some() || matches!(model.system, System::Ball(_));
     let keeps_body = is_body && stays(1) && state[0].kind == Type::VECTOR;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
         Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,

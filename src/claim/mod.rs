@@ -26,6 +26,7 @@ mod no_density_near;
 mod place;
 mod point;
 mod reader;
+mod rest;
 mod statement;
 mod symmetry_field;
 mod transformation;
@@ -269,6 +270,11 @@ impl Kind {
     /// Returns a remark for a claim that holds.
     pub fn remark(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.remark(model))
+    }
+
+    /// Returns a remark for a claim that is refuted.
+    pub fn remark_on_refutation(&self, model: &Model) -> Option<String> {
+        of_each!(self, statement => statement.remark_on_refutation(model))
     }
 }
 

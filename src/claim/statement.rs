@@ -136,4 +136,9 @@ pub trait Statement: Clone {
     fn remark(&self, _: &Model) -> Option<String> {
         None
     }
+
+    /// Returns a remark for a claim that is refuted.
+    fn remark_on_refutation(&self, _: &Model) -> Option<String> {
+        None
+    }
 }

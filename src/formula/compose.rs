@@ -6,13 +6,13 @@
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 
+use super::Formula;
 use super::arena::{Arena, NodeId, Operation};
 use super::bond::{Bond, bond, is_signed};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::scope::{Scope, Symbol};
+use super::scope::Scope;
 use super::typing::{Builder, Built, Infix, Operand};
-use super::{Formula, functions};
 use crate::number::rational::Rational;
 
 /// A formula made of others, or the reason why their types do not fit.

@@ -143,6 +143,13 @@ pub struct Features {
 
 /// Lists the quantities of a rubber body: name, quantity, type, dependence.
 pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+    let mut all = of_spinning(features);
+    all.push(("λ0", Quantity::Multiplier, Type::Scalar, Reach::Phase));
+    all
+}
+
+/// Lists the quantities of a body that may spin.
+pub fn of_spinning(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     use Reach::{Configuration, Parameters, Phase};
     use Type::Scalar;
@@ -158,7 +165,6 @@ pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach
         ("energy", Energy, Scalar, Phase),
         ("ω'", AngularAcceleration, VECTOR, Phase),
         ("γ'", NormalRate, VECTOR, Phase),
-        ("λ0", Multiplier, Scalar, Phase),
     ];
     if features.radius {
         all.push(("J", BallInertia, MATRIX, Parameters));

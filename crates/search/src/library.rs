@@ -32,12 +32,7 @@ fn kept(made: impl IntoIterator<Item = Composed>) -> Vec<Formula> {
 /// Scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Vec<Formula> {
     use liouville::mechanics::Potential;
-    let potential = match &model.system {
-        System::Rubber(body) => &body.potential,
-        System::Ball(ball) => &ball.potential,
-        _ => return Vec::new(),
-    };
-    let Some(Potential::Formula(formula)) = potential else { return Vec::new() };
+    let Some(Potential::Formula(formula)) = model.system.potential() else { return Vec::new() };
     let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
     let names = formula
         .symbols()
@@ -158,7 +153,7 @@ fn pieces(model: &Model) -> Pieces {
         free: Vec::new(),
     };
     match &model.system {
-        System::Rubber(body) => {
+        System::Rubber(_) | System::Spinning(_) => {
             pieces.normal = model_name(model, "γ");
             let constant = if matrix("J") { "J" } else { "I" };
             let turned = if constant == "J" { "J*ω" } else { "I*ω" };
@@ -167,7 +162,7 @@ fn pieces(model: &Model) -> Pieces {
                 pieces.linear.extend(known(model, &["B⁻¹*ω"]));
             }
             pieces.linear.extend(known(model, &["ω"]));
-            pieces.linear.extend(body.gyrostat.clone());
+            pieces.linear.extend(model.system.gyrostat().cloned());
             pieces.forms.extend(known(model, &["ω3"]));
             let mut weights = vec!["m"];
             if scalar("R") {
@@ -188,7 +183,8 @@ fn pieces(model: &Model) -> Pieces {
             weights.extend(["m*r²", "m*(r,γ)²"]);
             pieces.weights.extend(scalars(model, &weights));
             potential_terms(model, &mut pieces, constant);
-            if let (true, Some(potential)) = (body.potential.is_some(), model_name(model, "U")) {
+            let has_potential = model.system.potential().is_some();
+            if let (true, Some(potential)) = (has_potential, model_name(model, "U")) {
                 let weighted = pieces.weights.iter().map(|weight| product(&potential, weight));
                 pieces.free.extend(kept(weighted.collect::<Vec<_>>()));
                 pieces.free.extend(scalars(model, &["U*(γ,adj(B⁻¹)*(B*γ))"]));
@@ -267,7 +263,7 @@ pub fn denominators(model: &Model) -> Vec<Formula> {
     let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
     for (name, text) in offers {
         if has(model, name, Type::MATRIX)
-            && matches!(model.system, System::Rubber(_) | System::Ball(_))
+            && (model.system.body().is_some() || matches!(model.system, System::Ball(_)))
         {
             found.extend(scalars(model, &[text]));
         }
@@ -305,6 +301,22 @@ pub fn factors(model: &Model) -> Vec<Formula> {
             }
             if matrix("B") {
                 factors.push("(γ,B*γ)");
+            }
+        }
+        System::Spinning(_) => {
+            if matrix("J") {
+                factors.push("(γ,J⁻¹*γ)");
+                factors.push("(1 − m*R²*(γ,J⁻¹*γ))");
+            }
+            // With I₁ = I₂: √Δ and I₁ + mr² of a body of revolution.
+            factors.push("(I1 + m*r²)");
+            factors.push("(I1*I3 + m*(r,I*r))");
+            factors.push("det(Ĩ)");
+            if scalar("D_T") {
+                factors.push("D_T");
+            }
+            if matrix("B") && scalar("μ") {
+                factors.push("(μ + m*r²)");
             }
         }
         System::FlatBase(_) => factors.extend([
@@ -348,8 +360,8 @@ pub fn exponents(model: &Model) -> Vec<Formula> {
     let mut found = vec!["1"];
     if has(model, "κ", Type::Scalar) {
         found.push("k*R");
-    } else if let (System::Rubber(body), true) = (&model.system, has(model, "g1", Type::Scalar))
-        && body.curvature.is_some()
+    } else if model.system.body().is_some_and(|body| body.curvature.is_some())
+        && has(model, "g1", Type::Scalar)
         && has(model, "R", Type::Scalar)
     {
         found.push("k*R");

@@ -3,9 +3,9 @@
 mod declare;
 mod finish;
 
+use super::ClaimError;
 use super::state::State;
 use super::value::{FormulaSource, ValueSpec};
-use super::{Case, ClaimError};
 use crate::formula::{Formula, Type};
 use crate::mechanics::{LevelEquation, Meaning, Model, Parameter, Reach, Vocabulary};
 
@@ -28,7 +28,7 @@ enum Part {
     Potential,
 }
 
-/// Builder of a [`Case`] without claims: a system with its names, its states and its level set.
+/// Builder of a [`Case`](super::Case) without claims: a system with its names, its states and its level set.
 ///
 /// Names are declared before they are used. The first mistake is returned by
 /// [`formula`](ModelBuilder::formula) and [`build`](ModelBuilder::build).

@@ -198,8 +198,9 @@ pub struct Eval {
 
 #[derive(Debug, Args)]
 pub struct Table {
-    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=3))]
+    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
+    /// rolling with and without spin
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]
     pub number: u32,
     /// Case files, or folders of them
     #[arg(default_value = "cases")]

@@ -228,6 +228,7 @@ fn remark(claim: &ClaimReport) -> String {
             } else {
                 words.push(format!("at almost every state, {}", evidence.method));
             }
+            words.extend(evidence.remark.clone());
         }
         Verdict::Undecided => {}
     }

@@ -104,10 +104,9 @@ fn a_folder_has_a_line_for_each_case_and_details_of_what_is_unexpected() {
     let wrong = GOOD.replace("name = \"F2\"", "name = \"F2\"\nexpect = \"fails\"");
     let path = folder("lines", &[("good.toml", GOOD), ("wrong.toml", &wrong)]);
     let path = path.to_str().expect("UTF-8");
-    liouville(&["check", path])
-        .assert()
-        .code(1)
-        .stdout(contains("good.toml: 1 proved, 1 refuted\n").and(contains("✗ proved   expected: fails")));
+    liouville(&["check", path]).assert().code(1).stdout(
+        contains("good.toml: 1 proved, 1 refuted\n").and(contains("✗ proved   expected: fails")),
+    );
     liouville(&["check", path, "-q"])
         .assert()
         .code(1)

@@ -10,7 +10,7 @@ use liouville::mechanics::{
 /// is not a function of the configuration.
 pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
     let mut changed = model.clone();
-    let System::Rubber(body) = &mut changed.system else { return None };
+    let body = changed.system.body_mut()?;
     let potential = match &body.potential {
         None => further.clone(),
         Some(Potential::Formula(own)) => (own + further).ok()?,
@@ -29,9 +29,8 @@ pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
 pub fn with_gyrostat(model: &Model, rotor: &Formula) -> Option<Model> {
     let mut changed = model.clone();
     let own = match &mut changed.system {
-        System::Rubber(body) => &mut body.gyrostat,
         System::FlatBase(body) => &mut body.gyrostat,
-        _ => return None,
+        system => &mut system.body_mut()?.gyrostat,
     };
     if own.is_some() || rotor.value_type() != Type::VECTOR {
         return None;

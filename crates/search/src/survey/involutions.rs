@@ -47,7 +47,8 @@ fn candidates(case: &Case) -> Vec<Candidate> {
     let turns = || Turn::all().into_iter();
     let variable = |name: &str| case.formula(name);
     match &case.model.system {
-        System::Rubber(_) => {
+        system @ (System::Rubber(_) | System::Spinning(_)) => {
+            let spins = matches!(system, System::Spinning(_));
             let (Ok(omega), Ok(gamma)) = (variable("ω"), variable("γ")) else {
                 return Vec::new();
             };
@@ -57,8 +58,9 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                     name: map.name(axial < 0),
                     key: key(axial),
                     images: vec![("ω".into(), turned), ("γ".into(), map.image(&gamma, 1).ok()?)],
-                    // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+                    // |γ| = 1, and (ω,γ) = 0 without spin, on the fixed spaces of both.
                     fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
+                        _ if spins => along.checked_sub(1).map(|d| d + velocity),
                         1 => along.checked_sub(1).map(|d| d + velocity),
                         _ => along.checked_sub(1).map(|d| d + velocity - 1),
                     }),
