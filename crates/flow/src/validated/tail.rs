@@ -291,7 +291,9 @@ impl<'c, 'p> Tails<'c, 'p> {
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
             self.spread(&crosses);
-            for lane in (0..LANES).filter(|lane| !settled[*lane] && !hopeless[*lane]) {
+            let open = |lane: &usize| !settled[*lane] && !hopeless[*lane];
+            let open: Vec<usize> = (0..LANES).filter(open).collect();
+            for lane in open {
                 let is_finite = |(row, operation): &(Row, Operation)| {
                     matches!(operation, Operation::Theta(_)) || self.tails[*row][lane].is_finite()
                 };
