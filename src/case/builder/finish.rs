@@ -6,7 +6,7 @@ use super::{Build, ModelBuilder, Part};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
     Chart, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity, Reach,
-    Rubber, Shape, System, Variable, of_rubber,
+    RigidBody, Rubber, Shape, System, Variable, of_rubber,
 };
 
 impl ModelBuilder {
@@ -173,7 +173,7 @@ impl ModelBuilder {
                 root: None,
             },
         ];
-        Ok(System::Rubber(Box::new(Rubber {
+        Ok(System::Rubber(Box::new(Rubber(RigidBody {
             mass,
             inertia,
             shape,
@@ -181,7 +181,7 @@ impl ModelBuilder {
             gyrostat,
             potential: potential.map(Potential::Formula),
             moment: None,
-        })))
+        }))))
     }
 
     fn name_quantities(&mut self, quantities: Vec<(&'static str, Quantity, Type, Reach)>) {
