@@ -291,7 +291,10 @@ impl<'c, 'p> Tails<'c, 'p> {
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
             self.spread(&crosses);
-            for lane in (0..LANES).filter(|lane| !settled[*lane] && !hopeless[*lane]) {
+            for lane in 0..LANES {
+                if settled[lane] || hopeless[lane] {
+                    continue;
+                }
                 let is_finite = |(row, operation): &(Row, Operation)| {
                     matches!(operation, Operation::Theta(_)) || self.tails[*row][lane].is_finite()
                 };
