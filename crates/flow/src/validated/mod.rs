@@ -144,7 +144,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             values[place] = energy.clone();
         }
     }
-    let motion = Motion::new(model, &start.parameters)?;
+    let (energy, integrals) = (request.keeps_energy, request.integrals);
+    let motion = Motion::new(model, &start.parameters, energy, integrals)?;
     let shooting = Shooting { motion, functions, values };
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {

@@ -15,6 +15,8 @@
 //! are unique: analytic in |t| < ρ, with the remainder after order N at most
 //! ρ ε_f/(N + 1) (h/ρ)^(N+1).
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
+
 use super::coefficients::{Block, Coefficients, LANES, Lane, add};
 use super::enclosure::{Enclosure, raised};
 use super::plan::{Operation, Sum};
@@ -312,7 +314,8 @@ impl<'c, 'p> Tails<'c, 'p> {
                     let old = self.tails[row][lane];
                     self.tails[row][lane] = old.max(above(GROWTH * new));
                 }
-                hopeless[lane] = !(largest(&self.tails, lane) <= limit[lane]);
+                let is_near = largest(&self.tails, lane) <= limit[lane];
+                hopeless[lane] = !is_near;
             }
             if (0..LANES).all(|lane| settled[lane] || hopeless[lane]) {
                 break;
