@@ -310,7 +310,7 @@ fn residual(
 
 /// Approximate time of a node.
 fn time(nodes: &Nodes, index: usize) -> f64 {
-    nodes.shares[..index].iter().sum::<f64>() * nodes.period
+    nodes.shares[..index].iter().fold(0.0, |sum, share| sum + share) * nodes.period
 }
 
 /// Results of all segments, or the time of the first that has none.

@@ -36,8 +36,6 @@ const ROUNDS: usize = 40;
 /// Growth of tails from round to round, and their first size against the last coefficient.
 const GROWTH: f64 = 1.1;
 const FIRST_SIZE: f64 = 1.5;
-/// Growth of the largest tail of the state after which the radius is given up.
-const HOPELESS: f64 = 1e4;
 /// Factor above the radius found last at which the next search begins.
 const HOPE: f64 = 1.2;
 
@@ -286,9 +284,9 @@ impl<'c, 'p> Tails<'c, 'p> {
         let largest = |tails: &[Lane], lane: usize| {
             tails[..plan.dimension].iter().fold(0.0, |a: f64, tail| a.max(tail[lane]))
         };
-        // A state that is a polynomial has tails that are nothing but underflow.
-        let limit: Lane =
-            std::array::from_fn(|lane| (HOPELESS * largest(&self.tails, lane)).max(1e-40));
+        // A tail above all that is known of the state is useless.
+        let known = &self.norms[..plan.dimension];
+        let limit: Lane = std::array::from_fn(|lane| 1.0 + largest(known, lane));
         let (mut settled, mut hopeless) = ([false; LANES], [false; LANES]);
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
