@@ -7,10 +7,10 @@
 use crate::streams::Stream;
 use num_dual::Dual;
 
-use super::super::{Halt, SearchError};
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::terms::{Term, recorded};
+use super::super::{Halt, SearchError};
 use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Expr, Tape};
