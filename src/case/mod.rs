@@ -40,6 +40,7 @@ mod velocities;
 mod weights;
 
 use serde::Serialize;
+use std::io::{self, Read};
 use std::path::Path;
 
 use crate::claim::absence::Absence;
@@ -214,6 +215,27 @@ impl Case {
                 (text, case)
             }
             Err(error) => (String::new(), Err(io(error))),
+        }
+    }
+
+    /// Reads a case from a stream, such as standard input; also returns its text.
+    pub fn read_from(input: impl Read, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
+        let mut bytes = Vec::new();
+        let read = input.take(MAX_BYTES + 1).read_to_end(&mut bytes);
+        let text = read.and_then(|_| {
+            String::from_utf8(bytes)
+                .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "the text is not UTF-8"))
+        });
+        match text {
+            Ok(text) if text.len() as u64 > MAX_BYTES => {
+                let size = Problem::TooLarge(text.len() as u64, MAX_BYTES);
+                (String::new(), Err(CaseError::whole(size)))
+            }
+            Ok(text) => {
+                let case = Self::parse(&text, settings);
+                (text, case)
+            }
+            Err(error) => (String::new(), Err(CaseError::whole(Problem::Io(error)))),
         }
     }
 

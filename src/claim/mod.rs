@@ -20,7 +20,7 @@ mod lax;
 mod limit;
 mod lyapunov;
 pub mod motion;
-mod no_density;
+mod no_density_near;
 mod place;
 mod point;
 mod reader;
@@ -50,7 +50,7 @@ pub use integral::Integral;
 pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;
-pub use no_density::NoDensity;
+pub use no_density_near::NoDensityNear;
 pub use place::Place;
 
 pub use reader::{Complex, Reader};
@@ -164,7 +164,7 @@ kinds! {
     Map,
     Independent,
     FixedPoint,
-    NoDensity,
+    NoDensityNear,
     Lyapunov,
     Form,
     Limit,

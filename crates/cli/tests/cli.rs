@@ -2,6 +2,8 @@
 
 #[path = "cli/motion.rs"]
 mod motion;
+#[path = "cli/start.rs"]
+mod start;
 #[path = "cli/wrong.rs"]
 mod wrong;
 
@@ -143,7 +145,7 @@ fn one_bad_file_does_not_stop_the_others() {
     liouville(&["check", path.to_str().expect("UTF-8")])
         .assert()
         .code(2)
-        .stdout(contains("balanced ball"))
+        .stdout(contains("b-good.toml: 1 proved"))
         .stdout(contains("1 file could not be judged"));
 }
 

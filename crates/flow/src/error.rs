@@ -35,7 +35,7 @@ pub enum FlowError {
     #[error("the case is a map, and motions are followed of flows")]
     Discrete,
     /// The point does not lie on the sphere.
-    #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
+    #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
     OffSphere {
         /// Coordinate l.
         l: f64,
@@ -95,7 +95,7 @@ pub enum FlowError {
         period: usize,
     },
     /// The point has no separatrices.
-    #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
+    #[error("the periodic point ({l:.6}, {z:.6}) is not hyperbolic but of kind: {kind}")]
     NotHyperbolic {
         /// Coordinate l.
         l: f64,
@@ -162,7 +162,7 @@ impl FlowError {
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
             FlowError::NotHyperbolic { .. } => {
-                "`liouville periodic` tells what kind a point is; start near a hyperbolic one"
+                "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",

@@ -112,7 +112,7 @@ fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::
 
 fn stated<R: Reader>(from: &R, key: &'static str, text: &str) -> Result<Stated, R::Error> {
     Stated::parse(text).ok_or_else(|| {
-        let message = format!("`{text}` is no number");
+        let message = format!("`{text}` is not a number");
         from.complaint(key, message, "write 1.234, 3/7, π/2, or \"0.035 ± 0.003\"")
     })
 }
@@ -141,7 +141,7 @@ fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Err
             let message = format!("`{text}` is beyond all that can be followed");
             Err(from.complaint(key, message, &format!("write a number up to {MOST}")))
         }
-        _ => Err(from.complaint(key, format!("`{text}` is no count"), "write 1, 2, 3, …")),
+        _ => Err(from.complaint(key, format!("`{text}` is not a count"), "write 1, 2, 3, …")),
     }
 }
 
