@@ -93,7 +93,14 @@ pub fn read_motion(
     taken: &[String],
 ) -> Result<MotionClaim, Mistake> {
     let model = context.model;
-    let mut stated = MOTIONS.iter().chain(STATEMENTS).filter(|key| section.value(key).is_some());
+    // A companion of a claim about motion, such as density = "none", may be a statement elsewhere.
+    let motion = MOTIONS.iter().find(|key| section.value(key).is_some()).copied();
+    let accompanies = |key: &&&str| Motion::companions(motion.unwrap_or_default()).contains(*key);
+    let mut stated = MOTIONS
+        .iter()
+        .chain(STATEMENTS)
+        .filter(|key| section.value(key).is_some())
+        .filter(|key| !accompanies(key));
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
     section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat());
     let entries = Entries { section, model };

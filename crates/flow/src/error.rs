@@ -104,6 +104,9 @@ pub enum FlowError {
         /// Kind of the periodic point.
         kind: &'static str,
     },
+    /// The field has a sum of more terms than a proof allows for.
+    #[error("the field has a sum of more than a thousand terms")]
+    TooLong,
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -164,6 +167,7 @@ impl FlowError {
             FlowError::NotHyperbolic { .. } => {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
+            FlowError::TooLong => "write the field with fewer terms, by [let]",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

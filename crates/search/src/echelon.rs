@@ -42,6 +42,11 @@ impl Echelon {
         false
     }
 
+    /// Iterates over the independent rows, reduced by those before them.
+    pub fn rows(&self) -> impl Iterator<Item = &Vec<u64>> {
+        self.rows.iter().flatten()
+    }
+
     /// Number of columns.
     pub fn columns(&self) -> usize {
         self.rows.len()
@@ -52,25 +57,31 @@ impl Echelon {
         self.rows[column].is_some()
     }
 
+    /// Lists the columns without pivots.
+    pub fn free(&self) -> Vec<usize> {
+        (0..self.rows.len()).filter(|column| self.rows[*column].is_none()).collect()
+    }
+
     /// Returns a basis of the null space of all rows: for each free column the vector with 1 there
     /// and 0 at the other free columns.
     pub fn null_space(&self) -> Vec<Vec<u64>> {
+        self.free().into_iter().map(|free| self.null_vector(free)).collect()
+    }
+
+    /// Returns the vector of the null space with 1 at a free column and 0 at the other free columns.
+    pub fn null_vector(&self, free: usize) -> Vec<u64> {
         let m = self.modulus;
-        let columns = self.rows.len();
-        let free = (0..columns).filter(|column| self.rows[*column].is_none());
-        free.map(|free| {
-            let mut vector = vec![0; columns];
-            vector[free] = m.one();
-            for column in (0..columns).rev() {
-                if let Some(row) = &self.rows[column] {
-                    let sum = (column + 1..columns)
-                        .fold(0, |sum, k| m.add(sum, m.mul(row[k], vector[k])));
-                    vector[column] = m.sub(0, sum);
-                }
+        let mut vector = vec![0; self.rows.len()];
+        vector[free] = m.one();
+        for column in (0..free).rev() {
+            if let Some(row) = &self.rows[column] {
+                let own = row[column + 1..=free].iter().zip(&vector[column + 1..=free]);
+                let used = own.filter(|(a, x)| **a != 0 && **x != 0);
+                let sum = used.fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
+                vector[column] = m.sub(0, sum);
             }
-            vector
-        })
-        .collect()
+        }
+        vector
     }
 }
 

@@ -26,6 +26,11 @@ impl Halt {
         Arc::clone(&self.told)
     }
 
+    /// Whether the duration is limited.
+    pub fn is_timed(&self) -> bool {
+        self.deadline.is_some()
+    }
+
     /// Fails once the search is to stop.
     pub fn check(&self) -> Result<(), SearchError> {
         let is_late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);

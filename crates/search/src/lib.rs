@@ -6,6 +6,7 @@
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
+//! orbit      relations between monomials along an orbit mod p: rational integrals of any field
 //! absence    a claim that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
@@ -25,6 +26,7 @@ mod library;
 mod linear;
 mod local;
 mod multipliers;
+mod orbit;
 mod products;
 mod second_opinion;
 mod series;
@@ -47,6 +49,7 @@ pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
 pub use halt::Halt;
 pub use multipliers::MultiplierReport;
+pub use orbit::OrbitReport;
 pub use second_opinion::SecondOpinion;
 
 /// The reason why a search is impossible.
@@ -241,6 +244,9 @@ pub struct Report {
     pub counts: Vec<CountReport>,
     /// Numbers of polynomials whose powers are densities.
     pub multipliers: Vec<MultiplierReport>,
+    /// Relations along an orbit, degree by degree.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub orbits: Vec<OrbitReport>,
     /// Invariants that were found.
     pub found: Vec<Found>,
     /// Theorems of absence.
@@ -333,6 +339,9 @@ pub fn search(
             conditions::conditions(case, wanted, effort, report, progress)
         })?;
     }
+    report.stage("relations along an orbit", effort, |report| {
+        orbit::search(case, effort, report, progress)
+    })?;
     branches::withdraw(case, effort, &mut report)?;
     Ok(report)
 }

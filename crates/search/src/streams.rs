@@ -25,6 +25,12 @@ pub enum Stream {
     Equations = 58,
     /// Combinations of the equations of an ansatz.
     Combinations = 59,
+    /// Parameters at which orbits are expanded.
+    Orbits = 47,
+    /// Points through which orbits are expanded.
+    OrbitPoints = 48,
+    /// Lines on which Darboux polynomials are looked for.
+    OrbitLines = 49,
     /// Primes of an ansatz; each of its moduli has the next stream.
     Moduli = 60,
 }

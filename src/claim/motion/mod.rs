@@ -1,9 +1,11 @@
 //! Claims about motion: long orbits, periodic points and limits of orbits.
 //!
 //! They have no residual that could be proved to vanish, but are observed: confirmed or refuted by
-//! numbers with errors. Each kind is one file that defines the claim; `observe` measures.
+//! numbers with errors. Closed orbits are proved. Each kind is one file that defines the claim;
+//! `observe` measures.
 
 mod beginning;
+mod closed_orbit;
 mod confined;
 mod contacts;
 mod exponent;
@@ -16,6 +18,7 @@ mod stated;
 use super::Reader;
 
 pub use beginning::Beginning;
+pub use closed_orbit::{Change, ClosedOrbit};
 pub use confined::{Axis, Confined};
 pub use contacts::{Contacts, Touch};
 pub use exponent::{Exponent, Growth};
@@ -97,6 +100,7 @@ kinds! {
     Confined,
     LimitOfMotion,
     Contacts,
+    ClosedOrbit,
 }
 
 /// Reads the number of a key.

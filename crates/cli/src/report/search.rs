@@ -10,6 +10,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
         "title": title,
         "counts": report.counts,
         "multipliers": report.multipliers,
+        "orbits": report.orbits,
         "found": report.found,
         "excluded": report.excluded,
         "second_opinions": report.opinions,
@@ -44,6 +45,12 @@ pub fn text(title: &str, report: &Report) -> String {
         ));
     }
     out.push_str(&multipliers(&report.multipliers));
+    if let Some(last) = report.orbits.last() {
+        out.push_str(&format!(
+            "\nrelations of degree at most {} along an orbit, in {} monomials: {}, algebraic integrals: {}\n",
+            last.degree, last.monomials, last.relations, last.integrals
+        ));
+    }
     for found in &report.found {
         out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
         for (what, text) in &found.with {

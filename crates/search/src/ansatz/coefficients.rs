@@ -41,13 +41,19 @@ impl Coefficients {
     /// Finds the vector on some columns that is 1 at the last of them, for all values of the
     /// parameters; `None` if its coefficients are not fractions of low degree.
     pub fn of(system: &System, columns: &[usize]) -> Option<Self> {
-        let mut samples = Samples { system, columns, next: 0, known: Vec::new() };
+        Self::through(&Columns { system, columns })
+    }
+
+    /// Finds a vector for all values of the parameters from its images; `None` if its coefficients
+    /// are not fractions of low degree.
+    pub fn through(source: &dyn Vectors) -> Option<Self> {
+        let mut samples = Samples { source, next: 0, known: Vec::new() };
         let varying = samples.varying()?;
         if varying.is_empty() {
-            return numbers(system, columns);
+            return numbers(source);
         }
         // Few coordinates are tried first: often J replaces I, m and R.
-        let names = system.coordinates();
+        let names = source.names();
         let tensor = |k: &usize| names[*k].starts_with('J');
         let instead = |k: usize| {
             let entry = names[k].strip_prefix('I').map(|entry| format!("J{entry}"));
@@ -112,10 +118,46 @@ impl Coefficients {
     }
 }
 
+/// A vector whose entries are rational functions of the parameters, known by its images.
+pub trait Vectors {
+    /// Names of the parameters' coordinates.
+    fn names(&self) -> &[String];
+    /// Number of entries.
+    fn width(&self) -> usize;
+    /// Image for choice `index` of the parameters modulo the prime with number `prime`, 1 at its
+    /// last entry; `None` where there is none.
+    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)>;
+}
+
+/// The null vector on some columns of a system.
+pub struct Columns<'s> {
+    /// System of equations.
+    pub system: &'s System,
+    /// Columns of the vector.
+    pub columns: &'s [usize],
+}
+
+impl Vectors for Columns<'_> {
+    fn names(&self) -> &[String] {
+        self.system.coordinates()
+    }
+
+    fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+        let at = self.system.at(prime, index)?;
+        let vectors = self.system.null_space(&at, self.columns)?;
+        let one = at.modulus.one();
+        let last = vectors.into_iter().next_back().filter(|own| own.last() == Some(&one))?;
+        Some((at, last))
+    }
+}
+
 /// Values of the vector for choices of the parameters, computed on demand.
 struct Samples<'s> {
-    system: &'s System,
-    columns: &'s [usize],
+    source: &'s dyn Vectors,
     next: u64,
     /// Choices of the parameters with the vector there.
     known: Vec<(At, Vec<u64>)>,
@@ -128,10 +170,7 @@ impl Samples<'_> {
             if self.next > last {
                 return None;
             }
-            let found = self.system.at(0, self.next).and_then(|at| {
-                let vector = normalised(self.system, self.columns, &at)?;
-                Some((at, vector))
-            });
+            let found = self.source.image(0, self.next);
             self.next += 1;
             self.known.extend(found);
         }
@@ -147,7 +186,7 @@ impl Samples<'_> {
             let own = column(*k);
             own.iter().any(|x| *x != own[0]) && (0..*k).all(|j| column(j) != own)
         };
-        Some((0..self.system.coordinates().len()).filter(is_new).collect())
+        Some((0..self.source.names().len()).filter(is_new).collect())
     }
 
     /// Fits coefficients as polynomials in some of the coordinates, over a common denominator.
@@ -160,7 +199,7 @@ impl Samples<'_> {
         let mut denominators: Vec<Fitted> = Vec::new();
         'again: loop {
             let mut found = Vec::new();
-            for column in 0..self.columns.len() {
+            for column in 0..self.source.width() {
                 let (above, below) = self.fraction(kept, column, &denominators)?;
                 if below.degree > 0 {
                     denominators.push(below);
@@ -184,7 +223,7 @@ impl Samples<'_> {
             };
             let polynomials =
                 rational.iter().map(|own| own.iter().map(cleared).collect()).collect();
-            let names = kept.iter().map(|k| self.system.coordinates()[*k].clone()).collect();
+            let names = kept.iter().map(|k| self.source.names()[*k].clone()).collect();
             return Some(Coefficients { names, polynomials }.reduced());
         }
     }
@@ -271,24 +310,13 @@ fn count(variables: usize, degree: u32) -> usize {
     (1..=variables).fold(1, |product, i| product * (degree as usize + i) / i)
 }
 
-/// Returns the null vector that is 1 at the last column.
-fn normalised(system: &System, columns: &[usize], at: &At) -> Option<Vec<u64>> {
-    let vectors = system.null_space(at, columns)?;
-    vectors.into_iter().next_back().filter(|vector| vector.last() == Some(&at.modulus.one()))
-}
-
 /// Finds rational coefficients, confirmed modulo one further prime.
-fn numbers(system: &System, columns: &[usize]) -> Option<Coefficients> {
+fn numbers(source: &dyn Vectors) -> Option<Coefficients> {
     let mut product = BigInt::one();
-    let mut residues: Vec<BigInt> = vec![BigInt::ZERO; columns.len()];
+    let mut residues: Vec<BigInt> = vec![BigInt::ZERO; source.width()];
     for prime in 0..PRIMES {
-        let Some((at, vector)) = (0..BARREN).find_map(|index| {
-            let at = system.at(prime, index)?;
-            let vector = normalised(system, columns, &at)?;
-            Some((at, vector))
-        }) else {
-            continue;
-        };
+        let found = (0..BARREN).find_map(|index| source.image(prime, index));
+        let Some((at, vector)) = found else { continue };
         let m = &at.modulus;
         let own = BigInt::from(m.prime());
         let images: Vec<BigInt> =

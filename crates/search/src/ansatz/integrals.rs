@@ -153,6 +153,7 @@ impl Search<'_> {
             outputs =
                 known.iter().map(|term| recording.give(jet.phase.scalar(&term.formula))).collect();
         })?;
+        system.halt = effort.halt.clone();
         let lowest = if self.mixed { 0 } else { self.degree };
         let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
             .flat_map(|degree| variables.monomials(degree, 0..=positions))
@@ -173,7 +174,9 @@ impl Search<'_> {
         let mut found: Vec<Vec<u64>> = Vec::new();
         for block in &blocks {
             self.effort.halt.check()?;
-            let Some(vectors) = system.null_space(&at, block) else { return Ok(false) };
+            let vectors = system.null_space(&at, block);
+            self.effort.halt.check()?;
+            let Some(vectors) = vectors else { return Ok(false) };
             found.extend(vectors.into_iter().map(|vector| {
                 let mut full = vec![0; system.columns.len()];
                 block.iter().zip(vector).for_each(|(column, entry)| full[*column] = entry);
@@ -190,7 +193,9 @@ impl Search<'_> {
             })
             .collect();
         let dimension = found.len();
-        let Some(new) = complement(&system, &at, &found, &products) else { return Ok(false) };
+        let new = complement(&system, &at, &found, &products);
+        self.effort.halt.check()?;
+        let Some(new) = new else { return Ok(false) };
         let mut outcomes = Vec::new();
         for vector in &new {
             outcomes.push(self.tell(&system, vector, report)?);

@@ -7,7 +7,7 @@
 use crate::streams::Stream;
 use num_dual::Dual;
 
-use super::super::SearchError;
+use super::super::{Halt, SearchError};
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::terms::{Term, recorded};
@@ -108,7 +108,8 @@ impl Recording {
 pub struct At {
     /// Prime field.
     pub modulus: Modulus,
-    parameters: Vec<u64>,
+    /// Values of the draws of the parameters.
+    pub parameters: Vec<u64>,
     /// Values of the parameters' coordinates.
     pub coordinates: Vec<u64>,
 }
@@ -126,6 +127,8 @@ pub struct System {
     own: usize,
     coordinates: Vec<String>,
     seed: u64,
+    /// Condition for an early end of eliminations.
+    pub halt: Halt,
 }
 
 impl System {
@@ -160,6 +163,7 @@ impl System {
             own,
             coordinates: Vec::new(),
             seed,
+            halt: Halt::default(),
         };
         system.coordinates = coordinates.iter().map(|term| term.text.clone()).collect();
         Ok(system)
@@ -287,9 +291,10 @@ impl System {
             if let Some(row) = row(values) {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             }
-            dependent < SPARE
+            dependent < SPARE && self.halt.check().is_ok()
         });
-        enough.then(|| echelon.null_space())
+        let vector = |free| self.halt.check().ok().map(|()| echelon.null_vector(free));
+        enough.then(|| echelon.free().into_iter().map(vector).collect())?
     }
 
     /// Computes the entries of some columns at a state; `None` where a variable is 0.

@@ -62,7 +62,8 @@ pub struct Search {
     /// Skip a count or an ansatz that may take longer than this, in seconds
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,
-    /// Stop after SECONDS and report partial results (also on Ctrl-C). The exit code is then 3
+    /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own
+    /// fields are searched in higher degrees until then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     pub within: Option<Duration>,
     /// Seed of primes, points and states

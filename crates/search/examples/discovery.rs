@@ -1,0 +1,117 @@
+//! Table of what a search finds in a folder of case files: `cargo run --release --example discovery
+//! [FOLDER] [SECONDS]`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use liouville::case::Case;
+use liouville::verdict::Verdict;
+use liouville_search::{Effort, Halt, Report, search};
+
+/// Folder that is searched without arguments.
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benchmark/pegasus");
+
+/// What was found in one file.
+struct Row {
+    name: String,
+    /// Numbers of integrals, Darboux polynomials and densities that are not constant.
+    found: [usize; 3],
+    unproved: usize,
+    seconds: f64,
+    formulas: Vec<String>,
+    failure: Option<String>,
+}
+
+fn row(path: &Path, limit: Option<f64>) -> Row {
+    let start = Instant::now();
+    let outcome = searched(path, limit);
+    let seconds = start.elapsed().as_secs_f64();
+    let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let (report, failure) = match outcome {
+        Ok(report) => (report, None),
+        Err(failure) => (Report::default(), Some(failure)),
+    };
+    let proved = |kind: &str| {
+        let own = report.found.iter().filter(|found| found.kind == kind);
+        let own = own.filter(|found| found.verdict == Verdict::Proved);
+        own.filter(|found| kind != "density" || found.formula != "1").count()
+    };
+    let line = |found: &liouville_search::Found| {
+        let with: Vec<String> =
+            found.with.iter().map(|(what, text)| format!("{what} {text}")).collect();
+        format!("{} {}   {}", found.kind, found.formula, with.join(", "))
+    };
+    Row {
+        name,
+        found: [
+            proved("integral") + proved("moving-integral"),
+            proved("darboux-polynomial"),
+            proved("density"),
+        ],
+        unproved: report.found.iter().filter(|found| found.verdict != Verdict::Proved).count(),
+        seconds,
+        formulas: report.found.iter().map(line).collect(),
+        failure,
+    }
+}
+
+fn searched(path: &Path, limit: Option<f64>) -> Result<Report, String> {
+    let case = Case::read(path, &[]).1.map_err(|error| error.to_string())?;
+    let halt =
+        limit.map_or_else(Halt::default, |limit| Halt::within(Duration::from_secs_f64(limit)));
+    let effort = Effort { halt, ..Effort::default() };
+    search(&case, &effort, &mut |_| {}).map_err(|error| error.to_string())
+}
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().unwrap_or(FOLDER.to_string());
+    let limit = arguments.next().and_then(|text| text.parse().ok());
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        eprintln!("error: {folder} cannot be read");
+        return ExitCode::FAILURE;
+    };
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|own| own == "toml"));
+    paths.sort();
+    let start = Instant::now();
+    let (next, rows) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let threads = std::thread::available_parallelism().map_or(1, |count| count.get());
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let row = row(path, limit);
+                    if let Ok(mut rows) = rows.lock() {
+                        rows.push(row);
+                    }
+                }
+            });
+        }
+    });
+    let mut rows = rows.into_inner().unwrap_or_default();
+    rows.sort_by(|a, b| a.name.cmp(&b.name));
+    println!("{:<60} integrals  Darboux  densities  seconds", "system");
+    for row in &rows {
+        let [integrals, darboux, densities] = row.found;
+        let Row { name, seconds, .. } = row;
+        println!("{name:<60} {integrals:>9}  {darboux:>7}  {densities:>9}  {seconds:>7.2}");
+        row.formulas.iter().for_each(|formula| println!("    {formula}"));
+        row.failure.iter().for_each(|failure| println!("    error: {failure}"));
+    }
+    let with = |k: usize| rows.iter().filter(|row| row.found[k] > 0).count();
+    let unproved: usize = rows.iter().map(|row| row.unproved).sum();
+    println!(
+        "{} systems: integrals in {}, Darboux polynomials in {}, densities that are not constant in {}; not \
+         proved: {unproved}; {:.1} s",
+        rows.len(),
+        with(0),
+        with(1),
+        with(2),
+        start.elapsed().as_secs_f64()
+    );
+    ExitCode::SUCCESS
+}

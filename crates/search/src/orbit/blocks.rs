@@ -1,0 +1,39 @@
+//! Sets of variables whose rates depend on each other only: a field that falls apart is searched part
+//! by part, where fewer monomials reach a higher degree.
+
+use liouville::case::Case;
+
+use super::super::SearchError;
+use super::super::terms::recorded;
+
+/// Lists the smallest such sets that contain each variable, and the set of all variables, small ones
+/// first.
+pub fn closed(case: &Case) -> Result<Vec<Vec<usize>>, SearchError> {
+    let model = &case.model;
+    let (first, dimension) = (model.free_components(), model.dimension());
+    let all: Vec<usize> = (0..dimension).collect();
+    if !model.level.is_empty() {
+        return Ok(vec![all]);
+    }
+    let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let needs = |k: usize, j: usize| graph.depends_on(rates[k], first + j);
+    let needed: Vec<Vec<usize>> =
+        all.iter().map(|k| all.iter().copied().filter(|j| needs(*k, *j)).collect()).collect();
+    let mut sets = vec![all.clone()];
+    for start in all {
+        let mut set = vec![start];
+        let mut next = 0;
+        while let Some(variable) = set.get(next).copied() {
+            next += 1;
+            let new: Vec<usize> =
+                needed[variable].iter().copied().filter(|j| !set.contains(j)).collect();
+            set.extend(new);
+        }
+        set.sort_unstable();
+        if !sets.contains(&set) {
+            sets.push(set);
+        }
+    }
+    sets.sort_by_key(Vec::len);
+    Ok(sets)
+}

@@ -1,0 +1,248 @@
+//! Darboux polynomials: f with v(f) = K f for a polynomial K.
+
+use num_bigint::BigInt;
+use rustc_hash::FxHashMap;
+
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use liouville::proof::reconstruct;
+
+use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::super::terms::sum;
+use super::super::{Report, SearchError};
+use super::claims::{self, Statement};
+use super::factor::Factor;
+use super::images::{self, Images};
+use super::line::Line;
+use super::monomials;
+use super::setting::Setting;
+
+/// Number of primes tried until all special places of a line lie in the field, for polynomials of
+/// degree up to 2, and of higher degree.
+const PRIMES: [u64; 2] = [4, 2];
+/// Largest number of conjugate factors that are multiplied.
+const CONJUGATES: usize = 4;
+/// Largest number of candidates of one degree.
+const MOST: usize = 40;
+
+/// The search for Darboux polynomials in some variables.
+pub struct Search<'s, 'c> {
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
+    /// Variables of the polynomials.
+    pub variables: &'s [usize],
+    /// Degree of the field in the state.
+    pub degree: usize,
+}
+
+type Terms = Vec<(Vec<u32>, u64)>;
+
+impl Search<'_, '_> {
+    /// Searches the polynomials of one degree; new ones are added to the factors.
+    pub fn of_degree(
+        &self,
+        degree: u32,
+        factors: &mut Vec<Factor>,
+        report: &mut Report,
+    ) -> Result<(), SearchError> {
+        let all = monomials::up_to(self.variables, self.setting.dimension(), degree);
+        let mut seen: Vec<Vec<Vec<u32>>> = Vec::new();
+        for prime in 0..PRIMES[usize::from(degree > 2)] {
+            let Some(at) = self.setting.split(prime, 0) else { return Ok(()) };
+            let (candidates, is_whole) = self.candidates(&at, &all, factors)?;
+            let mut open: Vec<Terms> = Vec::new();
+            for terms in candidates {
+                match self.rational(&terms, &at.modulus) {
+                    Some(formula) => self.tell(&formula, degree, factors, report)?,
+                    None => open.push(terms),
+                }
+            }
+            for terms in &open {
+                let support: Vec<Vec<u32>> = terms.iter().map(|(own, _)| own.clone()).collect();
+                if seen.contains(&support) {
+                    continue;
+                }
+                let same = |other: &&Terms| other.iter().map(|(own, _)| own).eq(support.iter());
+                let count = open.iter().filter(same).count();
+                seen.push(support.clone());
+                if count <= CONJUGATES
+                    && let Some(formula) = self.conjugates(&support, count, factors)?
+                {
+                    self.tell(&formula, degree * count as u32, factors, report)?;
+                }
+            }
+            if is_whole {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Candidates in these monomials for one choice of the parameters, and whether they are all.
+    fn candidates(
+        &self,
+        at: &At,
+        all: &[Vec<u32>],
+        factors: &[Factor],
+    ) -> Result<(Vec<Terms>, bool), SearchError> {
+        let Some(line) = Line::draw(self.setting, at, 0) else { return Ok((Vec::new(), true)) };
+        let (special, is_whole) = line.special(all, self.degree, factors)?;
+        let mut vectors: Vec<Vec<u64>> = Vec::new();
+        let mut open = Vec::new();
+        for own in special {
+            let mut relations = own.echelon.null_space();
+            match relations.len() == own.excess {
+                true => vectors.push(relations.swap_remove(0)),
+                false => open.push(own),
+            }
+        }
+        if !open.is_empty() && open.len() <= MOST {
+            // f vanishes along the orbits of all its points, the relations P − c Q differ.
+            let Some(other) = Line::draw(self.setting, at, 1) else { return Ok((vec![], true)) };
+            let others = other.special(all, self.degree, factors)?.0;
+            for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
+                self.setting.effort.halt.check()?;
+                let mut both = Echelon::new(all.len(), at.modulus);
+                for row in one.echelon.rows().chain(two.echelon.rows()) {
+                    both.push(row.clone());
+                }
+                vectors.extend(both.null_space().into_iter().next());
+            }
+        }
+        vectors.sort();
+        vectors.dedup();
+        vectors.truncate(MOST);
+        let terms = |vector: Vec<u64>| {
+            let own = all.iter().cloned().zip(vector).filter(|(_, entry)| *entry != 0);
+            own.collect::<Terms>()
+        };
+        Ok((vectors.into_iter().map(terms).collect(), is_whole))
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.setting.terms.iter().map(|term| term.text.as_str()).collect()
+    }
+
+    /// Writes a polynomial whose coefficients are small fractions.
+    fn rational(&self, terms: &Terms, m: &Modulus) -> Option<String> {
+        let names = self.names();
+        let numbers: Option<Vec<Rational>> =
+            terms.iter().map(|(_, image)| reconstruct(*image, m)).collect();
+        let texts: Vec<String> = terms.iter().map(|(own, _)| power_product(&names, own)).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let numbers = numbers?;
+        // Each residue has some fraction of this size by chance once in 2¹⁸.
+        let small = |value: &Rational| value.parts().1 <= BigInt::from(1 << 16);
+        numbers.iter().all(small).then(|| sum(&numbers, &texts))
+    }
+
+    /// Writes the product of all candidates with this support, which are conjugate, or one whose
+    /// coefficients depend on the parameters.
+    fn conjugates(
+        &self,
+        support: &[Vec<u32>],
+        count: usize,
+        factors: &[Factor],
+    ) -> Result<Option<String>, SearchError> {
+        let one: Terms = support.iter().map(|own| (own.clone(), 1)).collect();
+        let mut monomials = vec![vec![0; self.setting.dimension()]];
+        for _ in 0..count {
+            let mut next: Vec<Vec<u32>> = Vec::new();
+            for (own, other) in monomials.iter().flat_map(|own| one.iter().map(move |o| (own, o))) {
+                let added: Vec<u32> = own.iter().zip(&other.0).map(|(a, b)| a + b).collect();
+                if !next.contains(&added) {
+                    next.push(added);
+                }
+            }
+            monomials = next;
+        }
+        monomials.sort_by_key(|own| (own.iter().sum::<u32>(), std::cmp::Reverse(own.clone())));
+        let make = |at: &At| {
+            let candidates = self.candidates(at, support, factors).ok()?.0;
+            let full: Vec<Terms> =
+                candidates.into_iter().filter(|own| own.len() == support.len()).collect();
+            (full.len() == count).then_some(())?;
+            let all = product(&at.modulus, &full, self.setting.dimension());
+            Some(monomials.iter().map(|own| all.get(own).copied().unwrap_or(0)).collect())
+        };
+        let images = Images { setting: self.setting, width: monomials.len(), is_split: true, make };
+        let Some(coefficients) = images::coefficients(&images, &self.setting.effort.halt) else {
+            self.setting.effort.halt.check()?;
+            return Ok(None);
+        };
+        let names = self.names();
+        let functions: Vec<String> =
+            monomials.iter().map(|own| power_product(&names, own)).collect();
+        Ok(Some(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)))
+    }
+
+    /// Has a polynomial judged together with its cofactor; a factor whose cofactor is 0, an
+    /// integral, is kept but not told.
+    pub fn tell(
+        &self,
+        formula: &str,
+        degree: u32,
+        factors: &mut Vec<Factor>,
+        report: &mut Report,
+    ) -> Result<(), SearchError> {
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        let known = factors.iter().any(|factor| factor.formula == formula);
+        let Some(factor) = Factor::of(self.setting, formula, degree)?.filter(|_| !known) else {
+            return Ok(());
+        };
+        let Some(cofactor) = factor.cofactor(self.setting, self.variables, self.degree) else {
+            return Ok(());
+        };
+        if cofactor != "0" {
+            let rate = format!("({cofactor})*({formula})");
+            let statement = Statement::Rate { function: formula.to_string(), rate };
+            let with = vec![("cofactor", cofactor)];
+            let kind = "darboux-polynomial";
+            if !claims::other(case, kind, formula, &statement, with, effort, report)? {
+                return Ok(());
+            }
+        }
+        factors.push(factor);
+        Ok(())
+    }
+
+    /// Takes up numerators and denominators of rational integrals that are no products of known
+    /// factors.
+    pub fn parts(
+        &self,
+        parts: &[(String, u32)],
+        factors: &mut Vec<Factor>,
+        report: &mut Report,
+    ) -> Result<(), SearchError> {
+        for (formula, degree) in parts {
+            self.setting.effort.halt.check()?;
+            let Some(at) = self.setting.split(0, 0) else { return Ok(()) };
+            let Some(line) = Line::draw(self.setting, &at, 0) else { return Ok(()) };
+            let Some(own) = Factor::of(self.setting, formula, *degree)? else { continue };
+            if line.has_more(&own, factors) {
+                self.tell(formula, *degree, factors, report)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Product of polynomials modulo a prime.
+fn product(m: &Modulus, all: &[Terms], dimension: usize) -> FxHashMap<Vec<u32>, u64> {
+    let mut made = FxHashMap::default();
+    made.insert(vec![0; dimension], m.one());
+    for terms in all {
+        let mut next: FxHashMap<Vec<u32>, u64> = FxHashMap::default();
+        for (own, value) in &made {
+            for (other, factor) in terms {
+                let added: Vec<u32> = own.iter().zip(other).map(|(a, b)| a + b).collect();
+                let entry = next.entry(added).or_insert(0);
+                *entry = m.add(*entry, m.mul(*value, *factor));
+            }
+        }
+        made = next;
+    }
+    made
+}

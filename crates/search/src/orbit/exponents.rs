@@ -1,0 +1,253 @@
+//! Densities and integrals Π f^α e^g from factors with known cofactors.
+//!
+//! v(ln Π f^α e^g) = Σ α K + v(g) is linear in the exponents α and the coefficients of g. With
+//! β div v and a constant λ added, one linear system has densities (β = 1), integrals with powers,
+//! logarithms and exponentials, and functions of constant rate λ as its null vectors.
+
+use liouville::graph::Tape;
+
+use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::super::terms::recorded;
+use super::super::{Report, SearchError};
+use super::claims::{self, Statement};
+use super::factor::Factor;
+use super::images::{self, Images};
+use super::known::Known;
+use super::monomials::{self, value};
+use super::setting::{SPARE, Setting, run};
+
+/// Largest number of monomials of g.
+const MONOMIALS: usize = 60;
+/// Largest degree of g.
+const DEGREE: u32 = 4;
+
+/// Kind of a function Σ α ln f + g whose rate is a constant.
+const CONSTANT_RATE: &str = "function-of-constant-rate";
+
+/// A term of the logarithmic rate.
+#[derive(Clone, Debug)]
+enum Column {
+    /// Rate of a monomial.
+    Monomial(Vec<u32>),
+    /// Cofactor of a factor.
+    Factor(usize),
+    /// Constant rate.
+    Constant,
+    /// Divergence of the field.
+    Divergence,
+}
+
+/// The linear system for some factors.
+pub struct Exponents<'s, 'c> {
+    setting: &'s Setting<'c>,
+    variables: &'s [usize],
+    factors: &'s [Factor],
+    columns: Vec<Column>,
+    divergence: Tape,
+}
+
+impl<'s, 'c> Exponents<'s, 'c> {
+    /// Sets up the system.
+    pub fn of(
+        setting: &'s Setting<'c>,
+        variables: &'s [usize],
+        factors: &'s [Factor],
+    ) -> Result<Self, SearchError> {
+        let (graph, divergence) = recorded(setting.case, |jet| jet.divergence())?;
+        let fits = |degree: &u32| monomials::count(variables.len(), *degree) <= MONOMIALS;
+        let degree = (1..=DEGREE).rev().find(fits).unwrap_or(1);
+        let all = monomials::up_to(variables, setting.dimension(), degree);
+        let monomials = all.into_iter().skip(1).map(Column::Monomial);
+        let own = (0..factors.len()).map(Column::Factor);
+        let columns = monomials.chain(own).chain([Column::Constant, Column::Divergence]).collect();
+        let divergence = Tape::new(&graph, &[divergence]);
+        Ok(Self { setting, variables, factors, columns, divergence })
+    }
+
+    /// Null vectors on some columns, each 1 at a column of its own and 0 after it.
+    fn relations(&self, at: &At, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
+        let mut echelon = Echelon::new(columns.len(), at.modulus);
+        let mut dependent = 0;
+        for number in 0..4 * (columns.len() + SPARE) as u64 {
+            self.setting.effort.halt.check()?;
+            let Some(row) = self.row(at, number, columns)? else { continue };
+            dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+            if dependent == SPARE {
+                return Ok(echelon.null_space());
+            }
+        }
+        Ok(Vec::new())
+    }
+
+    fn row(
+        &self,
+        at: &At,
+        number: u64,
+        columns: &[usize],
+    ) -> Result<Option<Vec<u64>>, SearchError> {
+        let m = at.modulus;
+        let Some((point, orbit)) = self.setting.orbit(at, number, 2)? else { return Ok(None) };
+        let inputs = [point.parameters.as_slice(), &point.state].concat();
+        let entry = |column: &usize| match &self.columns[*column] {
+            Column::Monomial(own) => {
+                let slope = |k: usize| {
+                    let mut lower = own.clone();
+                    lower[k] -= 1;
+                    let factor = m.mul(m.integer(u64::from(own[k])), orbit[k][1]);
+                    m.mul(factor, value(&m, &point.state, &lower))
+                };
+                let used = (0..own.len()).filter(|k| own[*k] > 0);
+                Some(used.fold(0, |sum, k| m.add(sum, slope(k))))
+            }
+            Column::Factor(place) => {
+                let (own, rate) = self.factors[*place].at(at, &point)?;
+                (own != 0).then(|| m.mul(rate, m.inverse(own)))
+            }
+            Column::Constant => Some(m.one()),
+            Column::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
+        };
+        Ok(columns.iter().map(entry).collect())
+    }
+
+    /// Solves the system; what is proved goes into the report.
+    pub fn search(&self, known: &mut Known, report: &mut Report) -> Result<(), SearchError> {
+        let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
+        let all: Vec<usize> = (0..self.columns.len()).collect();
+        for vector in self.relations(&at, &all)? {
+            self.setting.effort.halt.check()?;
+            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let Some(last) = support.last() else { continue };
+            match self.columns[*last] {
+                // A polynomial integral, which the search for these has found.
+                Column::Monomial(_) => {}
+                Column::Factor(_) => self.integral(&support, known, report)?,
+                // Others differ from the first by integrals.
+                Column::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
+                    self.rate(&support, report)?;
+                }
+                Column::Constant => {}
+                Column::Divergence if support.len() > 1 => self.density(&support, report)?,
+                Column::Divergence => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Coefficients of the null vector on a support, for all values of the parameters.
+    fn vector(&self, support: &[usize]) -> Option<images::Vector> {
+        let make = |at: &At| self.relations(at, support).ok()?.pop();
+        let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
+        images::vector(&images, &self.setting.effort.halt)
+    }
+
+    /// Writes the logarithm Σ α ln f + g.
+    fn logarithm(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> String {
+        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
+        let mut functions = Vec::new();
+        let mut places = Vec::new();
+        for (place, column) in support.iter().enumerate() {
+            let function = match &self.columns[*column] {
+                Column::Monomial(own) => power_product(&names, own),
+                Column::Factor(own) if has_moduli => format!("ln|{}|", self.factors[*own].formula),
+                Column::Factor(own) => format!("ln({})", self.factors[*own].formula),
+                Column::Constant | Column::Divergence => continue,
+            };
+            functions.push(function);
+            places.push(place);
+        }
+        vector.coefficients.sum(&places, &functions)
+    }
+
+    /// Writes Π f^α e^g.
+    fn product(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> String {
+        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
+        let mut powers = Vec::new();
+        let mut exponent = (Vec::new(), Vec::new());
+        for (place, column) in support.iter().enumerate() {
+            match &self.columns[*column] {
+                Column::Monomial(own) => {
+                    exponent.0.push(place);
+                    exponent.1.push(power_product(&names, own));
+                }
+                Column::Factor(own) => {
+                    let formula = &self.factors[*own].formula;
+                    let is_whole = vector.is_whole(place);
+                    let base = match has_moduli && !is_whole {
+                        true => format!("|{formula}|"),
+                        false => format!("({formula})"),
+                    };
+                    powers.push(match vector.fraction(place).as_str() {
+                        "1" => base,
+                        power => format!("{base}^({power})"),
+                    });
+                }
+                Column::Constant | Column::Divergence => {}
+            }
+        }
+        if !exponent.0.is_empty() {
+            let above = vector.coefficients.sum(&exponent.0, &exponent.1);
+            powers.push(match vector.below().as_str() {
+                "1" => format!("exp({above})"),
+                below => format!("exp(({above})/({below}))"),
+            });
+        }
+        powers.join("*")
+    }
+
+    fn integral(
+        &self,
+        support: &[usize],
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<(), SearchError> {
+        let Some(vector) = self.vector(support) else { return Ok(()) };
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        let has_exponential =
+            support.iter().any(|column| matches!(self.columns[*column], Column::Monomial(_)));
+        let is_product = !has_exponential && (0..support.len()).all(|k| vector.is_number(k));
+        let formula = |moduli: bool| match is_product {
+            true => self.product(support, &vector, moduli),
+            false => self.logarithm(support, &vector, moduli),
+        };
+        for formula in [formula(false), formula(true)] {
+            if claims::integral(case, &formula, effort, report)? {
+                known.add(formula, None, self.variables);
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn rate(&self, support: &[usize], report: &mut Report) -> Result<(), SearchError> {
+        let Some(vector) = self.vector(support) else { return Ok(()) };
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        let rate = vector.minus(support.len() - 1);
+        for moduli in [false, true] {
+            let function = self.logarithm(support, &vector, moduli);
+            let statement = Statement::Rate { function: function.clone(), rate: rate.clone() };
+            let with = vec![("rate", rate.clone())];
+            if claims::other(case, CONSTANT_RATE, &function, &statement, with, effort, report)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn density(&self, support: &[usize], report: &mut Report) -> Result<(), SearchError> {
+        if report.formulas("density").next().is_some() {
+            return Ok(());
+        }
+        let Some(vector) = self.vector(support) else { return Ok(()) };
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        for moduli in [false, true] {
+            let formula = self.product(support, &vector, moduli);
+            let statement = Statement::Density(formula.clone());
+            if claims::other(case, "density", &formula, &statement, Vec::new(), effort, report)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,83 @@
+//! Polynomials with their rates along the motion, as tapes.
+
+use num_dual::Dual;
+
+use liouville::graph::{Expr, Tape};
+
+use super::super::SearchError;
+use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::super::terms::{read, recorded};
+use super::images::{self, Images};
+use super::monomials::{self, value};
+use super::setting::{Point, SPARE, Setting, run};
+
+/// A polynomial of the state with its rate.
+#[derive(Clone)]
+pub struct Factor {
+    /// Formula in the names of the case.
+    pub formula: String,
+    /// Bound on its degree in the state.
+    pub degree: u32,
+    tape: Tape,
+}
+
+impl Factor {
+    /// Reads a formula; `None` if it is no scalar of the case.
+    pub fn of(
+        setting: &Setting<'_>,
+        formula: &str,
+        degree: u32,
+    ) -> Result<Option<Self>, SearchError> {
+        let terms = read(vec![formula.to_string()], &setting.case.model.vocabulary);
+        let Some(term) = terms.first() else { return Ok(None) };
+        let (graph, outputs) = recorded(setting.case, |jet| {
+            let moved: Dual<Expr> = jet.along_field().scalar(&term.formula);
+            [moved.re, moved.eps]
+        })?;
+        let tape = Tape::new(&graph, &outputs);
+        Ok(Some(Self { formula: formula.to_string(), degree, tape }))
+    }
+
+    /// Value and rate at a point.
+    pub fn at(&self, at: &At, point: &Point) -> Option<(u64, u64)> {
+        let inputs = [point.parameters.as_slice(), &point.state].concat();
+        run(&self.tape, at.modulus, &inputs).map(|values| (values[0], values[1]))
+    }
+
+    /// Finds the cofactor K of degree below that of the field, for which v(f) = K f, and writes it;
+    /// `None` if there is none.
+    pub fn cofactor(
+        &self,
+        setting: &Setting<'_>,
+        variables: &[usize],
+        degree: usize,
+    ) -> Option<String> {
+        let highest = degree.saturating_sub(1) as u32;
+        let all = monomials::up_to(variables, setting.dimension(), highest);
+        let make = |at: &At| {
+            let m = at.modulus;
+            let mut echelon = Echelon::new(all.len() + 1, m);
+            for number in 0..(all.len() + SPARE) as u64 {
+                let point = setting.point(at, number)?;
+                let (own, rate) = self.at(at, &point)?;
+                let row = all.iter().map(|a| m.mul(own, value(&m, &point.state, a)));
+                echelon.push(row.chain([m.sub(0, rate)]).collect());
+            }
+            let mut vectors = echelon.null_space();
+            let mut vector = vectors.pop().filter(|_| vectors.is_empty())?;
+            vector.pop().filter(|last| *last == m.one())?;
+            Some(vector)
+        };
+        let images = Images { setting, width: all.len(), is_split: false, make };
+        let coefficients = images::coefficients(&images, &setting.effort.halt)?;
+        let names: Vec<&str> = setting.terms.iter().map(|term| term.text.as_str()).collect();
+        let functions: Vec<String> = all.iter().map(|a| power_product(&names, a)).collect();
+        let above = coefficients.sum(&(0..all.len()).collect::<Vec<_>>(), &functions);
+        Some(match coefficients.text(all.len()).as_str() {
+            "1" => above,
+            below => format!("({above})/({below})"),
+        })
+    }
+}

@@ -1,0 +1,132 @@
+//! Vectors that are computed anew for each choice of the parameters, within limits.
+
+use std::cell::Cell;
+
+use liouville::number::rational::Rational;
+use num_traits::ToPrimitive;
+
+use super::super::Halt;
+use super::super::ansatz::coefficients::{Coefficients, Vectors};
+use super::super::ansatz::system::At;
+use super::super::terms::exponent;
+use super::setting::Setting;
+
+/// Largest number of choices of the parameters for one vector.
+const MOST: usize = 160;
+
+/// A vector by a function of the parameters; an entry 1 is added at its end.
+pub struct Images<'s, 'c, F> {
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
+    /// Number of entries without the last.
+    pub width: usize,
+    /// Whether the fields have the roots of small integers.
+    pub is_split: bool,
+    /// Computes the vector.
+    pub make: F,
+}
+
+impl<F: Fn(&At) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
+    fn names(&self) -> &[String] {
+        self.setting.coordinates()
+    }
+
+    fn width(&self) -> usize {
+        self.width + 1
+    }
+
+    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+        let at = match self.is_split {
+            true => self.setting.split(prime, index)?,
+            false => self.setting.at(prime, index)?,
+        };
+        let mut vector = (self.make)(&at).filter(|own| own.len() == self.width)?;
+        vector.push(at.modulus.one());
+        Some((at, vector))
+    }
+}
+
+/// A vector whose images end with the time of the search, or after a number.
+struct Limited<'v> {
+    source: &'v dyn Vectors,
+    halt: &'v Halt,
+    left: Cell<usize>,
+}
+
+impl Vectors for Limited<'_> {
+    fn names(&self) -> &[String] {
+        self.source.names()
+    }
+
+    fn width(&self) -> usize {
+        self.source.width()
+    }
+
+    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+        self.left.set(self.left.get().checked_sub(1)?);
+        self.halt.check().ok()?;
+        self.source.image(prime, index)
+    }
+}
+
+/// Finds the vector for all values of the parameters.
+pub fn coefficients(source: &dyn Vectors, halt: &Halt) -> Option<Coefficients> {
+    Coefficients::through(&Limited { source, halt, left: Cell::new(MOST) })
+}
+
+/// A vector found for all values of the parameters, over a common denominator.
+pub struct Vector {
+    /// Numerators, and the denominator as the last.
+    pub coefficients: Coefficients,
+    width: usize,
+}
+
+/// Finds a vector for all values of the parameters, with its denominator.
+pub fn vector<F: Fn(&At) -> Option<Vec<u64>>>(
+    source: &Images<'_, '_, F>,
+    halt: &Halt,
+) -> Option<Vector> {
+    Some(Vector { coefficients: coefficients(source, halt)?, width: source.width })
+}
+
+impl Vector {
+    /// Writes the common denominator.
+    pub fn below(&self) -> String {
+        self.coefficients.text(self.width)
+    }
+
+    /// Writes an entry as a fraction.
+    pub fn fraction(&self, place: usize) -> String {
+        let above = self.coefficients.text(place);
+        if let Some(value) = self.number(place) {
+            return exponent(&[value], &["1"]);
+        }
+        match self.below().as_str() {
+            "1" => above,
+            below => format!("({above})/({below})"),
+        }
+    }
+
+    /// Writes an entry with the other sign, without the denominator.
+    pub fn minus(&self, place: usize) -> String {
+        format!("−({})", self.coefficients.text(place))
+    }
+
+    /// Whether an entry is a number.
+    pub fn is_number(&self, place: usize) -> bool {
+        self.number(place).is_some()
+    }
+
+    /// Whether an entry is a whole number.
+    pub fn is_whole(&self, place: usize) -> bool {
+        self.number(place).is_some_and(|value| value.parts().1 == 1.into())
+    }
+
+    fn number(&self, place: usize) -> Option<Rational> {
+        let constant = |k: usize| match self.coefficients.polynomials[k].as_slice() {
+            [(own, value)] if own.iter().all(|power| *power == 0) => value.to_i64(),
+            _ => None,
+        };
+        constant(place).zip(constant(self.width)).map(|(above, below)| Rational::new(above, below))
+    }
+}

@@ -1,0 +1,89 @@
+//! Independent integrals found so far.
+
+use super::super::terms::{read, recorded};
+use super::super::{Report, SearchError};
+use super::claims::{self, Statement};
+use super::setting::Setting;
+
+/// An integral with the variables that it may contain.
+#[derive(Clone, Debug)]
+struct One {
+    formula: String,
+    /// Degree of a polynomial.
+    degree: Option<u32>,
+    variables: Vec<usize>,
+}
+
+/// Independent integrals found so far.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    all: Vec<One>,
+    /// Numerators and denominators of rational ones, with their degrees.
+    pub parts: Vec<(String, u32)>,
+}
+
+impl Known {
+    /// Collects what the search has found before, and the energy where it is conserved.
+    pub fn of(setting: &Setting<'_>, report: &Report) -> Result<Self, SearchError> {
+        let mut known = Self::default();
+        let all: Vec<usize> = (0..setting.dimension()).collect();
+        if setting.case.model.vocabulary.find("energy").is_some() {
+            let statement = Statement::Integral("energy".to_string());
+            if claims::proved(setting.case, &statement, setting.effort)?.is_some() {
+                known.add("energy".to_string(), None, &all);
+            }
+        }
+        for formula in report.formulas("integral") {
+            known.add(formula.to_string(), None, &used(setting, formula)?);
+        }
+        Ok(known)
+    }
+
+    /// Adds an integral that is independent of the others.
+    pub fn add(&mut self, formula: String, degree: Option<u32>, variables: &[usize]) {
+        self.all.push(One { formula, degree, variables: variables.to_vec() });
+    }
+
+    /// Iterates over the formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = &str> {
+        self.all.iter().map(|one| one.formula.as_str())
+    }
+
+    /// Number of integrals in these variables alone.
+    pub fn within(&self, variables: &[usize]) -> usize {
+        let inside = |one: &&One| one.variables.iter().all(|k| variables.contains(k));
+        self.all.iter().filter(inside).count()
+    }
+
+    /// Lists the products that are polynomials of at most this degree, as exponents; an integral of
+    /// unknown degree counts as of degree 1, since products beyond the wanted ones do no harm.
+    pub fn products(&self, degree: u32) -> Vec<Vec<u32>> {
+        let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
+        for one in &self.all {
+            let own = one.degree.unwrap_or(1).max(1);
+            let raised = |(total, powers): (u32, Vec<u32>)| {
+                (0..=(degree - total) / own).map(move |power| {
+                    (total + power * own, powers.iter().copied().chain([power]).collect())
+                })
+            };
+            found = found.into_iter().flat_map(raised).collect();
+        }
+        found
+            .into_iter()
+            .map(|(_, powers)| powers)
+            .filter(|own| own.iter().any(|a| *a > 0))
+            .collect()
+    }
+}
+
+/// Variables that a formula contains.
+fn used(setting: &Setting<'_>, formula: &str) -> Result<Vec<usize>, SearchError> {
+    let case = setting.case;
+    let terms = read(vec![formula.to_string()], &case.model.vocabulary);
+    let (graph, values) = recorded(case, |jet| {
+        terms.iter().map(|term| jet.phase.scalar(&term.formula)).collect::<Vec<_>>()
+    })?;
+    let first = case.model.free_components();
+    let contains = |k: &usize| values.iter().any(|value| graph.depends_on(*value, first + k));
+    Ok((0..setting.dimension()).filter(contains).collect())
+}

@@ -1,0 +1,190 @@
+//! Points of a random line at which orbits satisfy one relation more than others.
+//!
+//! Where f is a Darboux polynomial and f(q) = 0, f vanishes along the orbit of q. So the matrix of the
+//! Taylor coefficients of the monomials is singular there, with whichever rows it is formed. Its
+//! determinants are polynomials in the place t on the line q₀ + t q₁, and the common roots of two
+//! of them are places on such f. (In the plane these are Lagutinskii's and Pereira's extactic
+//! curves; Chèze, Bostan, Cluzeau and Weil compute with them.)
+
+use liouville::number::prime::Modulus;
+
+use super::super::SearchError;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::factor::Factor;
+use super::monomials::Along;
+use super::setting::{Point, SPARE, Setting};
+use super::univariate::{gcd, interpolated, roots, without};
+
+/// Largest degree of a field in the state.
+const DEGREE: usize = 24;
+
+/// A random line in the space of states.
+pub struct Line<'s, 'c> {
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
+    /// Prime and parameters.
+    pub at: &'s At,
+    start: Point,
+    direction: Vec<u64>,
+}
+
+/// Relations along the orbit of a special point.
+pub struct Special {
+    /// Rows of Taylor coefficients, reduced.
+    pub echelon: Echelon,
+    /// Number of relations beyond those of all orbits.
+    pub excess: usize,
+}
+
+impl<'s, 'c> Line<'s, 'c> {
+    /// Draws a line.
+    pub fn draw(setting: &'s Setting<'c>, at: &'s At, number: u64) -> Option<Self> {
+        let start = setting.point(at, (number << 1) | (1 << 40))?;
+        let direction = setting.point(at, (number << 1) | (1 << 40) | 1)?.state;
+        Some(Self { setting, at, start, direction })
+    }
+
+    fn point(&self, place: u64) -> Point {
+        let m = &self.at.modulus;
+        let state = self.start.state.iter().zip(&self.direction);
+        let state = state.map(|(x, u)| m.add(*x, m.mul(place, *u))).collect();
+        Point { parameters: self.start.parameters.clone(), state }
+    }
+
+    /// Restriction of a polynomial to the line.
+    fn restricted(&self, factor: &Factor) -> Option<Vec<u64>> {
+        let m = &self.at.modulus;
+        let value = |t: u64| factor.at(self.at, &self.point(m.integer(t))).map(|(value, _)| value);
+        let values: Option<Vec<u64>> = (0..=u64::from(factor.degree)).map(value).collect();
+        values.map(|values| interpolated(m, &values))
+    }
+
+    /// Whether a polynomial has a factor that none of the others has.
+    pub fn has_more(&self, factor: &Factor, others: &[Factor]) -> bool {
+        let Some(mut rest) = self.restricted(factor) else { return false };
+        for other in others.iter().filter_map(|other| self.restricted(other)) {
+            rest = without(&self.at.modulus, rest, &other);
+        }
+        rest.len() > 1
+    }
+
+    /// Degree of the field in the state; `None` where it is no polynomial of low degree.
+    pub fn degree(&self) -> Result<Option<usize>, SearchError> {
+        let m = &self.at.modulus;
+        let mut rates = vec![Vec::new(); self.direction.len()];
+        for t in 0..(DEGREE + SPARE) as u64 {
+            let point = self.point(m.integer(t));
+            let Some(orbit) = self.setting.along(self.at, &point, 2)? else { return Ok(None) };
+            rates.iter_mut().zip(orbit).for_each(|(own, series)| own.push(series[1]));
+        }
+        let degrees = rates.iter().map(|own| interpolated(m, own).len().saturating_sub(1));
+        Ok(degrees.max().filter(|degree| *degree <= DEGREE))
+    }
+
+    fn rows(
+        &self,
+        place: u64,
+        monomials: &[Vec<u32>],
+        orders: usize,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        let Some(orbit) = self.setting.along(self.at, &self.point(place), orders)? else {
+            return Ok(None);
+        };
+        Along::new(self.at.modulus, &orbit).rows(monomials, &self.setting.effort.halt).map(Some)
+    }
+
+    /// Finds the special places on the line for polynomials in these monomials, `without` the zeros
+    /// of known polynomials; `degree` is that of the field. The flag tells whether all of them lie
+    /// in the prime field.
+    pub fn special(
+        &self,
+        monomials: &[Vec<u32>],
+        degree: usize,
+        known: &[Factor],
+    ) -> Result<(Vec<Special>, bool), SearchError> {
+        let m = self.at.modulus;
+        let none = (Vec::new(), true);
+        let Some(generic) = self.reduced(m.integer(1 << 40), monomials)? else { return Ok(none) };
+        let columns: Vec<usize> =
+            (0..monomials.len()).filter(|column| generic.has_pivot(*column)).collect();
+        let own: Vec<Vec<u32>> = columns.iter().map(|column| monomials[*column].clone()).collect();
+        let rank = own.len();
+        if rank == 0 {
+            return Ok(none);
+        }
+        let total: usize = own.iter().map(|a| a.iter().sum::<u32>() as usize).sum();
+        let growth = degree.saturating_sub(1);
+        let count = total + growth * (rank * (rank + 1) / 2) + 2;
+        let (mut first, mut second) = (Vec::new(), Vec::new());
+        for t in 0..count as u64 {
+            self.setting.effort.halt.check()?;
+            let Some(rows) = self.rows(m.integer(t), &own, rank + 1)? else { return Ok(none) };
+            let (a, b) = determinants(&m, rows);
+            first.push(a);
+            second.push(b);
+        }
+        let (first, second) = (interpolated(&m, &first), interpolated(&m, &second));
+        let mut rest = gcd(&m, &first, &second);
+        for own in known.iter().filter_map(|factor| self.restricted(factor)) {
+            rest = without(&m, rest, &own);
+        }
+        let mut found = Vec::new();
+        for place in roots(&m, &rest) {
+            let factor = [m.sub(0, place), m.one()];
+            rest = without(&m, rest, &factor);
+            let Some(echelon) = self.reduced(place, monomials)? else { continue };
+            let pivots = (0..monomials.len()).filter(|column| echelon.has_pivot(*column)).count();
+            let excess = rank.saturating_sub(pivots);
+            if excess > 0 {
+                found.push(Special { echelon, excess });
+            }
+        }
+        Ok((found, rest.len() <= 1))
+    }
+
+    /// Taylor coefficients of the monomials at a place, reduced.
+    fn reduced(&self, place: u64, monomials: &[Vec<u32>]) -> Result<Option<Echelon>, SearchError> {
+        let Some(rows) = self.rows(place, monomials, monomials.len() + SPARE)? else {
+            return Ok(None);
+        };
+        let mut echelon = Echelon::new(monomials.len(), self.at.modulus);
+        let mut dependent = 0;
+        for row in rows {
+            self.setting.effort.halt.check()?;
+            dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+            if dependent == SPARE {
+                break;
+            }
+        }
+        Ok(Some(echelon))
+    }
+}
+
+/// Determinants of n + 1 rows of length n, once without the last and once without the one before.
+fn determinants(m: &Modulus, mut rows: Vec<Vec<u64>>) -> (u64, u64) {
+    let size = rows.len() - 1;
+    let mut product = m.one();
+    for done in 0..size - 1 {
+        let Some(pivot) = (done..size).find(|column| rows[done][*column] != 0) else {
+            return (0, 0);
+        };
+        if pivot != done {
+            rows.iter_mut().for_each(|row| row.swap(done, pivot));
+            product = m.sub(0, product);
+        }
+        product = m.mul(product, rows[done][done]);
+        let inverse = m.inverse(rows[done][done]);
+        let (upper, lower) = rows.split_at_mut(done + 1);
+        let pivot = &upper[done][done + 1..];
+        for row in lower {
+            let factor = m.sub(0, m.mul(row[done], inverse));
+            if factor != 0 {
+                for (entry, own) in row[done + 1..].iter_mut().zip(pivot) {
+                    *entry = m.add(*entry, m.mul(factor, *own));
+                }
+            }
+        }
+    }
+    (m.mul(product, rows[size - 1][size - 1]), m.mul(product, rows[size][size - 1]))
+}

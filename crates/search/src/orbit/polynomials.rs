@@ -1,0 +1,102 @@
+//! Polynomial integrals of one degree, on levels too.
+//!
+//! A row is one random state modulo a prime, a column the rate of one monomial. Monomials whose
+//! values depend on those of others on the level are left out.
+
+use super::super::ansatz::coefficients::Columns;
+use super::super::ansatz::coordinates;
+use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::subspace::complement;
+use super::super::ansatz::system::{Column, System};
+use super::super::terms::read;
+use super::super::{Report, SearchError};
+use super::claims;
+use super::images;
+use super::known::Known;
+use super::monomials;
+use super::setting::Setting;
+
+/// Searches for integrals that are polynomials of at most this degree in some variables; returns
+/// whether some was found.
+pub fn polynomials(
+    setting: &Setting<'_>,
+    variables: &[usize],
+    degree: u32,
+    known: &mut Known,
+    report: &mut Report,
+) -> Result<bool, SearchError> {
+    let (case, effort) = (setting.case, setting.effort);
+    let texts: Vec<String> = known.formulas().map(str::to_string).collect();
+    let given = read(texts, &case.model.vocabulary);
+    let mut outputs = Vec::new();
+    let seed = effort.options.seed;
+    let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+        recording.derive(
+            jet.along_field(),
+            &setting.terms,
+            &read(vec!["1".into()], &case.model.vocabulary),
+        );
+        outputs =
+            given.iter().map(|term| recording.give(jet.phase.scalar(&term.formula))).collect();
+    })?;
+    system.halt = effort.halt.clone();
+    let all = monomials::up_to(variables, setting.dimension(), degree);
+    let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
+    system.columns = all.iter().cloned().map(product).collect();
+    let Some(at) = system.at(0, 0) else { return Ok(false) };
+    let every: Vec<usize> = (0..all.len()).collect();
+    let columns = match setting.is_on_level() {
+        false => every,
+        true => match system.distinct(&at, &every) {
+            Some(columns) => columns,
+            None => return Ok(false),
+        },
+    };
+    // The constant is the first.
+    let columns = &columns[1..];
+    effort.halt.check()?;
+    let found = system.null_space(&at, columns);
+    effort.halt.check()?;
+    let Some(vectors) = found else { return Ok(false) };
+    let spread = |own: Vec<u64>| {
+        let mut full = vec![0; all.len()];
+        columns.iter().zip(own).for_each(|(column, entry)| full[*column] = entry);
+        full
+    };
+    let vectors: Vec<Vec<u64>> = vectors.into_iter().map(spread).collect();
+    let products: Vec<Vec<usize>> = known
+        .products(degree)
+        .into_iter()
+        .map(|powers| {
+            let own = powers.iter().zip(&outputs);
+            own.flat_map(|(power, output)| vec![*output; *power as usize]).collect()
+        })
+        .collect();
+    let new = complement(&system, &at, &vectors, &products);
+    effort.halt.check()?;
+    let Some(new) = new else { return Ok(false) };
+    let mut found = false;
+    for vector in new {
+        effort.halt.check()?;
+        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let Some(coefficients) =
+            images::coefficients(&Columns { system: &system, columns: &support }, &effort.halt)
+        else {
+            report.remark(format!(
+                "an integral of degree {degree} with {} terms has coefficients that are no fractions of low \
+                 degree in the parameters; give values with --set",
+                support.len()
+            ));
+            continue;
+        };
+        let names: Vec<&str> = setting.terms.iter().map(|term| term.text.as_str()).collect();
+        let functions: Vec<String> =
+            support.iter().map(|k| power_product(&names, &all[*k])).collect();
+        let formula = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions);
+        if claims::integral(case, &formula, effort, report)? {
+            known.add(formula, Some(degree), variables);
+            found = true;
+        }
+    }
+    Ok(found)
+}

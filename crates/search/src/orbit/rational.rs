@@ -1,0 +1,264 @@
+//! Rational integrals from relations along orbits.
+//!
+//! An integral P/Q gives the relation P − c Q on each orbit, with c its value there. The reduced
+//! relations of the orbit of q have coefficients that are functions of q and integrals themselves.
+//! Where the relations that begin with one monomial span a plane, P and Q are a basis of it, and no
+//! function of q has to be known. Elsewhere a coefficient c(q) is interpolated: A(q) − c(q) B(q) = 0
+//! at random q.
+
+use liouville::proof::reduce;
+
+use super::super::ansatz::coefficients::Coefficients;
+use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::super::{Report, SearchError};
+use super::claims;
+use super::images::{self, Images};
+use super::known::Known;
+use super::monomials::{self, value};
+use super::setting::{Relations, SPARE, Setting};
+
+/// Number of orbits whose relations are compared.
+const ORBITS: u64 = 4;
+/// Largest number of unknowns of an interpolation.
+const UNKNOWNS: usize = 120;
+/// Largest number of terms of a relation of which a coefficient is interpolated.
+const TERMS: usize = 40;
+
+/// The search for rational integrals in some variables.
+pub struct Rational<'s, 'c> {
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
+    /// Variables of the integrals.
+    pub variables: &'s [usize],
+    /// Monomials of the relations.
+    pub monomials: &'s [Vec<u32>],
+    /// Their highest degree.
+    pub degree: u32,
+}
+
+/// A fraction P/Q by the monomials of both and its coefficients.
+struct Fraction {
+    above: Vec<Vec<u32>>,
+    below: Vec<Vec<u32>>,
+}
+
+impl Rational<'_, '_> {
+    /// Looks for integrals until as many are known as there are algebraic ones; returns whether some
+    /// was found.
+    pub fn search(
+        &self,
+        at: &At,
+        first: &Relations,
+        wanted: usize,
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        let mut found = false;
+        for interpolated in [false, true] {
+            for (vector, own) in first.vectors.iter().zip(&first.free) {
+                if known.within(self.variables) >= wanted {
+                    return Ok(found);
+                }
+                let divides = |k: &usize| {
+                    let pairs = self.monomials[*k].iter().zip(&self.monomials[*own]);
+                    *k != *own && pairs.into_iter().all(|(a, b)| a <= b)
+                };
+                // Relations of lower degree, and their multiples, were looked at before.
+                let degree = self.monomials[*own].iter().sum::<u32>();
+                if degree < self.degree || first.free.iter().any(|k| divides(k)) {
+                    continue;
+                }
+                let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+                let one = Relation { of: self, support: self.picked(&support) };
+                found |= one.search(at, interpolated, known, report)?;
+            }
+        }
+        Ok(found)
+    }
+
+    fn picked(&self, support: &[usize]) -> Vec<Vec<u32>> {
+        support.iter().map(|k| self.monomials[*k].clone()).collect()
+    }
+}
+
+/// The relations with one leading monomial, the last of their support.
+struct Relation<'r, 's, 'c> {
+    of: &'r Rational<'s, 'c>,
+    support: Vec<Vec<u32>>,
+}
+
+impl Relation<'_, '_, '_> {
+    /// The relation along the orbit of a number, 1 at its last monomial, with the point.
+    fn along(&self, at: &At, number: u64) -> Result<Option<(Vec<u64>, Vec<u64>)>, SearchError> {
+        let Some(all) = self.of.setting.relations(at, number, &self.support)? else {
+            return Ok(None);
+        };
+        let last = self.support.len() - 1;
+        let found = all.vectors.into_iter().zip(all.free).find(|(_, own)| *own == last);
+        Ok(found.map(|(vector, _)| (vector, all.point.state)))
+    }
+
+    /// The space that the relations of several orbits span, in reduced form.
+    fn span(&self, at: &At) -> Result<Vec<Vec<u64>>, SearchError> {
+        let mut vectors = Vec::new();
+        for number in 0..ORBITS {
+            vectors.extend(self.along(at, number)?.map(|(vector, _)| vector));
+        }
+        Ok(reduce(vectors, self.support.len(), &at.modulus).1)
+    }
+
+    fn search(
+        &self,
+        at: &At,
+        interpolated: bool,
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        let span = self.span(at)?;
+        match (span.len(), interpolated) {
+            (2, false) => self.pencil(&span, known, report),
+            (3.., true) if self.support.len() <= TERMS => {
+                self.interpolated(at, &span, known, report)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// P/Q from the plane of the relations.
+    fn pencil(
+        &self,
+        span: &[Vec<u64>],
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        let used = |row: &Vec<u64>| (0..row.len()).filter(|k| row[*k] != 0).collect::<Vec<_>>();
+        let (above, below) = (used(&span[0]), used(&span[1]));
+        let make = |at: &At| {
+            let span = self.span(at).ok().filter(|span| span.len() == 2)?;
+            let own = above.iter().map(|k| span[0][*k]);
+            Some(own.chain(below.iter().map(|k| span[1][*k])).collect())
+        };
+        let width = above.len() + below.len();
+        let images = Images { setting: self.of.setting, width, is_split: false, make };
+        let picked = |own: &[usize]| own.iter().map(|k| self.support[*k].clone()).collect();
+        let fraction = Fraction { above: picked(&above), below: picked(&below) };
+        self.of.tell(
+            &fraction,
+            images::coefficients(&images, &self.of.setting.effort.halt),
+            known,
+            report,
+        )
+    }
+
+    /// A coefficient of the relation as a function of the point.
+    fn interpolated(
+        &self,
+        at: &At,
+        span: &[Vec<u64>],
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        let setting = self.of.setting;
+        let last = self.support.len() - 1;
+        let constant = |k: &usize| span.iter().filter(|row| row[*k] != 0).count() == 0;
+        let mut found = false;
+        for place in (0..last).filter(|k| !constant(k)) {
+            setting.effort.halt.check()?;
+            let Some((above, below)) = self.lowest(at, place)? else { continue };
+            let make = |at: &At| self.fraction(at, place, &above, &below).ok().flatten();
+            let width = above.len() + below.len();
+            let images = Images { setting, width, is_split: false, make };
+            let coefficients = images::coefficients(&images, &self.of.setting.effort.halt);
+            let fraction = Fraction { above: above.clone(), below: below.clone() };
+            found |= self.of.tell(&fraction, coefficients, known, report)?;
+        }
+        Ok(found)
+    }
+
+    /// Monomials of numerator and denominator of a coefficient, of the lowest degree.
+    fn lowest(
+        &self,
+        at: &At,
+        place: usize,
+    ) -> Result<Option<(Vec<Vec<u32>>, Vec<Vec<u32>>)>, SearchError> {
+        let dimension = self.of.setting.dimension();
+        for degree in 1.. {
+            let all = monomials::up_to(self.of.variables, dimension, degree);
+            if 2 * all.len() > UNKNOWNS {
+                return Ok(None);
+            }
+            if let Some(vector) = self.fraction(at, place, &all, &all)? {
+                let (above, below) = vector.split_at(all.len());
+                let used = |part: &[u64]| -> Vec<Vec<u32>> {
+                    let own = all.iter().zip(part).filter(|(_, entry)| **entry != 0);
+                    own.map(|(monomial, _)| monomial.clone()).collect()
+                };
+                return Ok(Some((used(above), used(below))));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Coefficients of A and B with A(q) − c(q) B(q) = 0, where they are unique up to a factor.
+    fn fraction(
+        &self,
+        at: &At,
+        place: usize,
+        above: &[Vec<u32>],
+        below: &[Vec<u32>],
+    ) -> Result<Option<Vec<u64>>, SearchError> {
+        let m = at.modulus;
+        let width = above.len() + below.len();
+        let mut echelon = Echelon::new(width, m);
+        for number in 0..(width + SPARE) as u64 {
+            let Some((vector, point)) = self.along(at, number)? else { continue };
+            let minus = m.sub(0, vector[place]);
+            let upper = above.iter().map(|own| value(&m, &point, own));
+            let lower = below.iter().map(|own| m.mul(minus, value(&m, &point, own)));
+            echelon.push(upper.chain(lower).collect());
+        }
+        let mut vectors = echelon.null_space();
+        let is_fraction = |vector: &Vec<u64>| vector[..above.len()].iter().any(|entry| *entry != 0);
+        Ok(match vectors.len() {
+            1 => vectors.pop().filter(is_fraction),
+            _ => None,
+        })
+    }
+}
+
+impl Rational<'_, '_> {
+    /// Writes a fraction and has it judged.
+    fn tell(
+        &self,
+        fraction: &Fraction,
+        coefficients: Option<Coefficients>,
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        self.setting.effort.halt.check()?;
+        let Some(coefficients) = coefficients else { return Ok(false) };
+        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
+        let written = |own: &[Vec<u32>], start: usize| {
+            let functions: Vec<String> = own.iter().map(|a| power_product(&names, a)).collect();
+            let places: Vec<usize> = (start..start + own.len()).collect();
+            coefficients.sum(&places, &functions)
+        };
+        let above = written(&fraction.above, 0);
+        let below = written(&fraction.below, fraction.above.len());
+        let formula = match below.as_str() {
+            "1" => above.clone(),
+            below => format!("({above})/({below})"),
+        };
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        let is_new = claims::integral(case, &formula, effort, report)?;
+        if is_new {
+            known.add(formula, None, self.variables);
+            let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
+            let parts = [(above, degree(&fraction.above)), (below, degree(&fraction.below))];
+            known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
+        }
+        Ok(is_new)
+    }
+}

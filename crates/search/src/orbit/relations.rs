@@ -1,0 +1,99 @@
+//! Numbers of relations along an orbit, and of the algebraic integrals behind them.
+
+use super::super::SearchError;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::monomials::value;
+use super::setting::{Point, Relations, SPARE, Setting};
+
+/// Relations of one degree along one orbit.
+pub struct Step {
+    /// Relations in reduced form.
+    pub relations: Relations,
+    /// Number of independent algebraic integrals: that of the relations' gradients, without the
+    /// level's own.
+    pub integrals: usize,
+}
+
+/// Expands one orbit and finds its relations; `None` where it has no series.
+pub fn step(
+    setting: &Setting<'_>,
+    at: &At,
+    monomials: &[Vec<u32>],
+) -> Result<Option<Step>, SearchError> {
+    let Some(relations) = setting.relations(at, 0, monomials)? else { return Ok(None) };
+    let point = &relations.point;
+    let all = rank(setting, at, monomials, &relations.vectors, point)?;
+    let own = match setting.is_on_level() && all > 0 {
+        true => {
+            let vanishing = on_level(setting, at, monomials)?;
+            rank(setting, at, monomials, &vanishing, point)?
+        }
+        false => 0,
+    };
+    Ok(Some(Step { integrals: all.saturating_sub(own), relations }))
+}
+
+/// Combinations of the monomials that vanish on the level.
+fn on_level(
+    setting: &Setting<'_>,
+    at: &At,
+    monomials: &[Vec<u32>],
+) -> Result<Vec<Vec<u64>>, SearchError> {
+    let m = at.modulus;
+    let mut echelon = Echelon::new(monomials.len(), m);
+    let mut dependent = 0;
+    for number in 0..2 * (monomials.len() + SPARE) as u64 {
+        setting.effort.halt.check()?;
+        let Some(point) = setting.point(at, number) else { continue };
+        let row = monomials.iter().map(|own| value(&m, &point.state, own)).collect();
+        dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+        if dependent == SPARE {
+            break;
+        }
+    }
+    Ok(echelon.null_space())
+}
+
+/// Rank of the gradients of polynomials at a point.
+fn rank(
+    setting: &Setting<'_>,
+    at: &At,
+    monomials: &[Vec<u32>],
+    vectors: &[Vec<u64>],
+    point: &Point,
+) -> Result<usize, SearchError> {
+    let m = at.modulus;
+    let dimension = setting.dimension();
+    let slopes: Vec<Vec<u64>> = monomials.iter().map(|own| gradient(at, own, point)).collect();
+    let mut echelon = Echelon::new(dimension, m);
+    let mut rank = 0;
+    for vector in vectors {
+        if rank == dimension {
+            break;
+        }
+        setting.effort.halt.check()?;
+        let mut row = vec![0; dimension];
+        for (factor, slope) in vector.iter().zip(&slopes).filter(|(factor, _)| **factor != 0) {
+            for (entry, slope) in row.iter_mut().zip(slope) {
+                *entry = m.add(*entry, m.mul(*factor, *slope));
+            }
+        }
+        rank += usize::from(echelon.push(row));
+    }
+    Ok(rank)
+}
+
+/// Gradient of a monomial at a point.
+fn gradient(at: &At, exponents: &[u32], point: &Point) -> Vec<u64> {
+    let m = at.modulus;
+    let along = |variable: usize| {
+        if exponents[variable] == 0 {
+            return 0;
+        }
+        let mut lower = exponents.to_vec();
+        lower[variable] -= 1;
+        m.mul(m.integer(u64::from(exponents[variable])), value(&m, &point.state, &lower))
+    };
+    (0..exponents.len()).map(along).collect()
+}

@@ -1,0 +1,251 @@
+//! Random points of a case modulo a prime, their orbits, and relations along them.
+
+use liouville::case::Case;
+use liouville::claim::Place;
+use liouville::graph::{Evaluator, Tape};
+use liouville::mechanics::Draw;
+use liouville::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
+use liouville::verdict::Sampler;
+
+use super::super::ansatz::coordinates;
+use super::super::ansatz::system::At;
+use super::super::echelon::Echelon;
+use super::super::local::{random, sign};
+use super::super::streams::Stream;
+use super::super::terms::{Term, read, recorded};
+use super::super::{Effort, SearchError};
+use super::monomials::Along;
+use super::taylor::Flow;
+
+/// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
+pub const SPARE: usize = 8;
+/// Number of points drawn until an orbit has a series.
+const TRIES: u64 = 16;
+/// Number of points drawn until one has a value, roots included.
+const DRAWS: usize = 512;
+
+/// A point of phase space modulo a prime.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Components of the free parameters.
+    pub parameters: Vec<u64>,
+    /// Components of the state.
+    pub state: Vec<u64>,
+}
+
+/// A case whose orbits are expanded modulo primes.
+pub struct Setting<'c> {
+    /// Case that is searched.
+    pub case: &'c Case,
+    /// Limits of the search.
+    pub effort: &'c Effort,
+    /// Field of the case.
+    pub flow: Flow,
+    /// Components of the state as terms.
+    pub terms: Vec<Term>,
+    points: Points,
+    coordinates: Vec<String>,
+}
+
+/// The map from random numbers to parameters and states.
+struct Points {
+    tape: Tape,
+    draws: Vec<Draw>,
+    /// Number of draws for the parameters.
+    of_parameters: usize,
+    /// Number of components of the free parameters.
+    parameters: usize,
+    /// Coordinates of the parameters as functions of parameters and state.
+    coordinates: Tape,
+}
+
+impl<'c> Setting<'c> {
+    /// Records a case; the text is the reason why it has no orbits modulo primes.
+    pub fn of(case: &'c Case, effort: &'c Effort) -> Result<Result<Self, String>, SearchError> {
+        let model = &case.model;
+        let Some(flow) = Flow::of(case)? else {
+            return Ok(Err(
+                "the field has no Taylor series modulo a prime: it contains |x|, exp, \
+                           ln, sin, cos, atan or x^y"
+                    .to_string(),
+            ));
+        };
+        let names = (0..model.dimension()).map(|k| model.component_name(k)).collect();
+        let terms = read(names, &model.vocabulary);
+        if terms.len() < model.dimension() {
+            return Ok(Err("the components of the state have no names".to_string()));
+        }
+        let sampler = Sampler::new(case, &Place::level(model), effort.options.seed)?;
+        if sampler.is_numerical() {
+            return Ok(Err(SearchError::NoChart.to_string()));
+        }
+        let named = coordinates(case);
+        let (graph, values) = recorded(case, |jet| {
+            named.iter().map(|term| jet.phase.scalar(&term.formula)).collect::<Vec<_>>()
+        })?;
+        let parameters = model.free_components();
+        let points = Points {
+            tape: Tape::new(sampler.graph(), sampler.made()),
+            draws: sampler.recipes().to_vec(),
+            of_parameters: sampler.parameter_draws(),
+            parameters,
+            coordinates: Tape::new(&graph, &values),
+        };
+        let coordinates = named.into_iter().map(|term| term.text).collect();
+        Ok(Ok(Self { case, effort, flow, terms, points, coordinates }))
+    }
+
+    /// Number of components of the state.
+    pub fn dimension(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether states are restricted to a level.
+    pub fn is_on_level(&self) -> bool {
+        !self.case.model.level.is_empty()
+    }
+
+    /// Whether a parameter has a list of several values.
+    pub fn has_lists(&self) -> bool {
+        let draws = self.case.model.parameter_draws();
+        draws.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
+    }
+
+    /// Makes choice `index` of the parameters modulo the prime with number `prime`.
+    pub fn at(&self, prime: u64, index: u64) -> Option<At> {
+        let seed = self.effort.options.seed;
+        self.within(Stream::Moduli.numbered(seed, prime).prime(&[3, 5], &[2, 3]), index)
+    }
+
+    /// Makes choice `index` of the parameters modulo the prime p = 1 mod 840 with number `prime`, in
+    /// whose field the roots of −1, 2, 3, 5 and 7 exist.
+    pub fn split(&self, prime: u64, index: u64) -> Option<At> {
+        let seed = self.effort.options.seed ^ prime.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut chance = Stream::OrbitLines.under(seed);
+        let whole = Modulus::new((1 << 61) - 1);
+        loop {
+            let candidate = (chance.element(&whole) | 1 << 60) / 840 * 840 + 1;
+            if candidate >> 60 == 1 && is_prime(candidate) {
+                return self.within(Modulus::new(candidate), index);
+            }
+        }
+    }
+
+    /// Makes choice `index` of the parameters in a given field.
+    fn within(&self, modulus: Modulus, index: u64) -> Option<At> {
+        let seed = self.effort.options.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut chance = Stream::Orbits.under(seed);
+        let own = &self.points.draws[..self.points.of_parameters];
+        for _ in 0..TRIES {
+            let parameters = random(own, &modulus, &mut chance);
+            let mut at = At { modulus, parameters, coordinates: Vec::new() };
+            let Some(point) = self.point(&at, u64::MAX) else { continue };
+            let inputs = [point.parameters, point.state].concat();
+            if let Some(values) = run(&self.points.coordinates, modulus, &inputs) {
+                at.coordinates = values;
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    /// Names of the parameters' coordinates.
+    pub fn coordinates(&self) -> &[String] {
+        &self.coordinates
+    }
+
+    /// Draws the random point of a number.
+    pub fn point(&self, at: &At, number: u64) -> Option<Point> {
+        let seed = self.effort.options.seed ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03);
+        let mut chance = Stream::OrbitPoints.under(seed);
+        let Points { tape, draws, of_parameters, parameters, .. } = &self.points;
+        for _ in 0..DRAWS {
+            let own = draws[*of_parameters..].iter().map(|draw| match draw {
+                Draw::Sign => sign(&at.modulus, &mut chance),
+                _ => chance.element(&at.modulus),
+            });
+            let inputs: Vec<u64> = at.parameters.iter().copied().chain(own).collect();
+            if let Some(made) = run(tape, at.modulus, &inputs) {
+                let (parameters, state) = made.split_at(*parameters);
+                return Some(Point { parameters: parameters.to_vec(), state: state.to_vec() });
+            }
+        }
+        None
+    }
+
+    /// Expands the orbit through the random point of a number.
+    pub fn orbit(
+        &self,
+        at: &At,
+        number: u64,
+        orders: usize,
+    ) -> Result<Option<(Point, Vec<Vec<u64>>)>, SearchError> {
+        for attempt in 0..TRIES {
+            let Some(point) = self.point(at, number + (attempt << 32)) else { return Ok(None) };
+            if let Some(orbit) = self.along(at, &point, orders)? {
+                return Ok(Some((point, orbit)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Expands the orbit through a point.
+    pub fn along(
+        &self,
+        at: &At,
+        point: &Point,
+        orders: usize,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        let Point { parameters, state } = point;
+        self.flow.orbit(&at.modulus, parameters, state, orders, &self.effort.halt)
+    }
+
+    /// Finds the relations between monomials along the orbit of a number, in reduced form: each is
+    /// 1 at a monomial of its own, and otherwise contains earlier ones that are none's own.
+    pub fn relations(
+        &self,
+        at: &At,
+        number: u64,
+        monomials: &[Vec<u32>],
+    ) -> Result<Option<Relations>, SearchError> {
+        let orders = monomials.len() + SPARE;
+        let Some((point, orbit)) = self.orbit(at, number, orders)? else { return Ok(None) };
+        let rows = Along::new(at.modulus, &orbit).rows(monomials, &self.effort.halt)?;
+        let mut echelon = Echelon::new(monomials.len(), at.modulus);
+        let mut dependent = 0;
+        for row in rows {
+            self.effort.halt.check()?;
+            dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+            if dependent == SPARE {
+                break;
+            }
+        }
+        let free = echelon.free();
+        let mut vectors = Vec::with_capacity(free.len());
+        for own in &free {
+            self.effort.halt.check()?;
+            vectors.push(echelon.null_vector(*own));
+        }
+        Ok(Some(Relations { point, vectors, free }))
+    }
+}
+
+/// Runs a tape at one point; `None` where an output has no value.
+pub fn run(tape: &Tape, modulus: Modulus, inputs: &[u64]) -> Option<Vec<u64>> {
+    let mut evaluator = Evaluator::new(tape, Prime::new([modulus]));
+    let mut inputs: Vec<[u64; 1]> = inputs.iter().map(|x| [*x]).collect();
+    inputs.resize(tape.inputs(), [modulus.one()]);
+    evaluator.run(&inputs);
+    let values: Vec<u64> = evaluator.outputs().map(|[value]| *value).collect();
+    (!values.contains(&UNDEFINED)).then_some(values)
+}
+
+/// Relations between monomials along one orbit.
+pub struct Relations {
+    /// Point of the orbit.
+    pub point: Point,
+    /// Coefficients of the relations.
+    pub vectors: Vec<Vec<u64>>,
+    /// Monomial of each relation's own.
+    pub free: Vec<usize>,
+}

@@ -1,0 +1,220 @@
+//! Taylor series of orbits modulo a prime, coefficient by coefficient.
+//!
+//! x' = f(x) with f made of + − × ÷ and powers. Coefficient k + 1 of x follows from coefficient k of
+//! f(x), and this from those of x up to k, operation by operation: a run to order n takes n²/2
+//! products for each product in f.
+
+use liouville::case::Case;
+use liouville::graph::{Graph, Step};
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use liouville::number::{Function, Operation};
+
+use super::super::terms::recorded;
+use super::super::{Halt, SearchError};
+
+/// One operation of a field; arguments are places of earlier operations.
+#[derive(Clone, Debug)]
+enum Rule {
+    Constant(Rational),
+    Parameter(usize),
+    Variable(usize),
+    Minus(usize),
+    Inverse(usize),
+    Sum(usize, usize),
+    Difference(usize, usize),
+    Product(usize, usize),
+    Power(usize, Rational),
+}
+
+/// A field whose orbits have Taylor series modulo a prime.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    steps: Vec<Rule>,
+    rates: Vec<usize>,
+    /// Whether the field is a rational function of the state and the parameters.
+    pub is_rational: bool,
+}
+
+impl Flow {
+    /// Records the field of a case; `None` if it contains functions that prime fields lack.
+    pub fn of(case: &Case) -> Result<Option<Self>, SearchError> {
+        let model = &case.model;
+        let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+        if graph.inputs() > model.free_components() + model.dimension() {
+            return Ok(None);
+        }
+        let reached = graph.reached(rates.iter().copied());
+        let places = rates.iter().map(|rate| graph.place(*rate)).collect();
+        Ok(Self::read(&graph, &reached, places, model.free_components()))
+    }
+
+    fn read(
+        graph: &Graph,
+        reached: &[bool],
+        places: Vec<usize>,
+        parameters: usize,
+    ) -> Option<Self> {
+        let mut is_rational = true;
+        let mut at = vec![0; graph.len()];
+        let mut steps = Vec::new();
+        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+            let own = match step {
+                Step::Constant(value) => Rule::Constant(value.clone()),
+                Step::Input(input) if input < parameters => Rule::Parameter(input),
+                Step::Input(input) => Rule::Variable(input - parameters),
+                Step::Unary(Function::Neg, a) => Rule::Minus(at[a]),
+                Step::Unary(Function::Recip, a) => Rule::Inverse(at[a]),
+                Step::Unary(Function::Sqrt, a) => {
+                    is_rational = false;
+                    Rule::Power(at[a], Rational::new(1, 2))
+                }
+                Step::Unary(..) | Step::Binary(Operation::Pow, ..) => return None,
+                Step::Binary(Operation::Add, a, b) => Rule::Sum(at[a], at[b]),
+                Step::Binary(Operation::Sub, a, b) => Rule::Difference(at[a], at[b]),
+                Step::Binary(Operation::Mul, a, b) => Rule::Product(at[a], at[b]),
+                Step::Power(a, exponent) => {
+                    is_rational &= exponent.parts().1 == 1.into();
+                    Rule::Power(at[a], exponent.clone())
+                }
+            };
+            at[place] = steps.len();
+            steps.push(own);
+        }
+        let rates = places.into_iter().map(|place| at[place]).collect();
+        Some(Self { steps, rates, is_rational })
+    }
+
+    /// Computes the coefficients of order below `orders` of the orbit from a state; `None` where
+    /// the field has no value or no series.
+    pub fn orbit(
+        &self,
+        m: &Modulus,
+        parameters: &[u64],
+        state: &[u64],
+        orders: usize,
+        halt: &Halt,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        let mut orbit: Vec<Vec<u64>> = state.iter().map(|x| vec![*x]).collect();
+        let Some(constants) = self.constants(m, parameters) else { return Ok(None) };
+        let Some(exponents) = self.exponents(m) else { return Ok(None) };
+        let mut values: Vec<Vec<u64>> = vec![Vec::with_capacity(orders); self.steps.len()];
+        let mut inverses: Vec<u64> = vec![0; self.steps.len()];
+        let mut by_order = vec![0, m.one()];
+        for k in 0..orders.saturating_sub(1) {
+            if k % 64 == 63 {
+                halt.check()?;
+            }
+            by_order.push(m.inverse(m.integer(k as u64 + 2)));
+            for (place, step) in self.steps.iter().enumerate() {
+                let next = match step {
+                    Rule::Constant(_) | Rule::Parameter(_) if k > 0 => 0,
+                    Rule::Constant(_) | Rule::Parameter(_) => constants[place],
+                    Rule::Variable(i) => orbit[*i][k],
+                    Rule::Minus(a) => m.sub(0, values[*a][k]),
+                    Rule::Sum(a, b) => m.add(values[*a][k], values[*b][k]),
+                    Rule::Difference(a, b) => m.sub(values[*a][k], values[*b][k]),
+                    Rule::Product(a, b) => convolved(m, &values[*a][..=k], &values[*b][..=k]),
+                    Rule::Inverse(a) | Rule::Power(a, _) if k == 0 => {
+                        let start = values[*a][0];
+                        let power = match step {
+                            Rule::Power(_, exponent) => power(m, start, exponent),
+                            _ => (start != 0).then(|| m.inverse(start)),
+                        };
+                        let Some(power) = power.filter(|_| start != 0) else { return Ok(None) };
+                        inverses[place] = m.inverse(start);
+                        power
+                    }
+                    Rule::Inverse(a) => {
+                        let sum = convolved(m, &values[*a][1..=k], &values[place][..k]);
+                        m.sub(0, m.mul(sum, inverses[place]))
+                    }
+                    // y = x^q: x y' = q x' y.
+                    Rule::Power(a, _) => {
+                        let (x, y) = (&values[*a], &values[place]);
+                        let q = exponents[place];
+                        let sum = (1..=k).fold(0, |sum, j| {
+                            let (own, rest) = (m.integer(j as u64), m.integer((k - j) as u64));
+                            let factor = m.sub(m.mul(q, own), rest);
+                            m.add(sum, m.mul(factor, m.mul(x[j], y[k - j])))
+                        });
+                        m.mul(sum, m.mul(inverses[place], by_order[k]))
+                    }
+                };
+                values[place].push(next);
+            }
+            for (variable, rate) in orbit.iter_mut().zip(&self.rates) {
+                variable.push(m.mul(values[*rate][k], by_order[k + 1]));
+            }
+        }
+        Ok(Some(orbit))
+    }
+
+    fn constants(&self, m: &Modulus, parameters: &[u64]) -> Option<Vec<u64>> {
+        let value = |step: &Rule| match step {
+            Rule::Constant(value) => m.rational(value),
+            Rule::Parameter(index) => parameters.get(*index).copied(),
+            _ => Some(0),
+        };
+        self.steps.iter().map(value).collect()
+    }
+
+    fn exponents(&self, m: &Modulus) -> Option<Vec<u64>> {
+        let value = |step: &Rule| match step {
+            Rule::Power(_, exponent) => m.rational(exponent),
+            _ => Some(0),
+        };
+        self.steps.iter().map(value).collect()
+    }
+}
+
+/// Computes x^q for x ≠ 0, if the field has it.
+fn power(m: &Modulus, x: u64, exponent: &Rational) -> Option<u64> {
+    let (above, below) = exponent.small_parts()?;
+    let base = match below {
+        1 => x,
+        2 => m.root(x)?,
+        _ => return m.odd_power(x, exponent),
+    };
+    let raised = m.power(base, above.unsigned_abs());
+    (x != 0).then(|| if above < 0 { m.inverse(raised) } else { raised })
+}
+
+/// Computes Σ x_j y_{n−1−j} over two rows of length n.
+pub fn convolved(m: &Modulus, x: &[u64], y: &[u64]) -> u64 {
+    x.iter().zip(y.iter().rev()).fold(0, |sum, (x, y)| m.add(sum, m.mul(*x, *y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flow(field: &str, state: &str) -> Flow {
+        let text = format!("title='x'\nsystem='field'\n[state]\n{state}\n[field]\n{field}\n");
+        let case = Case::parse(&text, &[]).expect("a case");
+        Flow::of(&case).expect("recorded").expect("it has series")
+    }
+
+    #[test]
+    fn orbits_are_the_known_series() {
+        let m = Modulus::new(2_305_843_009_213_693_951);
+        let two = m.integer(2);
+        // x' = x²: x = 2/(1 − 2s)
+        let square = flow("\"x'\" = \"x²\"", "x = \"1..2\"");
+        let orbit = square.orbit(&m, &[], &[two], 6, &Halt::default()).expect("no halt");
+        let expected: Vec<u64> = (1..=6).map(|k| m.integer(1 << k)).collect();
+        assert_eq!(orbit, Some(vec![expected]), "2, 4, 8, …");
+        // x' = 1/y, y' = 1: with y = 1 + s, x = x₀ + ln y, and with √y the root of 1 + s
+        let inverse = flow("\"x'\" = \"1/y\"\n\"y'\" = \"1\"", "x = \"1..2\"\ny = \"1..2\"");
+        let orbit = inverse.orbit(&m, &[], &[0, m.one()], 5, &Halt::default());
+        let orbit = orbit.expect("no halt").expect("a series");
+        let third = m.inverse(m.integer(3));
+        assert_eq!(orbit[0][3], third, "s³/3");
+        assert!(inverse.is_rational, "no root");
+        let root = flow("\"x'\" = \"√y\"\n\"y'\" = \"1\"", "x = \"1..2\"\ny = \"1..2\"");
+        let orbit = root.orbit(&m, &[], &[0, m.one()], 5, &Halt::default());
+        let orbit = orbit.expect("no halt").expect("a series");
+        assert_eq!(m.mul(orbit[0][2], m.integer(4)), m.one(), "√(1 + s) = 1 + s/2 − …");
+        assert!(!root.is_rational, "a root");
+    }
+}

@@ -1,0 +1,169 @@
+//! Polynomials in one variable modulo a prime, coefficients from low to high.
+
+use liouville::number::prime::Modulus;
+
+/// Removes leading zeros.
+fn trimmed(mut f: Vec<u64>) -> Vec<u64> {
+    while f.last() == Some(&0) {
+        f.pop();
+    }
+    f
+}
+
+/// Degree; `None` for 0.
+pub fn degree(f: &[u64]) -> Option<usize> {
+    f.iter().rposition(|entry| *entry != 0)
+}
+
+/// Finds the polynomial with given values at 0, 1, 2, …
+pub fn interpolated(m: &Modulus, values: &[u64]) -> Vec<u64> {
+    let count = values.len();
+    let numbers: Vec<u64> = (0..count as u64).map(|k| m.integer(k)).collect();
+    let inverses: Vec<u64> =
+        numbers.iter().map(|x| if *x == 0 { 0 } else { m.inverse(*x) }).collect();
+    // Newton's divided differences in place.
+    let mut slopes = values.to_vec();
+    for level in 1..count {
+        for k in (level..count).rev() {
+            slopes[k] = m.mul(m.sub(slopes[k], slopes[k - 1]), inverses[level]);
+        }
+    }
+    let mut f: Vec<u64> = Vec::with_capacity(count);
+    for k in (0..count).rev() {
+        // f ← f (t − k) + slope
+        f.insert(0, 0);
+        for place in 0..f.len() - 1 {
+            f[place] = m.sub(f[place], m.mul(numbers[k], f[place + 1]));
+        }
+        f[0] = m.add(f[0], slopes[k]);
+    }
+    trimmed(f)
+}
+
+/// Divides by a polynomial that is not 0; returns quotient and remainder.
+pub fn divided(m: &Modulus, f: &[u64], by: &[u64]) -> (Vec<u64>, Vec<u64>) {
+    let mut rest = f.to_vec();
+    let Some(low) = degree(by) else { return (Vec::new(), rest) };
+    let inverse = m.inverse(by[low]);
+    let mut quotient = vec![0; rest.len().saturating_sub(low)];
+    for place in (low..rest.len()).rev() {
+        let factor = m.mul(rest[place], inverse);
+        if factor == 0 {
+            continue;
+        }
+        quotient[place - low] = factor;
+        for (k, entry) in by[..=low].iter().enumerate() {
+            let own = &mut rest[place - low + k];
+            *own = m.sub(*own, m.mul(factor, *entry));
+        }
+    }
+    (trimmed(quotient), trimmed(rest))
+}
+
+/// Greatest common divisor with leading coefficient 1; empty for two zeros.
+pub fn gcd(m: &Modulus, f: &[u64], g: &[u64]) -> Vec<u64> {
+    let (mut f, mut g) = (trimmed(f.to_vec()), trimmed(g.to_vec()));
+    while !g.is_empty() {
+        let rest = divided(m, &f, &g).1;
+        (f, g) = (g, rest);
+    }
+    if let Some(last) = f.last().copied() {
+        let inverse = m.inverse(last);
+        f.iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
+    }
+    f
+}
+
+/// Removes all common factors with `other`.
+pub fn without(m: &Modulus, mut f: Vec<u64>, other: &[u64]) -> Vec<u64> {
+    loop {
+        let common = gcd(m, &f, other);
+        if degree(&common).is_none_or(|own| own == 0) {
+            return f;
+        }
+        f = divided(m, &f, &common).0;
+    }
+}
+
+fn product(m: &Modulus, f: &[u64], g: &[u64], by: &[u64]) -> Vec<u64> {
+    if f.is_empty() || g.is_empty() {
+        return Vec::new();
+    }
+    let mut all = vec![0; f.len() + g.len() - 1];
+    for (i, x) in f.iter().enumerate() {
+        for (j, y) in g.iter().enumerate() {
+            all[i + j] = m.add(all[i + j], m.mul(*x, *y));
+        }
+    }
+    divided(m, &all, by).1
+}
+
+fn power(m: &Modulus, base: &[u64], exponent: u64, by: &[u64]) -> Vec<u64> {
+    let mut result = vec![m.one()];
+    for bit in (0..64 - exponent.leading_zeros()).rev() {
+        result = product(m, &result, &result, by);
+        if exponent >> bit & 1 == 1 {
+            result = product(m, &result, base, by);
+        }
+    }
+    result
+}
+
+/// Finds the distinct roots in the field of a polynomial that is not 0.
+pub fn roots(m: &Modulus, f: &[u64]) -> Vec<u64> {
+    if degree(f).is_none_or(|own| own == 0) {
+        return Vec::new();
+    }
+    let t = [0, m.one()];
+    let mut frobenius = power(m, &t, m.prime(), f);
+    frobenius.resize(frobenius.len().max(2), 0);
+    frobenius[1] = m.sub(frobenius[1], m.one());
+    let mut found = Vec::new();
+    let mut open = vec![(gcd(m, f, &frobenius), 1u64)];
+    while let Some((own, shift)) = open.pop() {
+        match degree(&own) {
+            None | Some(0) => {}
+            Some(1) => found.push(m.sub(0, m.mul(own[0], m.inverse(own[1])))),
+            // (t + shift)^((p − 1)/2) is 1 at half of the roots.
+            Some(_) => {
+                let mut half = power(m, &[m.integer(shift), m.one()], (m.prime() - 1) / 2, &own);
+                half.resize(half.len().max(1), 0);
+                half[0] = m.sub(half[0], m.one());
+                let part = gcd(m, &own, &half);
+                let rest = divided(m, &own, &part).0;
+                let is_whole = degree(&part) == degree(&own) || degree(&part) == Some(0);
+                match is_whole {
+                    true => open.push((own, shift + 1)),
+                    false => open.extend([(part, shift + 1), (rest, shift + 1)]),
+                }
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_of_products_are_found() {
+        let m = Modulus::new(2_305_843_009_213_693_951);
+        let n = |x: u64| m.integer(x);
+        // (t − 3)²(t − 5)(t − 11)(t² + 1), where −1 is no square
+        let value = |t: u64| {
+            let factor = |root: u64| m.sub(t, n(root));
+            let square = m.add(m.mul(t, t), m.one());
+            let twice = m.mul(factor(3), factor(3));
+            m.mul(m.mul(twice, factor(5)), m.mul(factor(11), square))
+        };
+        let values: Vec<u64> = (0..12).map(|t| value(n(t))).collect();
+        let f = interpolated(&m, &values);
+        assert_eq!(degree(&f), Some(6), "as many as factors");
+        let mut found: Vec<u64> = roots(&m, &f).into_iter().map(|t| m.to_integer(t)).collect();
+        found.sort_unstable();
+        assert_eq!(found, [3, 5, 11], "each once");
+        let rest = without(&m, f, &[m.sub(0, n(3)), m.one()]);
+        assert_eq!(degree(&rest), Some(4), "the double root is gone");
+    }
+}

@@ -1,0 +1,195 @@
+//! Searches of own fields by orbits modulo a prime: rational integrals, Darboux polynomials,
+//! densities, and theorems that never exclude what was planted.
+
+use std::time::{Duration, Instant};
+
+use liouville::case::Case;
+use liouville::verdict::Verdict;
+use liouville_search::{Effort, Halt, Report, search};
+
+fn searched(text: &str, effort: &Effort) -> Report {
+    let case = Case::parse(text, &[]).expect("a case");
+    let report = search(&case, effort, &mut |_| {}).expect("it can be searched");
+    let open = report.found.iter().find(|found| found.verdict != Verdict::Proved);
+    assert!(open.is_none(), "all is proved: {open:?}");
+    report
+}
+
+/// A field in x, y, z, or in x and y.
+fn field(parameters: &str, rates: &[&str]) -> String {
+    let names = ["x", "y", "z"];
+    let state: String =
+        names.iter().take(rates.len()).map(|name| format!("{name} = '0.5..2'\n")).collect();
+    let field: String =
+        names.iter().zip(rates).map(|(name, rate)| format!("\"{name}'\" = '{rate}'\n")).collect();
+    format!(
+        "title = 'x'\nsystem = 'field'\n[parameters]\n{parameters}\n[state]\n{state}[field]\n{field}"
+    )
+}
+
+fn has(report: &Report, kind: &str, formula: &str) -> bool {
+    report.formulas(kind).any(|found| found == formula)
+}
+
+fn cofactor<'r>(report: &'r Report, formula: &str) -> Option<&'r str> {
+    let own = report
+        .found
+        .iter()
+        .find(|found| found.kind == "darboux-polynomial" && found.formula == formula)?;
+    own.with.iter().find(|(what, _)| *what == "cofactor").map(|(_, text)| text.as_str())
+}
+
+/// Highest degree of fractions that a theorem excludes.
+fn excluded(report: &Report) -> Option<u32> {
+    let own = report.excluded.iter().find(|own| own.theorem.contains("P/Q"))?;
+    own.ansatz.rsplit(' ').next().and_then(|degree| degree.parse().ok())
+}
+
+#[test]
+fn chaotic_fields_have_no_rational_integral_of_degree_8() {
+    let own = "s = '0.5..2'\nr = '0.5..2'\nb = '0.5..2'";
+    let fields = [
+        ("Lorenz", own, ["s*(y - x)", "r*x - y - x*z", "x*y - b*z"]),
+        ("Rössler", own, ["-y - z", "x + s*y", "b + z*(x - r)"]),
+        ("Halphen", "", ["y*z - x*(y + z)", "z*x - y*(z + x)", "x*y - z*(x + y)"]),
+    ];
+    for (name, parameters, rates) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        assert_eq!(excluded(&report), Some(8), "{name}");
+        assert_eq!(report.orbits.last().map(|last| last.integrals), Some(0), "{name}");
+    }
+}
+
+#[test]
+fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
+    let cases = [
+        ("s = '0.5..2'\nr = '0.5..2'", ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"], "x² − 2*s*z"),
+        ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], "y² + z²"),
+        ("", ["(y - x)/3", "3*x - y - x*z", "x*y"], ""),
+    ];
+    for (parameters, rates, formula) in cases {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        let all: Vec<&str> = report.formulas("darboux-polynomial").collect();
+        match formula {
+            "" => assert!(!all.is_empty(), "{rates:?}"),
+            formula => assert!(all.contains(&formula), "{formula} in {all:?}"),
+        }
+        assert!(excluded(&report).is_some(), "no rational integral");
+    }
+}
+
+#[test]
+fn cofactors_give_logarithms_and_densities() {
+    let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\nd = '0.5..2'";
+    let report = searched(&field(parameters, &["x*(a - b*y)", "y*(c*x - d)"]), &Effort::default());
+    assert_eq!(cofactor(&report, "x"), Some("a − b*y"), "x' = (a − b y) x");
+    assert_eq!(cofactor(&report, "y"), Some("−d + c*x"), "y' = (c x − d) y");
+    let integrals: Vec<&str> = report.formulas("integral").collect();
+    assert!(integrals.len() == 1 && integrals[0].contains("ln(x)"), "{integrals:?}");
+    assert!(
+        has(&report, "density", "(x)^(−1)*(y)^(−1)") || report.formulas("density").count() == 1
+    );
+    assert!(excluded(&report).is_some_and(|degree| degree >= 8), "no rational integral");
+}
+
+#[test]
+fn rational_integrals_are_written_out() {
+    let dipole = searched(&field("", &["2*x*y", "y² - x²"]), &Effort::default());
+    assert_eq!(dipole.formulas("integral").count(), 1, "circles through the origin");
+    // A Lotka–Volterra field of the ABC type with two integrals.
+    let fields = ["x*(y - z)", "y*(z - x)", "z*(x - y)"];
+    let volterra = searched(&field("", &fields), &Effort::default());
+    assert_eq!(volterra.formulas("integral").count(), 2, "x + y + z and xyz");
+    // May and Leonard, α + β = 2.
+    let fields = [
+        "x*(1 - x - a*y - (2 - a)*z)",
+        "y*(1 - y - a*z - (2 - a)*x)",
+        "z*(1 - z - a*x - (2 - a)*y)",
+    ];
+    let leonard = searched(&field("a = '3/2'", &fields), &Effort::default());
+    let found: Vec<&str> = leonard.formulas("integral").collect();
+    assert_eq!(found.len(), 1, "xyz/(x + y + z)³: {found:?}");
+    assert_eq!(excluded(&leonard), Some(2), "below its degree there is none");
+}
+
+#[test]
+fn integrals_on_a_level_are_found() {
+    // Goryachev and Chaplygin: 4 J₃ = J₁ = J₂ on (M,γ) = 0, J₃ = 1, U = γ₁.
+    let text = "title = 'x'\nsystem = 'field'\n[state]\nM = 'vector(-2..2)'\nγ = 'vector(-1..1)'\n\
+                [field]\n\"M'\" = 'M × [M1/4, M2/4, M3] + γ × [1, 0, 0]'\n\"γ'\" = 'γ × [M1/4, M2/4, M3]'\n\
+                [level]\nequations = ['(γ,γ) = 1', '(M,γ) = 0']\n";
+    let report = searched(text, &Effort::default());
+    let found: Vec<&str> = report.formulas("integral").collect();
+    assert_eq!(found.len(), 2, "the energy and M₃(M₁² + M₂²) + … : {found:?}");
+}
+
+/// Pseudo-random integers −4..=4.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> i64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as i64 % 9 - 4
+    }
+
+    /// A linear form without constant.
+    fn form(&mut self) -> [i64; 3] {
+        std::array::from_fn(|_| self.next())
+    }
+}
+
+fn written(form: [i64; 3]) -> String {
+    format!("(({})*x + ({})*y + ({})*z)", form[0], form[1], form[2])
+}
+
+#[test]
+fn planted_integrals_are_never_excluded() {
+    // v = ∇F × w G² keeps F = A/B in coordinates turned at random: ∇(A/B) = (B ∇A − A ∇B)/B².
+    let mut numbers = Numbers(17);
+    for plant in 0..60 {
+        let (a, b, c, w) = (numbers.form(), numbers.form(), numbers.form(), numbers.form());
+        let shift = numbers.next();
+        let (above, below) =
+            (format!("({} + {shift})", written(a)), format!("({} + 1)", written(b)));
+        // A = α γ with two forms, B = β: degree 2 over 1.
+        let third = format!("({} − 2)", written(c));
+        let slope = |k: usize| {
+            format!(
+                "({below}*(({})*{third} + ({})*{above}) − {above}*{third}*({}))",
+                a[k], c[k], b[k]
+            )
+        };
+        let (i, j) = ([1, 2, 0], [2, 0, 1]);
+        let rates: Vec<String> = (0..3)
+            .map(|k| format!("{}*({}) − {}*({})", slope(i[k]), w[j[k]], slope(j[k]), w[i[k]]))
+            .collect();
+        let rates: Vec<&str> = rates.iter().map(String::as_str).collect();
+        let effort = Effort { halt: Halt::within(Duration::from_secs(20)), ..Effort::default() };
+        let Ok(case) = Case::parse(&field("", &rates), &[]) else { continue };
+        let Ok(report) = search(&case, &effort, &mut |_| {}) else { continue };
+        assert!(
+            excluded(&report).is_none_or(|degree| degree < 2),
+            "plant {plant}: {above}*{third}/{below} is an integral of {rates:?}"
+        );
+    }
+}
+
+#[test]
+fn searches_stop_in_time() {
+    // Twelve coupled variables: the matrices grow as long as there is time.
+    let names: Vec<String> = (1..=9).map(|k| format!("x{k}")).collect();
+    let state: String = names.iter().map(|name| format!("{name} = '0.5..2'\n")).collect();
+    let rate = |k: usize| {
+        let (next, last) = (&names[(k + 1) % 9], &names[(k + 8) % 9]);
+        format!("\"{}'\" = '{next}*{last} - {}^2 + {k}'\n", names[k], names[k])
+    };
+    let rates: String = (0..9).map(rate).collect();
+    let text = format!("title = 'x'\nsystem = 'field'\n[state]\n{state}[field]\n{rates}");
+    let start = Instant::now();
+    let effort = Effort { halt: Halt::within(Duration::from_secs(4)), ..Effort::default() };
+    let report = searched(&text, &effort);
+    // In the dev profile the last part of an elimination takes longer.
+    assert!(start.elapsed() < Duration::from_secs(7), "{:?}", start.elapsed());
+    assert!(!report.orbits.is_empty(), "what was reached is told");
+}
