@@ -312,12 +312,9 @@ pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
 /// Lists the numbers of which exponents may be multiples.
 pub fn exponents(model: &Model) -> Texts {
     let mut found = vec!["1".to_string()];
-    if has(model, "κ", Type::Scalar) {
-        found.push("k*R".to_string());
-    } else if model.system.body().is_some_and(|body| body.curvature.is_some())
-        && has(model, "g1", Type::Scalar)
-        && has(model, "R", Type::Scalar)
-    {
+    let is_curved = model.system.is_curved();
+    let profile = is_curved && has(model, "g1", Type::Scalar) && has(model, "R", Type::Scalar);
+    if has(model, "κ", Type::Scalar) || profile {
         found.push("k*R".to_string());
     }
     found
