@@ -174,13 +174,15 @@ impl<'s, 'c> Exponents<'s, 'c> {
                 Column::Factor(own) => {
                     let formula = &self.factors[*own].formula;
                     let is_whole = vector.is_whole(place);
-                    let base = match has_moduli && !is_whole {
-                        true => format!("|{formula}|"),
-                        false => format!("({formula})"),
+                    let is_name = self.setting.terms.iter().any(|term| &term.text == formula);
+                    let base = match (has_moduli && !is_whole, is_name) {
+                        (true, _) => format!("|{formula}|"),
+                        (false, true) => formula.clone(),
+                        (false, false) => format!("({formula})"),
                     };
-                    powers.push(match vector.fraction(place).as_str() {
+                    powers.push(match vector.exponent(place).as_str() {
                         "1" => base,
-                        power => format!("{base}^({power})"),
+                        power => format!("{base}^{power}"),
                     });
                 }
                 Column::Constant | Column::Divergence => {}
@@ -190,7 +192,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
             let above = vector.coefficients.sum(&exponent.0, &exponent.1);
             powers.push(match vector.below().as_str() {
                 "1" => format!("exp({above})"),
-                below => format!("exp(({above})/({below}))"),
+                below => format!("exp({})", images::quotient(&above, below)),
             });
         }
         powers.join("*")

@@ -6,9 +6,12 @@
 //! function of q has to be known. Elsewhere a coefficient c(q) is interpolated: A(q) − c(q) B(q) = 0
 //! at random q.
 
+use num_bigint::BigInt;
+use num_integer::Integer;
+
 use liouville::proof::reduce;
 
-use super::super::ansatz::coefficients::Coefficients;
+use super::super::ansatz::coefficients::{Coefficients, Polynomial};
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
@@ -166,7 +169,8 @@ impl Relation<'_, '_, '_> {
         let mut found = false;
         for place in (0..last).filter(|k| !constant(k)) {
             setting.effort.halt.check()?;
-            let Some((above, below)) = self.lowest(at, place)? else { continue };
+            // The others have the same degree, or more.
+            let Some((above, below)) = self.lowest(at, place)? else { break };
             let make = |at: &At| self.fraction(at, place, &above, &below).ok().flatten();
             let width = above.len() + below.len();
             let images = Images { setting, width, is_split: false, make };
@@ -238,7 +242,9 @@ impl Rational<'_, '_> {
         report: &mut Report,
     ) -> Result<bool, SearchError> {
         self.setting.effort.halt.check()?;
-        let Some(coefficients) = coefficients else { return Ok(false) };
+        let Some(mut coefficients) = coefficients else { return Ok(false) };
+        let (above, below) = coefficients.polynomials.split_at_mut(fraction.above.len());
+        [above, &mut below[..fraction.below.len()]].into_iter().for_each(reduce_whole);
         let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
         let written = |own: &[Vec<u32>], start: usize| {
             let functions: Vec<String> = own.iter().map(|a| power_product(&names, a)).collect();
@@ -260,5 +266,14 @@ impl Rational<'_, '_> {
             known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
         }
         Ok(is_new)
+    }
+}
+
+/// Divides polynomials by the common divisor of all their coefficients.
+fn reduce_whole(polynomials: &mut [Polynomial]) {
+    let all = polynomials.iter().flatten();
+    let common = all.fold(BigInt::ZERO, |gcd, (_, value)| gcd.gcd(value));
+    if common != BigInt::ZERO {
+        polynomials.iter_mut().flatten().for_each(|(_, value)| *value /= &common);
     }
 }
