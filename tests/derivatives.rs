@@ -50,8 +50,12 @@ const BODIES: [(&str, &str, &str); 10] = [
     ("rubber-sphere", "k = 0.25", "support = \"3*|γ| + γ1*γ2*γ3/(5*|γ|²) + γ2/4\""),
 ];
 
+/// Iterates over the bodies, each without spin and with it.
 fn bodies() -> impl Iterator<Item = Case> {
-    BODIES.iter().map(|(system, parameters, body)| {
+    let ways = ["rubber", "rolling"].into_iter();
+    let all = ways.flat_map(|way| BODIES.iter().map(move |body| (way, body)));
+    all.map(|(way, (system, parameters, body))| {
+        let system = system.replace("rubber", way);
         let claims = claim_text("F", "integral", INTEGRAL) + &claim_text("ρ", "density", INTEGRAL);
         case(&format!(
             "title = '{system}, {}'\nsystem = \"{system}\"\ncheck-weights = false\n\
@@ -61,8 +65,14 @@ fn bodies() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Makes exact states on the level: γ from Pythagorean quadruples, ω = γ×a.
-fn states() -> Vec<Vec<Rational>> {
+fn spins(case: &Case) -> bool {
+    case.system.starts_with("rolling")
+}
+
+/// Makes exact states on the level: γ from Pythagorean quadruples, ω = γ×a, with 3γ/4 added where
+/// the body of the case may spin.
+fn states(case: &Case) -> Vec<Vec<Rational>> {
+    let spin = exact(if spins(case) { "3/4" } else { "0" });
     let pairs = [
         (["2/7", "3/7", "6/7"], ["1", "-1/2", "3/5"]),
         (["-4/9", "4/9", "7/9"], ["2/3", "1", "-1/4"]),
@@ -75,7 +85,9 @@ fn states() -> Vec<Vec<Rational>> {
         .iter()
         .map(|(gamma, a)| {
             let (gamma, a) = (gamma.map(exact), a.map(exact));
-            cross(&gamma, &a).iter().chain(&gamma).map(rational).collect()
+            let across = cross(&gamma, &a).into_iter().zip(&gamma);
+            let omega: Vec<_> = across.map(|(x, g)| x + g * &spin).collect();
+            omega.iter().chain(&gamma).map(rational).collect()
         })
         .collect()
 }
@@ -98,7 +110,7 @@ fn assert_near(direct: f64, recorded: Enclosed, what: &str) {
 fn the_graph_records_what_num_dual_computes() {
     for case in bodies() {
         let [integral, density] = [0, 1].map(|i| case.claims[i].kind.formula().expect("a formula"));
-        for (index, state) in states().iter().enumerate() {
+        for (index, state) in states(&case).iter().enumerate() {
             let found = report(&case, state);
             let jet = Jet::new(Phase::new(&case.model, &[], &floats(state)));
             let phase = &jet.phase;
@@ -110,13 +122,21 @@ fn the_graph_records_what_num_dual_computes() {
             }
             let divergence = jet.divergence();
             near(divergence, found.divergence, "div v");
-            let cofactor = jet.level_cofactor(&[true, true]);
+            let cofactor = jet.level_cofactor(&vec![true; case.model.level.len()]);
             near(divergence - cofactor, found.level_divergence, "div v on the level");
             let system = &case.model.system;
             for (i, chi) in system.chi(phase).expect("χ").into_iter().enumerate() {
                 near(chi, found.chi.expect("χ")[i], &format!("χ[{i}]"));
             }
-            near(system.criterion(phase).expect("C"), found.criterion.flatten(), "C");
+            let recorded = match found.conditions {
+                Some(conditions) => conditions.to_vec(),
+                None => vec![found.criterion.flatten()],
+            };
+            let direct = system.criterion(phase);
+            assert_eq!(direct.len(), recorded.len(), "C, or C₁ and C₂");
+            for (direct, recorded) in direct.into_iter().zip(recorded) {
+                near(direct, recorded, "C");
+            }
             near(system.energy(phase).expect("E"), found.energy.flatten(), "E");
             let rate = jet.lie_derivative(|at| at.scalar(integral));
             near(rate, claim(&found, "F").1, "L_v F");
@@ -133,7 +153,7 @@ fn the_graph_records_what_num_dual_computes() {
 #[test]
 fn the_divergence_is_linear_in_the_velocity_with_the_coefficients_chi() {
     for case in bodies() {
-        for (index, state) in states().iter().enumerate() {
+        for (index, state) in states(&case).iter().enumerate() {
             let found = report(&case, state);
             let chi = found.chi.expect("χ").map(|x| x.expect("χ is defined"));
             let (mut sum, mut radius) = (0.0, 0.0);
@@ -159,7 +179,7 @@ fn covector<T: Scalar>(case: &Case, gamma: Vector3<T>) -> Vector3<T> {
         let mut unit = Vector3::repeat(T::zero());
         unit[j] = T::one();
         let jet = Jet::new(at(gamma.cross(&unit)));
-        jet.level_cofactor(&[true, true]) - jet.divergence()
+        jet.level_cofactor(&vec![true; case.model.level.len()]) - jet.divergence()
     });
     let Some((symbol, _)) = case.model.vocabulary.lookup("Γ") else { return chi_hat };
     let Value::Matrix(turning): Value<T> = at(gamma).value(symbol) else {
@@ -194,10 +214,20 @@ fn criterion_in_balls(case: &Case, gamma: &[Rational]) -> Enclosed {
 #[test]
 fn the_criterion_is_the_rotation_of_the_divergence() {
     for case in bodies() {
-        let state = &states()[0];
+        let state = &states(&case)[0];
         let gamma = &state[3..];
         let defined = criterion_in_balls(&case, gamma);
-        assert_meet(defined, report(&case, state).criterion.flatten(), &case.title);
+        let found = report(&case, state);
+        match found.conditions {
+            None => assert_meet(defined, found.criterion.flatten(), &case.title),
+            Some([along, across]) => {
+                // C₁ is div v at ω = γ, and d ln ρ = -(χ̄,dγ).
+                let turning = report(&case, &[gamma, gamma].concat()).level_divergence;
+                assert_meet(turning, along, &format!("{}, C₁", case.title));
+                let negative = across.map(|(mid, radius)| (-mid, radius));
+                assert_meet(defined, negative, &format!("{}, C₂", case.title));
+            }
+        }
         let direct = criterion(&case, Vector3::from_column_slice(&floats(gamma)));
         assert_near(direct, defined, &case.title);
     }

@@ -209,7 +209,7 @@ fn wrong_commutators_are_refused() {
     refused(
         ROTOR,
         &format!("commutator = {{ {of}, with = {{ q = '1' }} }}"),
-        "`q` is no state variable",
+        "`q` is not a state variable",
         "",
     );
     refused(

@@ -6,6 +6,8 @@
 mod common;
 #[path = "golden/formulas.rs"]
 mod formulas;
+#[path = "golden/spin.rs"]
+mod spin;
 
 use common::{Reference, case, claim, claim_text, exact, rational, report, strings, text};
 use formulas::{BLOB_ON_PLANE, BLOB_ON_SPHERE, formula, lets};

@@ -118,10 +118,10 @@ fn time_goes_on() {
 fn wrong_systems_are_refused() {
     let cases = [
         ("pairs = [['q', 'p']]", "has no `function`", "add function"),
-        ("function = 'p'\npairs = [['q', 'x']]", "`x` is no state variable", "pairs = [["),
+        ("function = 'p'\npairs = [['q', 'x']]", "`x` is not a state variable", "pairs = [["),
         ("function = 'p'\npairs = [['q', 'q']]", "paired with itself", "two state variables"),
         ("function = 'p'\npairs = [['q', 'v']]", "a scalar is paired with a vector", "of one kind"),
-        ("function = 'p'\npairs = ['q', 'p']", "this is no pair", "pairs = [["),
+        ("function = 'p'\npairs = ['q', 'p']", "this is not a pair", "pairs = [["),
         ("function = 'p'\npairs = 'q'", "is a list of pairs", "pairs = [["),
         ("function = 'p'\npairs = [['q', 'p'], ['p', 'q']]", "given already", "pairs = [["),
         ("function = 'p'\npairs = [['q', 'p']]", "`v` has no bracket", "\"v,v\" = "),

@@ -122,7 +122,7 @@ fn eigenvalues_come_in_conjugate_pairs() {
 #[test]
 fn mistakes_in_eigenvalues_are_told() {
     let at = |rest: &str| mistake(&format!("fixed-point = {{ x = '0' }}\n{rest}"));
-    assert!(at("spectrum = ['1 ± 2']").0.contains("no multiple of i"));
+    assert!(at("spectrum = ['1 ± 2']").0.contains("not a multiple of i"));
     assert!(at("spectrum = ['1 ± q*i']").0.contains('q'));
     assert!(at("spectrum = ['± i', '± 2*i']").0.contains("4 eigenvalues are too many"));
     assert!(at("spectrum = ['[1, 2]']").0.contains("vector"));

@@ -84,13 +84,24 @@ fn assert_same(at: &Drawn, first: usize, ours: &[f64], error: f64, what: &str) {
 
 #[test]
 fn every_rubber_field_solves_newtons_and_eulers_equations() {
+    every_field_solves_the_equations(false);
+}
+
+#[test]
+fn every_field_with_spin_solves_newtons_and_eulers_equations() {
+    every_field_solves_the_equations(true);
+}
+
+fn every_field_solves_the_equations(spins: bool) {
     for body in &BODIES {
-        let case = case(&body.case_text());
+        let case = case(&body.case_text(spins));
         for index in 0..STATES {
             let at = Drawn::new(&case, index);
             let moment = moment_of(body, &at);
-            let Acceleration { value, error } = moment.solve();
-            let what = format!("{} at {index}", body.name);
+            let spin = moment.omega.dot(&moment.gamma).abs();
+            assert_eq!(spin > 1e-6, spins, "{}: (ω,γ) = {spin:e}", body.name);
+            let Acceleration { value, error } = moment.solve(spins);
+            let what = format!("{} at {index}, spins: {spins}", body.name);
             assert_same(&at, 0, value.as_slice(), error, &format!("{what}, ω'"));
             let rate = moment.gamma_rate;
             let (_, slope) = body.contact(&at);
@@ -130,12 +141,27 @@ fn the_flat_base_solves_newtons_and_eulers_equations() {
             force: Vector3::zeros(),
             torque: Vector3::zeros(),
         };
-        let Acceleration { value, error } = moment.solve();
+        let Acceleration { value, error } = moment.solve(false);
         let what = format!("flat base at {index}");
         assert_same(&at, 0, &[value.x, value.y], error, &format!("{what}, ω'"));
         let error = 4.0 * f64::EPSILON * r_rate.norm();
         assert_same(&at, 2, &[r_rate.x, r_rate.y], error, &format!("{what}, r'"));
     }
+}
+
+/// The spin of a rubber body is held at 0 by λ; a body that may spin changes it.
+#[test]
+fn the_spin_of_a_free_body_changes() {
+    let mut seen = 0;
+    for body in &BODIES {
+        let case = case(&body.case_text(true));
+        let at = Drawn::new(&case, 0);
+        let moment = moment_of(body, &at);
+        let rate =
+            moment.solve(true).value.dot(&moment.gamma) + moment.omega.dot(&moment.gamma_rate);
+        seen += usize::from(rate.abs() > 1e-3);
+    }
+    assert_eq!(seen, BODIES.len(), "bodies with a rate of (ω,γ)");
 }
 
 /// Rates of a field with the tensor T in its gyroscopic term, with bounds on the errors.
@@ -187,10 +213,10 @@ fn no_energy_test_sees_the_central_tensor_in_the_gyroscopic_term() {
     };
     let mut seen = 0;
     for body in BODIES.iter().filter(free) {
-        let case = case(&body.case_text());
+        let case = case(&body.case_text(false));
         for index in 0..STATES {
             let moment = moment_of(body, &Drawn::new(&case, index));
-            let Acceleration { value, error } = moment.solve();
+            let Acceleration { value, error } = moment.solve(false);
             let what = format!("{} at {index}", body.name);
             for (tensor, right) in [(contact_inertia(&moment), true), (moment.inertia, false)] {
                 let Variant { rate, rate_error, power, power_error } = variant(&moment, &tensor);

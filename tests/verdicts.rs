@@ -214,6 +214,43 @@ fn what_the_criterion_does_not_exclude_stays_open() {
     }
 }
 
+/// With spin, C₁ ≠ 0 at a rest excludes densities with forces too; C₁ = 0 at every rest does not.
+#[test]
+fn a_rest_of_a_spinning_body_excludes_analytic_densities() {
+    let text = |body: &str| {
+        format!(
+            "title = 'x'\nsystem = 'rolling-plane'\n[parameters]\nm = 1\nR = 2\nB = [4, 1, 0.64]\n\
+             d = '-0.1..0.1'\nI = '[[0.4, d, 0], [d, 1.1, 0], [0, 0, 1.3]]'\nS = [0, 0, 1]\n\
+             T = [0.1, 0, 1]\nc = '[x, 0, y]'\nx = '0.1..0.2'\ny = '-0.1..0.1'\n[body]\n{body}\
+             [[claim]]\nanalytic-density = 'exists'\nexpect = 'open'\n\
+             [[claim]]\nposition-density = 'exists'\nexpect = 'fails'\n"
+        )
+    };
+    let ellipsoid = "support = '√(γ,B*γ)'\n";
+    let ball = "shape = 'ball'\n";
+    let weight = "potential = 'm*h'\n";
+    for (body, expected) in [
+        (ellipsoid.to_string(), Verdict::Refuted),
+        (format!("{ellipsoid}{weight}"), Verdict::Refuted),
+        (format!("{ellipsoid}{weight}gyrostat = 'S'\n"), Verdict::Refuted),
+        // S is not along a rest
+        (format!("{ellipsoid}{weight}gyrostat = 'T'\n"), Verdict::Undecided),
+        // the rests under a weight are ±c/|c|, where C₁ is 0
+        (format!("{ball}{weight}"), Verdict::Undecided),
+        // without a weight S/|S| is a rest
+        (format!("{ball}gyrostat = 'T'\n"), Verdict::Refuted),
+        (format!("{ellipsoid}moment = '[0, 0, 1]'\n"), Verdict::Undecided),
+        (format!("{ellipsoid}moment = '[γ1, 0, 0] × γ'\n"), Verdict::Refuted),
+    ] {
+        let found = claims(&text(&body));
+        assert_eq!(found[0].verdict, expected, "{body}");
+        let told = found[0].evidence.remark.is_some();
+        let is_free = body == ellipsoid;
+        assert_eq!(told, expected == Verdict::Refuted && !is_free, "{body}: its rest is named");
+        assert_eq!(found[1].verdict, Verdict::Refuted, "{body}");
+    }
+}
+
 #[test]
 fn undefined_claims_are_undecided() {
     let found = claims(&oscillator(

@@ -1,4 +1,4 @@
-//! The work items W1, W2, W3 of `liouville bench`, by each method in each domain. Times are per 64
+//! The work items W1, W2, W3 of `liouville measure bench`, by each method in each domain. Times are per 64
 //! states; only ratios within one run are significant.
 
 use criterion::{Criterion, criterion_group, criterion_main};

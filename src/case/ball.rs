@@ -52,7 +52,7 @@ fn is_rotating(section: &Section<'_>) -> Result<bool, Mistake> {
         Some(text) if text.value == "fixed" => Ok(false),
         Some(text) if text.value == "rotating" && turns => Ok(true),
         Some(text) => {
-            let message = format!("`{}` is no frame of this ball", text.value);
+            let message = format!("`{}` is not a frame of this ball", text.value);
             let remedy = "write \"fixed\", or \"rotating\" with a `rotation`".to_string();
             Err(Mistake::at(text.span, Problem::Other { message, remedy }))
         }

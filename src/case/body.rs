@@ -3,11 +3,13 @@
 use super::arbitrary::Arbitrary;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
+use super::kinds::Rolling;
 use super::parameters::has;
 use super::section::{Section, Text};
 use crate::formula::{Formula, Type};
 use crate::mechanics::{
-    Features, FlatBase, Parameter, Potential, Reach, Rubber, Shape, System, Vocabulary,
+    Features, FlatBase, Parameter, Potential, Reach, RigidBody, Rubber, Shape, Spinning, System,
+    Vocabulary,
 };
 
 /// Reads the formula of a key, or the default text where the key is missing.
@@ -47,7 +49,7 @@ fn optional(
     formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters).map(Some)
 }
 
-/// Names that a rubber body will have, judged by the keys alone.
+/// Names that a rolling body will have, judged by the keys alone.
 pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
     Features {
         radius: has(vocabulary, "R", Type::Scalar),
@@ -58,10 +60,10 @@ pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) ->
     }
 }
 
-/// Reads a body rolling on a plane, or on a sphere if `curved`; `None` where there is a mistake.
-pub fn rubber(
+/// Reads a body rolling on a plane or a sphere; `None` where there is a mistake.
+pub(super) fn rolling(
     section: &Section<'_>,
-    curved: bool,
+    way: Rolling,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
@@ -69,7 +71,7 @@ pub fn rubber(
     let scalar = Type::Scalar;
     let constant =
         |key, default, kind| section.keep(formula_or(section, key, default, vocabulary, kind));
-    let curvature = curved.then(|| constant("curvature", "k", scalar));
+    let curvature = way.curved.then(|| constant("curvature", "k", scalar));
     let mass = constant("mass", "m", scalar);
     let inertia = constant("inertia", "I", Type::MATRIX);
     let gyrostat = section.keep(optional(section, "gyrostat", vocabulary, Type::VECTOR));
@@ -80,7 +82,7 @@ pub fn rubber(
         let read = |text| formula(&text, vocabulary, "`moment`", kind, Reach::Phase);
         text.map(read).transpose()
     }));
-    Some(System::Rubber(Box::new(Rubber {
+    let body = RigidBody {
         mass: mass?,
         inertia: inertia?,
         shape: shape?,
@@ -91,7 +93,11 @@ pub fn rubber(
         gyrostat: gyrostat?,
         potential: potential?,
         moment: moment?,
-    })))
+    };
+    Some(match way.spins {
+        true => System::Spinning(Box::new(Spinning(body))),
+        false => System::Rubber(Box::new(Rubber(body))),
+    })
 }
 
 /// Reads a body with a flat part on a sphere; `None` where there is a mistake.

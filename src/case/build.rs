@@ -256,19 +256,22 @@ fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
 
 /// Extends a support function that is not homogeneous of degree 1 off the unit sphere.
 fn extend_support(parts: &mut Parts) {
-    let shape = match &parts.model.system {
-        System::Rubber(body) => &body.shape,
+    let surface = |system: &System| match system {
         System::Ball(ball) => match &ball.surface {
-            Surface::Support(shape) => shape,
-            Surface::Level(_) => return,
+            Surface::Support(shape) => Some(shape.clone()),
+            Surface::Level(_) => None,
         },
-        _ => return,
+        _ => system.body().map(|body| body.shape.clone()),
     };
-    let Some(extended) = homogeneous::extension(&parts.model, shape) else { return };
+    let Some(shape) = surface(&parts.model.system) else { return };
+    let Some(extended) = homogeneous::extension(&parts.model, &shape) else { return };
     match &mut parts.model.system {
-        System::Rubber(body) => body.shape = extended,
         System::Ball(ball) => ball.surface = Surface::Support(extended),
-        _ => {}
+        system => {
+            if let Some(body) = system.body_mut() {
+                body.shape = extended;
+            }
+        }
     }
 }
 

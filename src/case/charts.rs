@@ -39,7 +39,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
         let Some(index) = model.state.iter().position(|variable| variable.name == name) else {
             broken = true;
             if !section.mistakes().has_failed(&name) {
-                let message = format!("`{}` is no state variable", key.get_ref());
+                let message = format!("`{}` is not a state variable", key.get_ref());
                 let remedy = "a chart gives a formula for each state variable".to_string();
                 let problem = Problem::Other { message, remedy };
                 section.mistakes().add(Mistake::at(key.span(), problem));

@@ -93,7 +93,14 @@ pub fn read_motion(
     taken: &[String],
 ) -> Result<MotionClaim, Mistake> {
     let model = context.model;
-    let mut stated = MOTIONS.iter().chain(STATEMENTS).filter(|key| section.value(key).is_some());
+    // A companion of a claim about motion, such as density = "none", may be a statement elsewhere.
+    let motion = MOTIONS.iter().find(|key| section.value(key).is_some()).copied();
+    let accompanies = |key: &&&str| Motion::companions(motion.unwrap_or_default()).contains(*key);
+    let mut stated = MOTIONS
+        .iter()
+        .chain(STATEMENTS)
+        .filter(|key| section.value(key).is_some())
+        .filter(|key| !accompanies(key));
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
     section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat());
     let entries = Entries { section, model };
@@ -144,7 +151,7 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
     let entries = Entries { section, model: context.model };
     match given.as_slice() {
         ["density"] if section.text("density")?.is_some_and(|text| text.value == "none") => {
-            let message = "that there is no density is claimed near a fixed point".to_string();
+            let message = "the absence of a density is claimed near a fixed point".to_string();
             let remedy =
                 "write no-density-near = { x = \"…\" }, the point where the divergence is not 0";
             Err(entries.complaint("density", message, remedy))
@@ -203,7 +210,7 @@ fn place(section: &Section<'_>, context: &Context<'_>) -> Result<(Place, bool), 
                     equations.join(", ")
                 ),
             };
-            Err(other(&text, format!("`{equation}` is no place of this case"), &remedy))
+            Err(other(&text, format!("`{equation}` is not a place of this case"), &remedy))
         }
     }
 }
@@ -213,7 +220,11 @@ pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
-            Err(other(&text, format!("`{}` is no row of the paper's tables", text.value), &remedy))
+            Err(other(
+                &text,
+                format!("`{}` is not a row of the paper's tables", text.value),
+                &remedy,
+            ))
         }
         found => Ok(found.map(|text| text.value)),
     }

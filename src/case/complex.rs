@@ -1,4 +1,4 @@
-//! Complex numbers in lists: `a ± b*i` is a pair of conjugate ones.
+//! Complex numbers in lists; `a ± b*i` is a pair of conjugate numbers.
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
@@ -7,7 +7,7 @@ use crate::claim::Complex;
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Reach, Vocabulary};
 
-/// Signs between the two parts.
+/// Signs between real and imaginary part.
 const SIGNS: [&str; 2] = ["±", "+/-"];
 
 /// Reads `a`, or `a ± b*i`, where a may be left out.
@@ -18,7 +18,7 @@ pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
     let behind = place + length;
     let (real, imaginary) = (written[..place].trim(), written[behind..].trim());
     let Some(factor) = factor_of_i(imaginary) else {
-        let message = "what stands behind ± is no multiple of i".to_string();
+        let message = "the term after ± is not a multiple of i".to_string();
         let remedy = "write a ± b*i for two conjugate numbers, and two real ones apart".to_string();
         let span = text.locate(behind..written.len());
         return Err(Mistake::at(span, Problem::Other { message, remedy }));
@@ -30,7 +30,7 @@ pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
     Ok((part(real, 0..place)?, Some(part(factor, behind..text.value.len())?)))
 }
 
-/// b of b*i, with 1 for i itself.
+/// Reads the factor b of `b*i`, which is 1 for `i`.
 fn factor_of_i(text: &str) -> Option<&str> {
     if text == "i" {
         return Some("1");

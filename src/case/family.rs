@@ -105,7 +105,7 @@ impl Key {
                     let range = own.map_or(Ok(0..size), |(_, low, high)| bound(*low, *high))?;
                     Ok(Index::Each(index, range))
                 }
-                _ => Err(wrong(format!("`{text}` is no index"), FORM)),
+                _ => Err(wrong(format!("`{text}` is not an index"), FORM)),
             }
         });
         let indices = indices.collect::<Result<Vec<Index>, Unreadable>>()?;
@@ -128,7 +128,8 @@ fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, 
         Some((canonical_name(name.trim())?, end(low)?, end(high)?))
     };
     let read = |part: &str| {
-        range(part).ok_or_else(|| wrong(format!("`{}` is no range of an index", part.trim()), FORM))
+        range(part)
+            .ok_or_else(|| wrong(format!("`{}` is not a range of indices", part.trim()), FORM))
     };
     list.split(',').map(read).collect()
 }

@@ -3,7 +3,7 @@
 use super::error::{Mistake, Problem};
 use super::section::Section;
 use super::systems::Reading;
-use crate::mechanics::{Entry, Meaning, Potential, Quantity, Shape, Surface, System};
+use crate::mechanics::{Entry, Meaning, Quantity, Shape, Surface, System};
 
 /// Checks that the definition of a body does not depend on quantities it determines: the potential
 /// on U, the surface on h, a moment of forces on the acceleration.
@@ -21,22 +21,16 @@ pub fn none(
         Shape::Contact(formula) => Some(("contact", formula.clone())),
         Shape::Arbitrary(_) | Shape::ArbitraryProfile(_) => None,
     };
-    let (shape, moment) = match system {
-        System::Rubber(body) => (of_shape(&body.shape), body.moment.clone()),
+    let (body, moment) = (system.body(), system.moment().cloned());
+    let shape = match system {
         System::Ball(ball) => match &ball.surface {
-            Surface::Support(shape) => (of_shape(shape), None),
-            Surface::Level(_) => (None, None),
+            Surface::Support(shape) => of_shape(shape),
+            Surface::Level(_) => None,
         },
-        _ => (None, None),
+        _ => body.and_then(|body| of_shape(&body.shape)),
     };
-    let potential = match system {
-        System::Rubber(body) => body.potential.clone(),
-        _ => None,
-    };
-    let potential = match potential {
-        Some(Potential::Formula(formula)) => Some(("potential", formula)),
-        _ => None,
-    };
+    let potential = body.and_then(|body| body.potential.as_ref()?.formula().cloned());
+    let potential = potential.map(|formula| ("potential", formula));
     let given = [
         (shape, &[Support, OwnPotential][..], "write it by γ and the parameters"),
         (potential, &[OwnPotential], "write it by γ, h and the parameters"),

@@ -76,14 +76,14 @@ fn pairs(section: &Section<'_>, state: &[Variable], blocks: &mut Blocks) -> Resu
     for item in list {
         let both = match item.get_ref() {
             DeValue::Array(both) if both.len() == 2 => both,
-            _ => return Err(wrong(item, "this is no pair".to_string())),
+            _ => return Err(wrong(item, "this is not a pair".to_string())),
         };
         let index = |place: usize| {
             let text = section.as_text("pairs", &both[place])?;
             let name = canonical_name(&text.value).unwrap_or_default();
             let found = state.iter().position(|variable| variable.name == name);
             found.ok_or_else(|| {
-                wrong(&both[place], format!("`{}` is no state variable", text.value))
+                wrong(&both[place], format!("`{}` is not a state variable", text.value))
             })
         };
         let (q, p) = (index(0)?, index(1)?);

@@ -132,7 +132,7 @@ fn named(
         .map(|text| {
             let name = canonical_name(&text.value).unwrap_or_default();
             variables.iter().position(|variable| variable.name == name).ok_or_else(|| {
-                let message = format!("`{}` is no state variable", text.value);
+                let message = format!("`{}` is not a state variable", text.value);
                 other(text, message, "declare it in [state]")
             })
         })
@@ -168,7 +168,7 @@ fn algebra(
                 Err(other(&text, message, "write quasi-velocities = [\"ω\"] with ω a vector"))
             }
             (found, _) => {
-                let message = format!("`{found}` is no algebra that is known");
+                let message = format!("`{found}` is not a known algebra");
                 let remedy = "write \"so(3)\", or leave it out: the commutators are computed from \
                               [field] where the coordinates are as many as the velocities";
                 Err(other(&text, message, remedy))
@@ -238,7 +238,7 @@ fn force(
         _ => None,
     });
     let Some(velocity) = velocity else {
-        let message = format!("`{key}` is no coordinate or quasi-velocity");
+        let message = format!("`{key}` is not a coordinate or quasi-velocity");
         return Err(other(text, message, "name what the force acts on"));
     };
     let first: usize = variables[..velocity].iter().map(Variable::len).sum();

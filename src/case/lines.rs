@@ -23,7 +23,7 @@ impl std::str::FromStr for Line {
             "L=0" => Ok(Line::Equator),
             "l=0" => Ok(Line::Meridian),
             "l=π/2" => Ok(Line::QuarterMeridian),
-            _ => Err(format!("`{text}` is no line; write L=0, l=0 or l=π/2")),
+            _ => Err(format!("`{text}` is not a line; write L=0, l=0 or l=π/2")),
         }
     }
 }

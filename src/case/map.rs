@@ -30,7 +30,7 @@ pub(super) fn no_open_constant(root: &Section<'_>, model: &Model) {
     let is_open = images.iter().any(|image| model.has_antiderivative(image));
     if let (true, Some(section)) = (is_open, root.table("map")) {
         root.mistakes().add(section.complaint(Problem::Other {
-            message: "an image has no ∫ in it: its constant is open".to_string(),
+            message: "an image cannot contain ∫, whose constant is open".to_string(),
             remedy: "write the antiderivative out".to_string(),
         }));
     }

@@ -18,6 +18,7 @@ mod field;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
+mod kinds;
 mod lagrangian;
 mod lines;
 mod lists;
@@ -39,6 +40,7 @@ mod velocities;
 mod weights;
 
 use serde::Serialize;
+use std::io::{self, Read};
 use std::path::Path;
 
 use crate::claim::absence::Absence;
@@ -62,8 +64,8 @@ pub struct Case {
     pub title: String,
     /// Publication that the case is taken from.
     pub source: String,
-    /// `rubber-plane`, `rubber-sphere`, `flat-base`, `ball-on-surface`, `nonholonomic`,
-    /// `vakonomic`, `field` or `map`.
+    /// `rubber-plane`, `rubber-sphere`, `rolling-plane`, `rolling-sphere`, `flat-base`,
+    /// `ball-on-surface`, `nonholonomic`, `vakonomic`, `field` or `map`.
     pub system: String,
     /// Equations and names.
     pub model: Model,
@@ -100,8 +102,8 @@ pub struct Column {
     pub words: Vec<(String, String)>,
 }
 
-/// Rows of the paper's tables.
-pub const TABLE_ROWS: [&str; 9] = [
+/// Rows of the papers' tables, and those of the table of rolling with and without spin.
+pub const TABLE_ROWS: [&str; 13] = [
     "body",
     "inertia",
     "surface",
@@ -111,6 +113,10 @@ pub const TABLE_ROWS: [&str; 9] = [
     "structure",
     "gyrostat",
     "generalisation",
+    "rubber-plane",
+    "rolling-plane",
+    "rubber-sphere",
+    "rolling-sphere",
 ];
 
 /// A claim with its expectation.
@@ -209,6 +215,27 @@ impl Case {
                 (text, case)
             }
             Err(error) => (String::new(), Err(io(error))),
+        }
+    }
+
+    /// Reads a case from a stream, such as standard input; also returns its text.
+    pub fn read_from(input: impl Read, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
+        let mut bytes = Vec::new();
+        let read = input.take(MAX_BYTES + 1).read_to_end(&mut bytes);
+        let text = read.and_then(|_| {
+            String::from_utf8(bytes)
+                .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "the text is not UTF-8"))
+        });
+        match text {
+            Ok(text) if text.len() as u64 > MAX_BYTES => {
+                let size = Problem::TooLarge(text.len() as u64, MAX_BYTES);
+                (String::new(), Err(CaseError::whole(size)))
+            }
+            Ok(text) => {
+                let case = Self::parse(&text, settings);
+                (text, case)
+            }
+            Err(error) => (String::new(), Err(CaseError::whole(Problem::Io(error)))),
         }
     }
 

@@ -72,7 +72,7 @@ impl std::str::FromStr for Angle {
         match quarter {
             Some(turns) => Ok(Angle::QuarterTurns(turns as u32)),
             None => plain.parse().map(Angle::Radians).map_err(|_| {
-                format!("`{text}` is no angle; write 0, π/2, π, 3π/2, or a number of radians")
+                format!("`{text}` is not an angle; write 0, π/2, π, 3π/2, or a number of radians")
             }),
         }
     }
@@ -97,7 +97,7 @@ impl std::str::FromStr for Direction {
             "up" => Ok(Direction::Up),
             "down" => Ok(Direction::Down),
             "both" => Ok(Direction::Both),
-            _ => Err(format!("`{text}` is no direction; write \"up\", \"down\" or \"both\"")),
+            _ => Err(format!("`{text}` is not a direction; write \"up\", \"down\" or \"both\"")),
         }
     }
 }
@@ -128,7 +128,7 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
         energy: energy
             .value
             .parse()
-            .map_err(|_| wrong(&energy, format!("`{}` is no number", energy.value)))?,
+            .map_err(|_| wrong(&energy, format!("`{}` is not a number", energy.value)))?,
         direction,
         orbits: section.count("orbits", MOST)?,
         crossings: section.count("crossings", MOST)?,

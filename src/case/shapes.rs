@@ -201,7 +201,7 @@ fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<Recipe, Refusal> {
         "inertia" | "axisymmetric" | "full" => {
             Err(format!("`{shape}` is a tensor of ℝ³ and has no size: {shape}(a..b)"))?
         }
-        other => Err(format!("`{other}(a..b)` is no kind of parameter"))?,
+        other => Err(format!("`{other}(a..b)` is not a kind of parameter"))?,
     };
     sized(recipe.kind())?;
     Ok(recipe)

@@ -11,14 +11,12 @@ use super::order::{Item, Stage};
 use super::parameters::Setting;
 use super::section::{Section, Text};
 use super::state::{self, State, TIME};
-use super::{ball, body, feedback, hamiltonian, lagrangian, map, shadows};
+use super::{kinds, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
-    Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Model, Parameter, Quantity, Range,
-    Reach, System, Variable, Vocabulary, of_ball, of_flat_base, of_lagrangian, of_rubber,
+    Chart, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, Reach, System, Variable,
+    Vocabulary,
 };
-
-const SYSTEMS: &str = "rubber-plane, rubber-sphere, flat-base, ball-on-surface, nonholonomic, vakonomic, field or map";
 
 /// A model with its chart and draws.
 pub struct Parts {
@@ -41,7 +39,7 @@ pub(super) struct Reading<'r, 's> {
     pub root: &'r Section<'s>,
     pub settings: &'r [Setting],
     pub assumed: &'r Assumed,
-    arbitrary: Arbitrary<'r>,
+    pub arbitrary: Arbitrary<'r>,
     pub vocabulary: Vocabulary,
     pub parameters: Vec<Parameter>,
     /// Parameters that are lists: vectors, or diagonal matrices.
@@ -57,12 +55,6 @@ pub(super) struct Reading<'r, 's> {
     /// Names of the system that the file redefines.
     pub hidden: Vec<String>,
 }
-
-fn equation(text: &str, function: LevelFunction) -> LevelEquation {
-    LevelEquation { text: text.to_string(), function, root: None }
-}
-
-type Read = Option<(System, Chart)>;
 
 impl<'r, 's> Reading<'r, 's> {
     /// A reading that has not begun.
@@ -95,22 +87,13 @@ impl<'r, 's> Reading<'r, 's> {
     /// `None` if the system is not known.
     pub fn read(mut self) -> Option<(String, Parts)> {
         let text = self.kind()?;
-        let read = match text.value.as_str() {
-            "rubber-plane" => self.rubber(&text, false),
-            "rubber-sphere" => self.rubber(&text, true),
-            "flat-base" => self.flat_base(&text),
-            "ball-on-surface" => self.ball(&text),
-            "nonholonomic" => self.lagrangian(false),
-            "vakonomic" => self.lagrangian(true),
-            "field" => self.field(),
-            "map" => map::system(&mut self),
-            found => {
-                let message = format!("unknown system `{found}`");
-                let remedy = format!("write {SYSTEMS}");
-                self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
-                return None;
-            }
+        let Some((_, reader)) = kinds::SYSTEMS.iter().find(|(name, _)| *name == text.value) else {
+            let message = format!("unknown system `{}`", text.value);
+            let remedy = format!("write {}", kinds::names());
+            self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
+            return None;
         };
+        let read = reader(&mut self, &text);
         self.name_rates();
         self.settle(Stage::Rates);
         let is_whole = read.is_some();
@@ -164,118 +147,11 @@ impl<'r, 's> Reading<'r, 's> {
                 None
             }
             None => {
-                let remedy = format!("add system = \"…\" with {SYSTEMS}");
+                let remedy = format!("add system = \"…\" with {}", kinds::names());
                 self.mistakes().add(self.root.missing("system", &remedy));
                 None
             }
         }
-    }
-
-    fn rubber(&mut self, name: &Text, curved: bool) -> Read {
-        let nothing = DeTable::new();
-        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
-        let features = body::features(&section, curved, &self.vocabulary);
-        let own = [("ω", Type::VECTOR), ("γ", Type::VECTOR)];
-        self.declare(&own, &[], of_rubber(features), name);
-        self.further_state();
-        self.settle(Stage::State);
-        let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
-        let system = body::rubber(&section, curved, &arbitrary, names, &mut self.parameters);
-        section.finish();
-        self.further_rates(own.len());
-        let system = system?;
-        self.mistakes().keep(feedback::none(self, &section, &system))?;
-        self.level = vec![
-            equation("|γ| = 1", LevelFunction::UnitNormal),
-            equation("(ω,γ) = 0", LevelFunction::NoSpin),
-        ];
-        Some((system, Chart::Rolling))
-    }
-
-    fn flat_base(&mut self, name: &Text) -> Read {
-        let nothing = DeTable::new();
-        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
-        let near = Draw::Of(Line::All, Range::between((-3, 2), (3, 2)));
-        let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
-        let draws = [near.clone(), near.clone(), near.clone(), near];
-        self.declare(&own, &draws, of_flat_base(), name);
-        self.further_state();
-        self.settle(Stage::State);
-        let system = body::flat_base(&section, &self.vocabulary);
-        section.finish();
-        self.further_rates(own.len());
-        Some((system?, Chart::Free))
-    }
-
-    fn ball(&mut self, name: &Text) -> Read {
-        let nothing = DeTable::new();
-        let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
-        let by_support = section.value("surface").is_none();
-        let second = if by_support { "γ" } else { "r" };
-        let own = [("M", Type::VECTOR), (second, Type::VECTOR)];
-        let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
-        let draws = if by_support { Vec::new() } else { vec![near; 6] };
-        self.declare(&own, &draws, of_ball(by_support), name);
-        if section.value("potential").is_some() {
-            let (meaning, reach) = (Meaning::Quantity(Quantity::Potential), Reach::Phase);
-            self.vocabulary.add("U", meaning, Type::Scalar, reach);
-        }
-        self.further_state();
-        self.settle(Stage::State);
-        let arbitrary = self.arbitrary;
-        let system = ball::read(&section, &arbitrary, &mut self.vocabulary, &mut self.parameters);
-        section.finish();
-        self.further_rates(own.len());
-        let system = system?;
-        self.mistakes().keep(feedback::none(self, &section, &system))?;
-        if by_support {
-            self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
-        }
-        Some((system, if by_support { Chart::Sphere } else { Chart::Free }))
-    }
-
-    fn lagrangian(&mut self, vakonomic: bool) -> Read {
-        self.own_state(
-            Reach::Configuration,
-            "add a table [state] with q = \"-2..2\", \"q'\" = \"-2..2\" for each variable",
-        );
-        let section = self.root.table("lagrangian");
-        if section.is_none() && self.root.value("lagrangian").is_none() {
-            let remedy = "add a table [lagrangian] with kinetic = \"…\"";
-            let mut missing = self.root.missing("lagrangian", remedy);
-            missing.span = self.root.value("system").map(toml::Spanned::span);
-            self.mistakes().add(missing);
-        }
-        let section = section?;
-        let constraints = section.texts("constraints").map_or(0, |texts| texts.len());
-        for (name, quantity, kind, reach) in of_lagrangian(constraints) {
-            self.name(&name, quantity, kind, reach);
-        }
-        self.settle(Stage::State);
-        let system = lagrangian::read(self, &section, vakonomic);
-        section.finish();
-        let own = self.read_level();
-        let system = system?;
-        self.level.extend(own?);
-        Some((system, Chart::Free))
-    }
-
-    fn field(&mut self) -> Read {
-        if self.root.value("hamiltonian").is_some() {
-            return hamiltonian::system(self);
-        }
-        self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
-        let section = self.root.table("field");
-        if section.is_none() && self.root.value("field").is_none() {
-            let remedy = "add a table [field] with \"x'\" = \"…\" for each variable";
-            self.mistakes().add(self.root.missing("field", remedy));
-        }
-        self.settle(Stage::State);
-        let variables = &self.state.variables;
-        let rates = section.and_then(|section| field::rates(&section, variables, &self.vocabulary));
-        let level = self.read_level();
-        self.level = level?;
-        Some((System::Field(rates?), Chart::Free))
     }
 
     /// Reads the equations of `[level]`; `None` if one is wrong.
@@ -309,7 +185,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Adds the system's state and quantities; a parameter may hide a quantity, not a variable.
-    fn declare(
+    pub fn declare(
         &mut self,
         own: &[(&str, Type)],
         draws: &[Draw],
@@ -354,7 +230,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Reads the variables that `[state]` adds to a built-in system.
-    fn further_state(&mut self) {
+    pub fn further_state(&mut self) {
         let first = self.state.variables.len();
         if let Some(section) = self.root.table("state") {
             state::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state);
@@ -370,7 +246,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Reads the rates of the added variables.
-    fn further_rates(&mut self, own: usize) {
+    pub fn further_rates(&mut self, own: usize) {
         let further = &self.state.variables[own..];
         let nothing = DeTable::new();
         let section = match self.root.table("field") {

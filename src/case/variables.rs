@@ -86,7 +86,7 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
                 && images[index].text().trim() == own.name
         })
     };
-    let is_body = matches!(model.system, System::Rubber(_) | System::Ball(_));
+    let is_body = model.system.body().is_some() || matches!(model.system, System::Ball(_));
     let keeps_body = is_body && stays(1) && state[0].kind == Type::VECTOR;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
         Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
@@ -138,7 +138,7 @@ fn structure(
         ("e(3)", 2..) if target.state[1].kind == Type::VECTOR => &[(0, 0), (0, 1)],
         ("so(3)", 1..) => &[(0, 0)],
         (found, _) => {
-            let message = format!("`{found}` is no bracket of these variables");
+            let message = format!("`{found}` is not a bracket of these variables");
             let remedy =
                 "write \"e(3)\" for two vectors, \"so(3)\" for one, or give blocks".to_string();
             return Err(Mistake::at(text.span, Problem::Other { message, remedy }));
@@ -164,7 +164,7 @@ fn block(
     };
     let pair = key.get_ref().split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
     let Some((i, j)) = pair else {
-        let message = format!("`{}` is no pair of the bracket's variables", key.get_ref());
+        let message = format!("`{}` is not a pair of the bracket's variables", key.get_ref());
         let remedy = "write \"M,γ\" = \"hat(γ)\"".to_string();
         return Err(Mistake::at(key.span(), Problem::Other { message, remedy }));
     };

@@ -5,7 +5,7 @@ use super::Claim;
 use super::error::{Mistake, Problem};
 use super::section::{Section, Text};
 use crate::formula::{Formula, Scope, Symbol, Type, WeightSystem, canonical_name};
-use crate::mechanics::{LevelFunction, Meaning, Model, Potential, Quantity, System};
+use crate::mechanics::{LevelFunction, Meaning, Model, Quantity};
 use crate::number::rational::Rational;
 
 /// Checks all formulas of a case in every known base dimension, and notes the mistakes.
@@ -16,7 +16,7 @@ pub fn check(
     claims: &[Claim],
 ) {
     let mut systems = Vec::new();
-    if matches!(model.system, System::Rubber(_) | System::FlatBase(_)) {
+    if model.system.has_time_weights() {
         systems.push(time(model));
     }
     if let Some(section) = dimensions {
@@ -56,7 +56,7 @@ fn of_case(root: &Section<'_>, model: &Model, weights: &mut WeightSystem) -> Res
         LevelFunction::Formula(formula) => Some(formula),
         _ => None,
     });
-    for formula in of_system(&model.system).into_iter().chain(level) {
+    for formula in model.system.dimensional().into_iter().chain(level) {
         checked(root, formula, weights)?;
     }
     Ok(())
@@ -82,38 +82,10 @@ fn checked(
     })
 }
 
-/// Formulas that define the system and are not lists of parameters.
-fn of_system(system: &System) -> Vec<&Formula> {
-    match system {
-        System::Rubber(body) => {
-            let potential = match &body.potential {
-                Some(Potential::Formula(formula)) => Some(formula),
-                _ => None,
-            };
-            body.shape.formula().into_iter().chain(potential).collect()
-        }
-        System::FlatBase(_) => Vec::new(),
-        System::Ball(ball) => match &ball.potential {
-            Some(Potential::Formula(formula)) => vec![formula],
-            _ => Vec::new(),
-        },
-        System::Lagrangian(lagrangian) => {
-            let energies = [&lagrangian.kinetic].into_iter().chain(&lagrangian.potential);
-            energies.chain(&lagrangian.constraints).collect()
-        }
-        System::Hamiltonian(hamiltonian) => hamiltonian.functions().collect(),
-        System::Field(rates) | System::Map(rates) => rates.iter().collect(),
-    }
-}
-
 /// Weights under t → λt: ω and S scale as 1/t, energies as 1/t², shapes and masses not at all.
 fn time(model: &Model) -> WeightSystem {
     let mut weights = WeightSystem::new("time");
-    let curved = match &model.system {
-        System::Rubber(body) => body.curvature.is_some(),
-        System::FlatBase(_) => true,
-        _ => false,
-    };
+    let curved = model.system.is_curved();
     let own = model.own_variables();
     for (symbol, entry) in model.vocabulary.iter() {
         let weight = match entry.meaning {
@@ -140,12 +112,7 @@ fn time(model: &Model) -> WeightSystem {
             weights.set(symbol, Rational::from(weight));
         }
     }
-    let gyrostat = match &model.system {
-        System::Rubber(body) => body.gyrostat.as_ref(),
-        System::FlatBase(body) => body.gyrostat.as_ref(),
-        _ => None,
-    };
-    if let Some(gyrostat) = gyrostat
+    if let Some(gyrostat) = model.system.gyrostat()
         && let Some((symbol, _)) = model.vocabulary.lookup(gyrostat.text())
     {
         weights.set(symbol, Rational::from(-1));

@@ -47,7 +47,7 @@ impl Components {
         for (name, formula) in given {
             let entry = model.vocabulary.find(&name);
             let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
-                let message = format!("`{name}` is no state variable");
+                let message = format!("`{name}` is not a state variable");
                 return Err(from.complaint(key, message, "name state variables"));
             };
             if model.state[index].kind != formula.value_type() {

@@ -1,5 +1,5 @@
-//! Existence of a density by the criterion (γ, rot χ) = 0 and its forms on the sphere and for a
-//! flat base.
+//! Existence of a density by the criterion (γ, rot χ) = 0 and its forms on the sphere, for a flat
+//! base, and for a body that may spin (C₁ = 0 and C₂ = 0).
 //!
 //! If it vanishes on the whole level, a density of the configuration exists, by quadrature, for
 //! every potential and gyrostat. Otherwise no density of the configuration exists; and, when the
@@ -8,7 +8,7 @@
 
 use num_traits::One;
 
-use super::{Context, Objection, Reader, Statement};
+use super::{Context, Objection, Reader, Statement, rest};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
@@ -33,7 +33,7 @@ macro_rules! decided_by_criterion {
         }
 
         fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-            jet.phase.model().system.criterion(&jet.phase).into_iter().collect()
+            jet.phase.model().system.criterion(&jet.phase)
         }
 
         fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
@@ -60,10 +60,21 @@ impl Statement for AnalyticDensity {
     }
 
     fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
-        (!model.system.is_free()).then_some(
+        let is_excluded = model.system.is_free() || rest::without_density(model).is_some();
+        (!is_excluded).then_some(
             "the criterion is not zero, which excludes every density of the configuration alone; with \
              a potential, a moment or a gyrostat one that depends on ω as well stays open",
         )
+    }
+
+    fn remark_on_refutation(&self, model: &Model) -> Option<String> {
+        if model.system.is_free() {
+            return None;
+        }
+        let rest = rest::without_density(model)?;
+        Some(format!(
+            "excluded are densities that are positive and C¹ near the rest {rest}, where C₁ is not 0"
+        ))
     }
 }
 
@@ -93,7 +104,7 @@ fn objection(model: &Model, name: &str) -> Option<Objection> {
     let because = |reason: &str| Some(Objection { message: format!("`{name}` {reason}"), remedy });
     if !model.system.has_criterion() {
         return because(
-            "is decided by a criterion that is known for the rubber systems and the flat base only",
+            "is decided by a criterion that is known for rolling bodies and the flat base only",
         );
     }
     if let Some(moment) = model.system.moment() {

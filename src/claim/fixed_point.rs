@@ -9,13 +9,13 @@ use crate::formula::{Formula, Type};
 use crate::mechanics::calculus::{Jet, characteristic_polynomial};
 use crate::scalar::Scalar;
 
-/// The field vanishes at a point; the linear part has these eigenvalues there, and otherwise 0, or
-/// this characteristic polynomial.
+/// The claim that the field vanishes at a point, and that its linear part there has given
+/// eigenvalues, the others being 0, or a given characteristic polynomial.
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
     point: Components,
     spectrum: Option<Vec<Complex>>,
-    /// The coefficients of λ^(n-1), …, 1.
+    /// Coefficients of λ^(n-1), …, 1.
     polynomial: Option<Vec<Formula>>,
 }
 
@@ -38,7 +38,7 @@ impl Statement for FixedPoint {
         }
         let parts = spectrum.iter().flatten().flat_map(|(a, b)| [a].into_iter().chain(b));
         if parts.into_iter().any(|formula| model.has_antiderivative(formula)) {
-            let message = "an eigenvalue has no ∫ in it: its constant is open".to_string();
+            let message = "an eigenvalue cannot contain ∫, whose constant is open".to_string();
             return Err(from.complaint("spectrum", message, "write the antiderivative out"));
         }
         Ok(Self { point, spectrum, polynomial: read_polynomial(from)? })
@@ -94,13 +94,13 @@ fn read_polynomial<R: Reader>(from: &R) -> Result<Option<Vec<Formula>>, R::Error
         return Err(from.complaint(key, message, "give scalars"));
     }
     if polynomial.iter().any(|formula| model.has_antiderivative(formula)) {
-        let message = "a coefficient has no ∫ in it: its constant is open".to_string();
+        let message = "a coefficient cannot contain ∫, whose constant is open".to_string();
         return Err(from.complaint(key, message, "write the antiderivative out"));
     }
     Ok(Some(polynomial))
 }
 
-/// The coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) Π((λ - a_i)² + b_i²) λ^(n-k).
+/// Computes the coefficients of λ^(n-1), …, 1 in Π(λ - λ_i) Π((λ - a_i)² + b_i²) λ^(n-k).
 fn coefficients<T: Scalar>(eigenvalues: &[(T, Option<T>)], dimension: usize) -> Vec<T> {
     let mut polynomial = vec![T::zero(); dimension + 1];
     polynomial[0] = T::one();

@@ -11,25 +11,25 @@ use crate::mechanics::calculus::{Jet, dot, transversals};
 use crate::mechanics::{Model, Phase};
 use crate::scalar::Scalar;
 
-/// A form that is kept, or multiplied by a factor.
+/// The claim that a form is invariant, or conformally invariant with a factor c.
 #[derive(Clone, Debug)]
 pub struct Form {
     form: Shape,
-    /// 0 where none is given, or 1 for a map.
+    /// Factor c, if one is given.
     factor: Option<Formula>,
     text: String,
 }
 
-/// Its coefficients.
+/// Coefficients of a form.
 #[derive(Clone, Debug)]
 enum Shape {
-    /// Σ α_i dx_i
+    /// A 1-form Σ α_i dx_i.
     One(Components),
-    /// ½ Σ Ω_ij dx_i∧dx_j
+    /// A 2-form ½ Σ Ω_ij dx_i∧dx_j.
     Two(Vec<Block>),
 }
 
-/// The coefficients of dx∧dy for two variables; those of dy∧dx follow.
+/// Coefficients of dx∧dy for two variables; those of dy∧dx have the opposite sign.
 #[derive(Clone, Debug)]
 struct Block {
     row: usize,
@@ -37,7 +37,7 @@ struct Block {
     entries: Formula,
 }
 
-/// A square matrix by its rows.
+/// A square matrix, by rows.
 type Square<T> = Vec<Vec<T>>;
 
 impl Block {
@@ -49,7 +49,7 @@ impl Block {
         };
         let pair = name.split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
         let Some((row, column)) = pair else {
-            let message = format!("`{name}` is no pair of state variables");
+            let message = format!("`{name}` is not a pair of state variables");
             let remedy = "write \"q,p\" = \"E\" for the coefficients of dq∧dp";
             return Err(from.complaint(Form::NAME, message, remedy));
         };
@@ -70,12 +70,12 @@ impl Block {
     }
 }
 
-/// Index of the first component of a state variable.
+/// Returns the index of the first component of a state variable.
 fn start(model: &Model, variable: usize) -> usize {
     model.state[..variable].iter().map(|before| before.len()).sum()
 }
 
-/// Ω, and what vanishes where it is skew.
+/// Evaluates Ω, and its symmetric part, which has to vanish.
 fn matrix<T: Scalar>(blocks: &[Block], at: &Phase<'_, T>) -> (Square<T>, Vec<T>) {
     let model = at.model();
     let mut whole = vec![vec![T::zero(); model.dimension()]; model.dimension()];
@@ -97,7 +97,7 @@ fn matrix<T: Scalar>(blocks: &[Block], at: &Phase<'_, T>) -> (Square<T>, Vec<T>)
     (whole, symmetric)
 }
 
-/// ΣA_ki B_kj
+/// Computes AᵀB, entry by entry.
 fn product<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> Square<T> {
     let n = a.len();
     let entry = |i: usize, j: usize| -> T { (0..n).map(|k| a[k][i] * b[k][j]).sum() };
@@ -109,6 +109,7 @@ fn transposed<T: Scalar>(a: &[Vec<T>]) -> Square<T> {
 }
 
 impl Form {
+    /// Returns c; by default the form is invariant: c = 0 for a field, 1 for a map.
     fn factor<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         match &self.factor {
             Some(factor) => phase.scalar(factor),
@@ -117,7 +118,7 @@ impl Form {
         }
     }
 
-    /// L_vα - cα, or Φ*α - cα.
+    /// Computes L_vα - cα, or Φ*α - cα.
     fn of_one<T: Scalar>(&self, form: &Components, jet: &Jet<'_, T>) -> Vec<T> {
         let factor = self.factor(&jet.phase);
         let here = form.at(&jet.phase);
@@ -134,7 +135,7 @@ impl Form {
         moved.into_iter().zip(here).map(|(moved, here)| moved - factor * here).collect()
     }
 
-    /// L_vΩ - cΩ, or Φ*Ω - cΩ, and what vanishes where Ω is skew.
+    /// Computes L_vΩ - cΩ, or Φ*Ω - cΩ, and the symmetric part of Ω.
     fn of_two<T: Scalar>(&self, blocks: &[Block], jet: &Jet<'_, T>) -> (Square<T>, Vec<T>) {
         let factor = self.factor(&jet.phase);
         let (here, symmetric) = matrix(blocks, &jet.phase);
@@ -161,7 +162,7 @@ impl Form {
     }
 }
 
-/// A form on what is left of vectors without their parts across the level: α_i - Σ dF_i α(n).
+/// Restricts a form to the level: α_i - Σ dF_i α(n).
 fn along_level<T: Scalar>(form: &mut [T], gradients: &[Vec<T>], across: &[Vec<T>]) {
     let parts: Vec<T> = across.iter().map(|n| dot(form, n)).collect();
     for (part, gradient) in parts.iter().zip(gradients) {

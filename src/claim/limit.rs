@@ -17,7 +17,7 @@ pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result
     match entry.map(|entry| (entry.meaning, entry.kind)) {
         Some((Meaning::Parameter(index), Type::Scalar)) => Ok(index),
         _ => {
-            let message = format!("`{name}` is no scalar parameter");
+            let message = format!("`{name}` is not a scalar parameter");
             Err(from.complaint(key, message, "name the parameter that goes to 0"))
         }
     }

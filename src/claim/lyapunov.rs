@@ -1,7 +1,7 @@
 //! Lyapunov functions: L_vF ≤ 0, or F∘Φ ≤ F for a map, at all states of the declared ranges.
 //!
-//! x ≤ 0 is the equation x + |x| = 0: where the modulus is x, intervals have to show that there are no
-//! states, and a state at which x is positive refutes.
+//! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
+//! at no state, and refuted by a state at which x is positive.
 
 use super::{Context, Objection, Reader, Statement};
 use crate::formula::{Formula, Type};
@@ -10,7 +10,7 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
-/// F does not grow; its rate is the formula that is given, if one is.
+/// The claim that F does not increase; a given rate is compared with the formula.
 #[derive(Clone, Debug)]
 pub struct Lyapunov {
     function: Formula,
@@ -18,7 +18,7 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
-    /// L_vF, or F∘Φ - F.
+    /// Computes L_vF, or F∘Φ - F.
     fn growth<T: Scalar>(&self, jet: &Jet<'_, T>) -> T {
         match jet.phase.model().system.is_map() {
             true => jet.image().scalar(&self.function) - jet.phase.scalar(&self.function),

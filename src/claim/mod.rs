@@ -20,10 +20,11 @@ mod lax;
 mod limit;
 mod lyapunov;
 pub mod motion;
-mod no_density;
+mod no_density_near;
 mod place;
 mod point;
 mod reader;
+mod rest;
 mod statement;
 mod symmetry_field;
 mod transformation;
@@ -49,7 +50,7 @@ pub use integral::Integral;
 pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;
-pub use no_density::NoDensity;
+pub use no_density_near::NoDensityNear;
 pub use place::Place;
 
 pub use reader::{Complex, Reader};
@@ -163,7 +164,7 @@ kinds! {
     Map,
     Independent,
     FixedPoint,
-    NoDensity,
+    NoDensityNear,
     Lyapunov,
     Form,
     Limit,
@@ -263,6 +264,11 @@ impl Kind {
     /// Returns a remark for a claim that holds.
     pub fn remark(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.remark(model))
+    }
+
+    /// Returns a remark for a claim that is refuted.
+    pub fn remark_on_refutation(&self, model: &Model) -> Option<String> {
+        of_each!(self, statement => statement.remark_on_refutation(model))
     }
 }
 

@@ -9,7 +9,7 @@ pub fn read_point<R: Reader>(from: &R, key: &'static str) -> Result<Option<Compo
     let point = Components::read(from, key, &model.vocabulary.only_parameters())?;
     let mut formulas = point.iter().flat_map(Components::formulas);
     if formulas.any(|formula| model.has_antiderivative(formula)) {
-        let message = "a point has no ∫ in it: its constant is open".to_string();
+        let message = "a point cannot contain ∫, whose constant is open".to_string();
         return Err(from.complaint(key, message, "write the antiderivative out"));
     }
     drop(formulas);

@@ -31,7 +31,7 @@ pub struct Objection {
 impl Objection {
     /// Makes the objection to an ∫ where its value matters.
     pub fn open_constant(what: &str) -> Self {
-        let message = format!("{what} has no ∫ in it: its constant is open");
+        let message = format!("{what} cannot contain ∫, whose constant is open");
         Self { message, remedy: "write the antiderivative out" }
     }
 }
@@ -134,6 +134,11 @@ pub trait Statement: Clone {
 
     /// Returns a remark for a claim that holds.
     fn remark(&self, _: &Model) -> Option<String> {
+        None
+    }
+
+    /// Returns a remark for a claim that is refuted.
+    fn remark_on_refutation(&self, _: &Model) -> Option<String> {
         None
     }
 }

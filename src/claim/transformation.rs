@@ -151,7 +151,7 @@ impl Statement for Symmetry {
             return Err(from.complaint("time", message, "write λ by numbers and parameters"));
         }
         if time.as_ref().is_some_and(|time| vanishes(from.model(), time)) {
-            let message = "`time` is 0, and t → 0 is no change of time".to_string();
+            let message = "`time` is 0, and t → 0 is not a change of time".to_string();
             return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
         }
         Ok(Self { map, time })

@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(arena.nodes.len(), 1, "the summands are gone");
         let x = arena.push_symbol(Symbol(9), Type::Scalar, 4..5);
         let sum = arena.push_folded(Operation::Add(sum, x), &[sum, x], 0..5, |_| None);
-        assert_eq!(arena.constant(sum), None, "x is no number");
+        assert_eq!(arena.constant(sum), None, "x is not a number");
     }
 
     #[test]

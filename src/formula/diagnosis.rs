@@ -23,12 +23,12 @@ impl Parser<'_> {
             (None, _) => format!("{}…", self.text(&token.span)),
         };
         if matches!((left.value_type, b.as_str()), (Type::Vector(_), "x" | "X")) {
-            let error = FormulaError::new(token.span, "there is no operator between two vectors");
+            let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("a cross product is written `{a} × …`"));
         }
         let types = (left.value_type, right.map(|right| right.value_type));
         if matches!(types, (Type::Vector(_), Some(Type::Vector(_)))) {
-            let error = FormulaError::new(token.span, "there is no operator between two vectors");
+            let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("write `({a},{b})` or `{a} × {b}`"));
         }
         FormulaError::new(token.span, "missing `*`").with_help(format!("write `{a}*{b}`"))

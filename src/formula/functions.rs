@@ -230,8 +230,8 @@ impl Builder<'_> {
     }
 }
 
-/// All spellings of all functions.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
+/// Lists all spellings of all functions.
+pub fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().flat_map(|function| function.names.iter().copied())
 }
 

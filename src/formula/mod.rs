@@ -80,6 +80,7 @@ use crate::scalar::Scalar;
 pub(crate) use algebra::adjugate;
 pub use error::FormulaError;
 pub(crate) use error::excerpt;
+pub use functions::names as function_names;
 pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;

@@ -17,11 +17,14 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::body::{Shape, axis, scalar, vector};
+use super::chart::Chart;
 use super::configuration::Configuration;
+use super::dynamics::Dynamics;
 use super::linear::{adjugate, determinant_with};
 use super::phase::Phase;
 use super::quantity::Quantity;
 use super::rubber::{NORMAL, Potential};
+use super::system::System;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
@@ -63,81 +66,12 @@ pub struct BallMotion<T> {
 }
 
 impl BallOnSurface {
-    /// Returns the rates (M', r') or (M', γ').
-    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let at = &phase.configuration;
-        let momentum = vector(at.variable(0));
-        let BallMotion { normal, centre, omega, centre_rate, normal_rate } = *self.motion(phase);
-        let (mass, radius) = (self.value(at, &self.mass), self.value(at, &self.radius));
-        let turn = self.turn(at);
-        let turned = self.rotating_frame;
-        // Converts rates in a turning frame to the fixed frame.
-        let absolute = |x: Vector3<T>, rate: Vector3<T>| {
-            if turned { rate + turn.cross(&x) } else { rate }
-        };
-        let normal_moves = absolute(normal, normal_rate);
-        let mut rate = normal_moves.cross(&omega.cross(&normal)) * (mass * radius * radius);
-        if self.rotation.is_some() {
-            let contact_moves = absolute(centre, centre_rate) - normal_moves * radius;
-            rate -= normal.cross(&turn.cross(&contact_moves)) * (mass * radius);
-        }
-        if let Some(force) = self.slope_of_potential(at, &centre) {
-            rate -= normal.cross(&force) * radius;
-        }
-        if turned {
-            rate -= turn.cross(&momentum);
-        }
-        let second = match self.surface {
-            Surface::Level(_) => centre_rate,
-            Surface::Support(_) => normal_rate,
-        };
-        rate.iter().chain(second.iter()).copied().collect()
-    }
-
-    /// Energy (M,ω)/2 + U.
-    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+    fn total_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let (at, motion) = (&phase.configuration, self.motion(phase));
         let kinetic = vector(at.variable(0)).dot(&motion.omega) / T::from(2.0);
         match &self.potential {
             None => kinetic,
             Some(potential) => kinetic + potential.value(&at_centre(at, &motion.centre)),
-        }
-    }
-
-    /// Evaluates a quantity named in a formula.
-    pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
-        let at = &phase.configuration;
-        match (quantity, &self.surface) {
-            (Quantity::Energy, _) => Value::Scalar(self.energy(phase)),
-            (Quantity::Potential, _) => {
-                let centre = at_centre(at, &self.motion(phase).centre);
-                let value = self.potential.as_ref().map(|potential| potential.value(&centre));
-                Value::Scalar(value.unwrap_or_else(T::zero))
-            }
-            (Quantity::AngularVelocity, _) => Value::Vector(self.motion(phase).omega),
-            (Quantity::Normal, _) => Value::Vector(self.motion(phase).normal),
-            (Quantity::NormalRate, _) => Value::Vector(self.motion(phase).normal_rate),
-            (Quantity::Contact, _) => Value::Vector(self.motion(phase).centre),
-            (Quantity::ContactRate, _) => Value::Vector(self.motion(phase).centre_rate),
-            (Quantity::SurfaceGradient, Surface::Level(f)) => Value::Vector(gradient(at, f)),
-            (Quantity::Slope, Surface::Support(shape)) => Value::Matrix(-shape.contact(at).1),
-            _ => self.configuration_quantity(quantity, at),
-        }
-    }
-
-    /// Evaluates a quantity that needs no derivative.
-    pub fn configuration_quantity<T: Scalar>(
-        &self,
-        quantity: Quantity,
-        at: &Configuration<'_, T>,
-    ) -> Value<T> {
-        match (quantity, &self.surface) {
-            (Quantity::RollingMoment, _) => {
-                let radius = self.value(at, &self.radius);
-                Value::Scalar(self.value(at, &self.mass) * radius * radius)
-            }
-            (Quantity::Support, Surface::Support(shape)) => Value::Scalar(shape.support(at)),
-            _ => Value::Scalar(T::undefined()),
         }
     }
 
@@ -210,6 +144,117 @@ impl BallOnSurface {
                 let normal_rate = (adjugate * centre_rate).map(|x| x / determinant);
                 BallMotion { normal, centre, omega, centre_rate, normal_rate }
             }
+        }
+    }
+}
+
+impl Dynamics for BallOnSurface {
+    fn functions(&self) -> Vec<&Formula> {
+        let surface = match &self.surface {
+            Surface::Level(formula) => Some(formula),
+            Surface::Support(shape) => shape.formula(),
+        };
+        surface.into_iter().chain(self.dimensional()).collect()
+    }
+
+    fn dimensional(&self) -> Vec<&Formula> {
+        self.potential.iter().filter_map(Potential::formula).collect()
+    }
+
+    fn chart(&self) -> Chart {
+        match self.surface {
+            Surface::Level(_) => Chart::Free,
+            Surface::Support(_) => Chart::Sphere,
+        }
+    }
+
+    /// Returns the rates (M', r') or (M', γ').
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
+        let momentum = vector(at.variable(0));
+        let BallMotion { normal, centre, omega, centre_rate, normal_rate } = *self.motion(phase);
+        let (mass, radius) = (self.value(at, &self.mass), self.value(at, &self.radius));
+        let turn = self.turn(at);
+        let turned = self.rotating_frame;
+        // Converts rates in a turning frame to the fixed frame.
+        let absolute = |x: Vector3<T>, rate: Vector3<T>| {
+            if turned { rate + turn.cross(&x) } else { rate }
+        };
+        let normal_moves = absolute(normal, normal_rate);
+        let mut rate = normal_moves.cross(&omega.cross(&normal)) * (mass * radius * radius);
+        if self.rotation.is_some() {
+            let contact_moves = absolute(centre, centre_rate) - normal_moves * radius;
+            rate -= normal.cross(&turn.cross(&contact_moves)) * (mass * radius);
+        }
+        if let Some(force) = self.slope_of_potential(at, &centre) {
+            rate -= normal.cross(&force) * radius;
+        }
+        if turned {
+            rate -= turn.cross(&momentum);
+        }
+        let second = match self.surface {
+            Surface::Level(_) => centre_rate,
+            Surface::Support(_) => normal_rate,
+        };
+        rate.iter().chain(second.iter()).copied().collect()
+    }
+
+    /// Energy (M,ω)/2 + U.
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.total_energy(phase))
+    }
+
+    fn energy_is_inhomogeneous(&self) -> bool {
+        self.potential.is_some() || self.rotation.is_some()
+    }
+
+    fn without_forces(&self) -> Option<System> {
+        let free = || System::Ball(Box::new(Self { potential: None, ..self.clone() }));
+        self.rotation.is_none().then(free)
+    }
+
+    fn potential(&self) -> Option<&Potential> {
+        self.potential.as_ref()
+    }
+
+    fn has_arbitrary_function(&self) -> bool {
+        let is_open = |shape: &Shape| shape.formula().is_none();
+        let surface = matches!(&self.surface, Surface::Support(shape) if is_open(shape));
+        surface || matches!(self.potential, Some(Potential::Arbitrary(_)))
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        let at = &phase.configuration;
+        match (quantity, &self.surface) {
+            (Quantity::Energy, _) => Value::Scalar(self.total_energy(phase)),
+            (Quantity::Potential, _) => {
+                let centre = at_centre(at, &self.motion(phase).centre);
+                let value = self.potential.as_ref().map(|potential| potential.value(&centre));
+                Value::Scalar(value.unwrap_or_else(T::zero))
+            }
+            (Quantity::AngularVelocity, _) => Value::Vector(self.motion(phase).omega),
+            (Quantity::Normal, _) => Value::Vector(self.motion(phase).normal),
+            (Quantity::NormalRate, _) => Value::Vector(self.motion(phase).normal_rate),
+            (Quantity::Contact, _) => Value::Vector(self.motion(phase).centre),
+            (Quantity::ContactRate, _) => Value::Vector(self.motion(phase).centre_rate),
+            (Quantity::SurfaceGradient, Surface::Level(f)) => Value::Vector(gradient(at, f)),
+            (Quantity::Slope, Surface::Support(shape)) => Value::Matrix(-shape.contact(at).1),
+            _ => self.configuration_quantity(quantity, at),
+        }
+    }
+
+    fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        match (quantity, &self.surface) {
+            (Quantity::RollingMoment, _) => {
+                let radius = self.value(at, &self.radius);
+                Value::Scalar(self.value(at, &self.mass) * radius * radius)
+            }
+            (Quantity::Support, Surface::Support(shape)) => Value::Scalar(shape.support(at)),
+            _ => Value::Scalar(T::undefined()),
         }
     }
 }

@@ -18,7 +18,8 @@ pub enum Chart {
     /// Chart of the rubber systems: γ = s(2u, 2v, 1 - u² - v²)/(1 + u² + v²), ω = γ×a + tγ, where
     /// s = 1 on γ² = 1 and t = 0 on (ω,γ) = 0.
     Rolling,
-    /// Chart of a ball on a surface: M free, γ as for the rubber systems.
+    /// Chart of a ball on a surface and of a body that may spin: M or ω free, γ as for the rubber
+    /// systems.
     Sphere,
     /// Independent components of the state; there is no level set, or it does not apply.
     Free,

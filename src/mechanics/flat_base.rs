@@ -14,9 +14,11 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::body::{matrix, scalar, vector};
+use super::dynamics::Dynamics;
 use super::linear::point_mass;
 use super::phase::Phase;
 use super::quantity::Quantity;
+use super::system::System;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
@@ -58,23 +60,8 @@ impl FlatBase {
         }
     }
 
-    /// Returns the rates (ω₁', ω₂', r₁', r₂').
-    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let [w1, w2, r1, r2] = coordinates(phase);
-        let constants = self.constants(phase);
-        let [a1, a2] = constants.acceleration([w1, w2], [r1, r2]);
-        vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
-    }
-
-    /// Computes ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂, zero exactly when a density ρ(r₁,r₂) exists; ∂ln ρ/∂r_i = ξ_i,
-    /// (4.8).
-    pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
-        let [from_1, from_2] = self.criterion_terms(phase);
-        from_2 - from_1
-    }
-
     /// Computes ∂ξ₁/∂r₂ and ∂ξ₂/∂r₁.
-    pub fn criterion_terms<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
+    fn criterion_terms<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
         let [_, _, r1, r2] = coordinates(phase);
         let constants = self.constants(phase).map(Dual::from_re);
         let still = Dual::from_re;
@@ -82,30 +69,88 @@ impl FlatBase {
         [constants.xi1([still(r1), along(r2)]).eps, constants.xi2([along(r1), still(r2)]).eps]
     }
 
-    /// Computes (ξ₁, ξ₂) with div v = -(ξ,r').
-    pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> [T; 2] {
-        let [_, _, r1, r2] = coordinates(phase);
-        let constants = self.constants(phase);
-        [constants.xi1([r1, r2]), constants.xi2([r1, r2])]
-    }
-
-    /// Energy ½(ω,Ĩω).
-    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+    fn kinetic_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let [w1, w2, r1, r2] = coordinates(phase);
         let omega = Vector3::new(w1, w2, T::zero());
         let inertia = self.constants(phase).inertia_at([r1, r2]);
         omega.dot(&(inertia * omega)) / T::from(2.0)
     }
+}
 
-    /// Evaluates a quantity named in a formula.
-    pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+impl Dynamics for FlatBase {
+    fn functions(&self) -> Vec<&Formula> {
+        Vec::new()
+    }
+
+    /// Returns the rates (ω₁', ω₂', r₁', r₂').
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let [w1, w2, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        let [a1, a2] = constants.acceleration([w1, w2], [r1, r2]);
+        vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
+    }
+
+    /// Energy ½(ω,Ĩω).
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.kinetic_energy(phase))
+    }
+
+    fn energy_is_inhomogeneous(&self) -> bool {
+        self.gyrostat.is_some()
+    }
+
+    fn without_forces(&self) -> Option<System> {
+        Some(System::FlatBase(Box::new(Self { gyrostat: None, ..self.clone() })))
+    }
+
+    fn gyrostat(&self) -> Option<&Formula> {
+        self.gyrostat.as_ref()
+    }
+
+    fn has_time_weights(&self) -> bool {
+        true
+    }
+
+    fn is_curved(&self) -> bool {
+        true
+    }
+
+    fn has_criterion(&self) -> bool {
+        true
+    }
+
+    /// Computes ∂ξ₂/∂r₁ - ∂ξ₁/∂r₂, zero exactly when a density ρ(r₁,r₂) exists; ∂ln ρ/∂r_i = ξ_i,
+    /// (4.8).
+    fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let [from_1, from_2] = self.criterion_terms(phase);
+        vec![from_2 - from_1]
+    }
+
+    /// Computes (ξ₁, ξ₂) with div v = -(ξ,r').
+    fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        let [_, _, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        Some(vec![constants.xi1([r1, r2]), constants.xi2([r1, r2])])
+    }
+
+    /// Sum of the squares of both terms.
+    fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let [a, b] = self.criterion_terms(phase);
+        a * a + b * b
+    }
+
+    fn conserves_level(&self) -> bool {
+        true
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let [w1, w2, r1, r2] = coordinates(phase);
         let constants = self.constants(phase);
         match quantity {
             Quantity::Contact => Value::Vector(Vector3::new(r1, r2, constants.height)),
             Quantity::AngularVelocity => Value::Vector(Vector3::new(w1, w2, T::zero())),
             Quantity::InertiaAtContact => Value::Matrix(constants.inertia_at([r1, r2])),
-            _ => Value::Scalar(self.energy(phase)),
+            _ => Value::Scalar(self.kinetic_energy(phase)),
         }
     }
 }

@@ -2,10 +2,12 @@
 
 use super::calculus::dot;
 use super::configuration::Configuration;
+use super::dynamics::Dynamics;
 use super::model::Variable;
 use super::phase::Phase;
+use super::quantity::Quantity;
 use super::variables::{Block, symmetric_part, tensor};
-use crate::formula::Formula;
+use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
 /// A Hamiltonian system: a function and a bracket of the state variables.
@@ -20,14 +22,33 @@ pub struct Hamiltonian {
 }
 
 impl Hamiltonian {
+    /// Evaluates H.
+    fn energy_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        at.scalar(&self.function)
+    }
+
+    /// Computes P + Pᵀ, which vanishes where P is a bracket.
+    pub fn symmetric_part<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let state = &phase.model().state;
+        symmetric_part(state, &tensor(state, &self.blocks, phase))
+    }
+}
+
+impl Dynamics for Hamiltonian {
+    /// Returns H and the given blocks.
+    fn functions(&self) -> Vec<&Formula> {
+        let blocks = self.blocks.iter().flatten().flatten().filter_map(Block::typed);
+        [&self.function].into_iter().chain(blocks).collect()
+    }
+
     /// Returns the rates of all components of the state.
-    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let state = &phase.model().state;
         let gradient: Vec<T> = (0..phase.model().dimension())
             .map(|index| {
                 let mut direction = vec![T::zero(); phase.model().dimension()];
                 direction[index] = T::one();
-                self.energy(&phase.configuration.lift_state(&direction)).eps
+                self.energy_at(&phase.configuration.lift_state(&direction)).eps
             })
             .collect();
         let rows = tensor(state, &self.blocks, phase);
@@ -39,20 +60,11 @@ impl Hamiltonian {
         rates
     }
 
-    /// Evaluates H.
-    pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        at.scalar(&self.function)
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.energy_at(&phase.configuration))
     }
 
-    /// Computes P + Pᵀ, which vanishes where P is a bracket.
-    pub fn symmetric_part<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let state = &phase.model().state;
-        symmetric_part(state, &tensor(state, &self.blocks, phase))
-    }
-
-    /// Iterates over H and the given blocks.
-    pub fn functions(&self) -> impl Iterator<Item = &Formula> {
-        let blocks = self.blocks.iter().flatten().flatten().filter_map(Block::typed);
-        [&self.function].into_iter().chain(blocks)
+    fn quantity<T: Scalar>(&self, _: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        Value::Scalar(self.energy_at(&phase.configuration))
     }
 }

@@ -1,22 +1,22 @@
-//! Maps of phase space: the image of a state, and how volumes change.
+//! Maps of phase space: images of states, derivatives, and factors of volume.
 
 use super::calculus::{Jet, determinant, transversals};
 use super::phase::Phase;
 use crate::scalar::Scalar;
 
 impl<'m, T: Scalar> Jet<'m, T> {
-    /// The point Φ(x).
+    /// Returns the point Φ(x).
     pub fn image(&self) -> Phase<'m, T> {
         self.phase.with(&[], self.phase.field())
     }
 
-    /// The columns of DΦ.
+    /// Computes the columns of DΦ.
     pub fn derivative(&self) -> Vec<Vec<T>> {
         let along = self.along_axes().iter();
         along.map(|beside| beside.field().iter().map(|image| image.eps).collect()).collect()
     }
 
-    /// The factor of volumes: det DΦ, or on a level that of σ with dx = dF_1∧…∧dF_k∧σ.
+    /// Computes the factor of volumes: det DΦ, or on a level that of σ with dx = dF_1∧…∧dF_k∧σ.
     ///
     /// The latter is the determinant of DΦ along the level with n_j(x) ↦ n_j(Φ(x)) across it, where
     /// dF_i(n_j) = δ_ij: dx takes both times the value of σ on what is left.

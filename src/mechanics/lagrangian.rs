@@ -16,9 +16,11 @@ use num_dual::Dual;
 
 use super::calculus::{dot, solve_positive};
 use super::configuration::Configuration;
+use super::dynamics::Dynamics;
 use super::model::Variable;
 use super::phase::Phase;
-use crate::formula::Formula;
+use super::quantity::Quantity;
+use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
 /// A Lagrangian system with constraints.
@@ -77,9 +79,23 @@ struct Motion<T> {
     drift: Vec<T>,
 }
 
-impl Lagrangian {
+impl Dynamics for Lagrangian {
+    fn functions(&self) -> Vec<&Formula> {
+        let carried = self.roles.iter().flat_map(|role| match role {
+            Role::Carried(rate) => rate.as_slice(),
+            _ => &[],
+        });
+        let forces = self.forces.iter().map(|(_, force)| force);
+        self.dimensional().into_iter().chain(forces).chain(carried).collect()
+    }
+
+    fn dimensional(&self) -> Vec<&Formula> {
+        let energies = [&self.kinetic].into_iter().chain(&self.potential);
+        energies.chain(&self.constraints).collect()
+    }
+
     /// Returns the rates of all components of the state.
-    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let motion = self.motion(phase);
         let mut field = motion.drift;
         for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
@@ -91,13 +107,26 @@ impl Lagrangian {
         field
     }
 
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.energy_at(&phase.configuration))
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        Value::Scalar(match quantity {
+            Quantity::Reaction(index) => self.reaction(phase, index),
+            _ => self.energy_at(&phase.configuration),
+        })
+    }
+}
+
+impl Lagrangian {
     /// Returns the reaction μ_k of a constraint.
-    pub fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
+    fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
         self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::undefined)
     }
 
     /// Energy (w, ∂𝓛/∂w) - 𝓛, which is L₂ - L₀ + Σ λ_k b_k in a vakonomic system.
-    pub fn energy<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+    fn energy_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let state = at.components();
         let mut stretch = vec![T::zero(); state.len()];
         for component in self.velocities(&at.model.state) {

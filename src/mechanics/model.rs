@@ -83,9 +83,9 @@ pub struct RootEquation {
 /// The function whose zeros are the points of a level equation.
 #[derive(Clone, Debug)]
 pub enum LevelFunction {
-    /// Function F0 = (γ,γ) - 1 of the rubber systems.
+    /// Function F0 = (γ,γ) - 1 of a rolling body or a ball.
     UnitNormal,
-    /// Function F1 = (ω,γ) of the constraint without spinning.
+    /// Function F1 = (ω,γ) of the constraint that prevents spinning.
     NoSpin,
     /// The difference of the two sides of an equation.
     Formula(Formula),

@@ -143,7 +143,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         })
     }
 
-    /// Returns the intermediate results of a rubber system's equations.
+    /// Returns the intermediate results of a rolling body's equations.
     pub(super) fn motion(&self, make: impl FnOnce() -> Motion<T>) -> &Motion<T> {
         self.motion.get_or_init(|| Box::new(make()))
     }

@@ -71,6 +71,44 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// Returns the definition of the quantity in a few words.
+    pub fn meaning(self) -> &'static str {
+        use Quantity::*;
+        match self {
+            Contact => "from the mass centre to the point of contact, −∇h",
+            ContactRate => "rate of r in the body, (∂r/∂γ)γ'",
+            Support => "support function",
+            Slope => "the matrix ∂r/∂γ = −Hess h",
+            InertiaAtContact => "inertia at the point of contact, I + m r²E − m r⊗r",
+            BallInertia => "I + m(R² + c²)E − m c⊗c",
+            ScriptInertia => "J + 2mR(γ,c)E",
+            Kappa => "1/(1 + kR)",
+            Gamma => "E − k ∂r/∂γ",
+            GammaDeterminant => "determinant of Γ across γ",
+            Potential => "potential",
+            Energy => "energy",
+            AngularAcceleration => "angular acceleration",
+            AngularVelocity => "angular velocity",
+            NormalRate => "rate of γ",
+            Multiplier => "multiplier of (ω,γ) = 0",
+            Normal => "unit normal",
+            SurfaceGradient => "gradient of the surface's function",
+            RollingMoment => "mR²",
+            Reaction(_) => "reaction of a constraint",
+            Rate(_) => "rate of a state variable",
+            AxisCosine => "γ₃/|γ|",
+            Profile => "support function on the unit sphere, of z",
+            ProfileRate => "dp/dz",
+            ProfileF1 => "z p' − p",
+            ProfileF2 => "−(z p + (1 − z²) p')",
+            ProfileF1Rate => "z p''",
+            ProfileF2Rate => "f1 − (1 − z²) p''",
+            ProfileG1 => "I₁z² + I₃(1 − z²) + m p²",
+            ProfileG1Rate => "dg1/dz",
+            ProfileG2 => "I₁ + m r²",
+        }
+    }
+
     /// Whether the quantity is a function of the position alone.
     pub fn is_of_position(self) -> bool {
         use Quantity::*;
@@ -105,6 +143,13 @@ pub struct Features {
 
 /// Lists the quantities of a rubber body: name, quantity, type, dependence.
 pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+    let mut all = of_spinning(features);
+    all.push(("λ0", Quantity::Multiplier, Type::Scalar, Reach::Phase));
+    all
+}
+
+/// Lists the quantities of a body that may spin.
+pub fn of_spinning(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     use Reach::{Configuration, Parameters, Phase};
     use Type::Scalar;
@@ -120,7 +165,6 @@ pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach
         ("energy", Energy, Scalar, Phase),
         ("ω'", AngularAcceleration, VECTOR, Phase),
         ("γ'", NormalRate, VECTOR, Phase),
-        ("λ0", Multiplier, Scalar, Phase),
     ];
     if features.radius {
         all.push(("J", BallInertia, MATRIX, Parameters));

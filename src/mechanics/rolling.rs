@@ -1,4 +1,5 @@
-//! Equations of rubber rolling for given numerical data of the body and its support.
+//! Equations of rubber rolling for given numerical data of the body and its support; without λ they
+//! are those of a body that may spin.
 //!
 //! All vectors are in the body frame: γ is the normal from the support towards the body, r the
 //! vector from the mass centre to the point of contact, k the signed curvature of the support (0

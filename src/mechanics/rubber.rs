@@ -2,15 +2,19 @@
 //!
 //! The values of a case are substituted into the equations of [`rolling`](super::rolling).
 
-use nalgebra::{Matrix3, Vector3};
+use std::ops::{Deref, DerefMut};
 
-use super::across::AcrossNormal;
-use super::body::{Polynomial, Shape, axis, matrix, scalar, vector};
+use nalgebra::Vector3;
+
+use super::body::{Polynomial, scalar, vector};
+use super::chart::Chart;
 use super::configuration::Configuration;
-use super::linear::{isotropic, point_mass};
+use super::dynamics::Dynamics;
 use super::phase::Phase;
-use super::rolling::{Motion, Pose};
-use crate::formula::Formula;
+use super::quantity::Quantity;
+use super::rigid::RigidBody;
+use super::system::System;
+use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
 /// Index of ω among the state variables.
@@ -18,23 +22,22 @@ pub const OMEGA: usize = 0;
 /// Index of γ among the state variables.
 pub const NORMAL: usize = 1;
 
-/// A body rolling on a plane or sphere.
+/// A body that rolls without slipping or spinning.
 #[derive(Clone, Debug)]
-pub struct Rubber {
-    /// Mass m.
-    pub mass: Formula,
-    /// Central inertia tensor I.
-    pub inertia: Formula,
-    /// Surface of the body.
-    pub shape: Shape,
-    /// Signed curvature k of the support; `None` for the plane.
-    pub curvature: Option<Formula>,
-    /// Constant angular momentum S of a rotor.
-    pub gyrostat: Option<Formula>,
-    /// Potential U(γ).
-    pub potential: Option<Potential>,
-    /// Moment of forces that have no potential U(γ).
-    pub moment: Option<Formula>,
+pub struct Rubber(pub RigidBody);
+
+impl Deref for Rubber {
+    type Target = RigidBody;
+
+    fn deref(&self) -> &RigidBody {
+        &self.0
+    }
+}
+
+impl DerefMut for Rubber {
+    fn deref_mut(&mut self) -> &mut RigidBody {
+        &mut self.0
+    }
 }
 
 /// A potential U(γ), or U(r) of a ball on a surface.
@@ -57,92 +60,115 @@ pub fn angular_velocity<T: Scalar>(at: &Configuration<'_, T>) -> Vector3<T> {
 }
 
 impl Rubber {
+    /// Computes ω' and λ.
+    pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
+        self.motion(phase).acceleration(self.torque(phase))
+    }
+}
+
+impl Dynamics for Rubber {
+    fn functions(&self) -> Vec<&Formula> {
+        self.0.functions()
+    }
+
+    fn dimensional(&self) -> Vec<&Formula> {
+        self.0.dimensional()
+    }
+
+    fn chart(&self) -> Chart {
+        Chart::Rolling
+    }
+
     /// Returns the rates (ω', γ').
-    pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let (acceleration, _) = self.acceleration(phase);
         let rate = self.motion(phase).normal_rate;
         acceleration.iter().chain(rate.iter()).copied().collect()
     }
 
-    pub(super) fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p Motion<T> {
-        phase.motion(|| {
-            let at = &phase.configuration;
-            let (r, slope) = self.shape.contact(at);
-            Motion::of(Pose {
-                omega: angular_velocity(at),
-                gamma: normal(at),
-                mass: scalar(at.evaluate(&self.mass)),
-                curvature: self.curvature_at(at),
-                gamma_across: self.gamma_across(at, &slope),
-                inertia: self.inertia_at(at, &r),
-                r,
-                slope,
-            })
-        })
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.0.energy(phase))
     }
 
-    /// Returns the curvature k of the support, absent on the plane.
-    pub(super) fn curvature_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
-        self.curvature.as_ref().map(|k| scalar(at.evaluate(k)))
+    fn energy_is_inhomogeneous(&self) -> bool {
+        self.is_loaded()
     }
 
-    /// Computes Γ = E - k ∂r/∂γ.
-    pub(super) fn gamma_matrix<T: Scalar>(&self, slope: &Matrix3<T>, k: T) -> Matrix3<T> {
-        isotropic(T::one()) - slope * k
+    fn without_forces(&self) -> Option<System> {
+        self.unloaded().map(|body| System::Rubber(Box::new(Self(body))))
     }
 
-    /// Returns Γ across γ, absent on the plane.
-    pub(super) fn gamma_across<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        slope: &Matrix3<T>,
-    ) -> Option<AcrossNormal<T>> {
-        let make = match self.shape {
-            Shape::Contact(_) => AcrossNormal::general,
-            _ => AcrossNormal::symmetric,
-        };
-        self.curvature_at(at).map(|k| make(slope, k, &normal(at)))
+    fn body(&self) -> Option<&RigidBody> {
+        Some(&self.0)
     }
 
-    pub(super) fn inertia_at<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        r: &Vector3<T>,
-    ) -> Matrix3<T> {
-        let mass = scalar(at.evaluate(&self.mass));
-        matrix(at.evaluate(&self.inertia)) + point_mass(mass, r)
+    fn body_mut(&mut self) -> Option<&mut RigidBody> {
+        Some(&mut self.0)
     }
 
-    /// Computes K.
-    pub(super) fn torque<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vector3<T> {
-        let at = &phase.configuration;
-        let motion = self.motion(phase);
-        let gyrostat = self.gyrostat.as_ref().map(|gyrostat| vector(at.evaluate(gyrostat)));
-        let slope = |potential: &Potential| {
-            Vector3::from_fn(|i, _| potential.value(&at.lift(NORMAL, axis(i))).eps)
-        };
-        let of_potential = self.potential.as_ref().map(|u| motion.moment_of_potential(&slope(u)));
-        let further = self.moment.as_ref().map(|moment| vector(phase.evaluate(moment)));
-        motion.torque(gyrostat, of_potential.into_iter().chain(further))
+    fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        self.known_values(phase)
     }
 
-    /// Computes ω' and λ.
-    pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
-        self.motion(phase).acceleration(self.torque(phase))
+    fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        self.known_divergence(phase)
     }
 
-    /// Energy ½(ω,Ĩω) + U.
-    pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
-        let at = &phase.configuration;
-        let kinetic = self.motion(phase).kinetic_energy();
-        match &self.potential {
-            None => kinetic,
-            Some(potential) => kinetic + potential.value(at),
+    fn has_criterion(&self) -> bool {
+        true
+    }
+
+    fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        vec![self.rotation(&phase.configuration)]
+    }
+
+    fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        Some(self.covector(&phase.configuration).iter().copied().collect())
+    }
+
+    fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let unit = self.inertial_normal(&phase.configuration);
+        unit.dot(&unit)
+    }
+
+    fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        Some(self.volume(at))
+    }
+
+    fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        Some(self.tangential_chi(&phase.configuration).into())
+    }
+
+    fn conserves_level(&self) -> bool {
+        self.is_homogeneous()
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        match quantity {
+            Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase).0),
+            Quantity::Multiplier => Value::Scalar(self.acceleration(phase).1),
+            _ => self.0.quantity(quantity, phase),
         }
+    }
+
+    fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        self.0.configuration_quantity(quantity, at)
     }
 }
 
 impl Potential {
+    /// Returns the formula, unless the potential is arbitrary.
+    pub fn formula(&self) -> Option<&Formula> {
+        match self {
+            Potential::Formula(formula) => Some(formula),
+            Potential::Arbitrary(_) => None,
+        }
+    }
+
     /// Evaluates U at a point of configuration space.
     pub fn value<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         match self {

@@ -22,7 +22,7 @@ use crate::scalar::Scalar;
 
 impl Rubber {
     /// Computes w = (s/D_T) Γᵀa, whose rotation about γ is the criterion; w = a on the plane.
-    pub fn criterion_covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+    pub(super) fn covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let unit = self.inertial_normal(at);
         let Some(k) = self.curvature_at(at) else { return unit };
         let gamma = normal(at);
@@ -35,25 +35,18 @@ impl Rubber {
 
     /// Computes (γ, rot w), zero on the whole sphere exactly when a density ρ(γ) exists; (2.5),
     /// (2.21).
-    pub fn criterion<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+    pub(super) fn rotation<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
-        let slopes = [0, 1, 2]
-            .map(|j| self.criterion_covector(&at.lift(NORMAL, axis(j))).map(|x: Dual<T>| x.eps));
+        let slopes =
+            [0, 1, 2].map(|j| self.covector(&at.lift(NORMAL, axis(j))).map(|x: Dual<T>| x.eps));
         [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
             .into_iter()
             .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
             .sum()
     }
 
-    /// Computes (γ, rot r).
-    pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        let (gamma, (_, slope)) = (normal(at), self.shape.contact(at));
-        let cyclic = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].into_iter();
-        cyclic.map(|(i, j, k)| gamma[i] * (slope[(k, j)] - slope[(j, k)])).sum()
-    }
-
     /// Computes a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ).
-    pub fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+    pub(super) fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
         let (r, _) = self.shape.contact(at);
         let along = adjugate(&self.inertia_at(at, &r)) * gamma;
@@ -62,13 +55,13 @@ impl Rubber {
 
     /// Computes the tangential χ with div v = (χ,ω) on the level, for a body (∂r/∂γ symmetric
     /// across γ); γ×χ = Γ⁻ᵀ(w - ∇ln ρ₀) mod γ, where ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
-    pub fn chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
+    pub(super) fn tangential_chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
         let drift = Vector3::from_fn(|j, _| {
-            let volume = self.reference_density(&at.lift(NORMAL, axis(j)));
+            let volume = self.volume(&at.lift(NORMAL, axis(j)));
             volume.eps / volume.re
         });
-        let covector = self.criterion_covector(at) - drift;
+        let covector = self.covector(at) - drift;
         let turned = match self.gamma_across(at, &self.shape.contact(at).1) {
             None => covector,
             Some(big_gamma) => big_gamma.solve_transposed(&covector),
@@ -77,7 +70,7 @@ impl Rubber {
     }
 
     /// Computes the reference density ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
-    pub fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+    pub(super) fn volume<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
         let (r, slope) = self.shape.contact(at);
         let volume = gamma.dot(&(adjugate(&self.inertia_at(at, &r)) * gamma));
@@ -85,13 +78,5 @@ impl Rubber {
             None => volume,
             Some(big_gamma) => volume * big_gamma.determinant(),
         }
-    }
-
-    /// Computes R₁ + R₂ and R₁R₂ for the principal radii of the body at the contact.
-    pub fn radii<T: Scalar>(&self, at: &Configuration<'_, T>) -> (T, T) {
-        let gamma = normal(at);
-        let (_, slope) = self.shape.contact(at);
-        let along = gamma.dot(&(slope * gamma)) / gamma.dot(&gamma);
-        (along - slope.trace(), across(&slope, &gamma))
     }
 }

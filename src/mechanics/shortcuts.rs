@@ -27,7 +27,7 @@ use crate::scalar::Scalar;
 
 impl Rubber {
     /// Computes values that occur in claims about a body.
-    pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+    pub(super) fn known_values<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let motion = self.motion(phase);
         let Pose { omega, gamma, mass, r, .. } = &motion.pose;
         let (_, multiplier) = self.acceleration(phase);
@@ -47,7 +47,7 @@ impl Rubber {
 
     /// Computes div v where a closed formula is known: on the plane, without a moment besides a
     /// potential.
-    pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+    pub(super) fn known_divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         let known = self.curvature.is_none() && self.moment.is_none();
         known.then(|| OnPlane::of(self.motion(phase)).divergence())
     }

@@ -50,6 +50,9 @@ pub fn report(
         verdict = Verdict::Undecided;
         evidence.reason = Some(limit.to_string());
     }
+    if verdict == Verdict::Refuted {
+        evidence.remark = evidence.remark.or_else(|| claim.kind.remark_on_refutation(&case.model));
+    }
     let place = claim.place.name(&case.model);
     if holds && matches!(claim.kind, Kind::Density(_)) && place != "everywhere" {
         let functions: Vec<&str> = case

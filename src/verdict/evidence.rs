@@ -153,6 +153,9 @@ pub enum Method {
     /// Numbers from motions.
     #[serde(rename = "motion")]
     Motion,
+    /// Enclosures of a closed orbit, in f64.
+    #[serde(rename = "enclosed orbit")]
+    EnclosedOrbit,
     /// A rank modulo a prime, an upper bound on a number of invariants.
     #[serde(rename = "count")]
     Count,
@@ -170,6 +173,7 @@ impl Method {
             Method::DoubleDoubleBall => "double-double ball",
             Method::PreciseBall => "ball of many bits",
             Method::Motion => "motion",
+            Method::EnclosedOrbit => "enclosed orbit",
             Method::Count => "count",
         }
     }
@@ -249,7 +253,8 @@ pub struct Evidence {
     /// Measured quantities, for claims about motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
-    /// For claims of absence that hold: what is excluded, for which parameters.
+    /// For claims of absence that hold: what is excluded, for which parameters. For closed orbits:
+    /// what is proved.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
     /// For claims of absence that fail: what there is, proved.

@@ -110,7 +110,7 @@ impl Bench<'_> {
             finding.settled = Some(Verdict::Refuted);
             finding.evidence.method = Method::PrimeField;
             finding.evidence.reason = Some(format!(
-                "modulo a prime the residual of this {kind} is not 0, so it is no identity"
+                "modulo a prime the residual of this {kind} is not 0, so it is not an identity"
             ));
         }
         exists

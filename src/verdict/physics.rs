@@ -13,14 +13,12 @@ use crate::number::ball::Balls;
 pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let at = &phase.configuration;
     let named = |name: &str| at.named(name);
-    let body = match &phase.model().system {
-        System::Rubber(body) => body,
-        System::FlatBase(body) => {
-            let mass = at.evaluate(&body.mass).scalar();
-            return mass.into_iter().chain(at.evaluate(&body.inertia).components()).collect();
-        }
-        _ => return Vec::new(),
-    };
+    let system = &phase.model().system;
+    if let System::FlatBase(body) = system {
+        let mass = at.evaluate(&body.mass).scalar();
+        return mass.into_iter().chain(at.evaluate(&body.inertia).components()).collect();
+    }
+    let Some(body) = system.body() else { return Vec::new() };
     let mass = at.evaluate(&body.mass).scalar();
     let inertia = at.evaluate(&body.inertia).components();
     let (sum, product) = body.radii(at);

@@ -37,10 +37,12 @@ pub struct PointReport<N = Enclosed> {
     pub divergence: N,
     /// Divergence minus the cofactors of the level functions.
     pub level_divergence: N,
-    /// Covector χ with div v = (χ,ω), for the rubber systems.
+    /// Covector χ with div v = (χ,ω), for rolling bodies.
     pub chi: Option<[N; 3]>,
-    /// Criterion for a density of the configuration, for systems that have one.
+    /// Criterion for a density of the configuration, for systems whose criterion is one number.
     pub criterion: Option<N>,
+    /// Conditions C₁ and C₂ for a density of the configuration, for bodies that may spin.
+    pub conditions: Option<[N; 2]>,
     /// Energy ½(ω,Ĩω) + U, for bodies.
     pub energy: Option<N>,
     /// Values chosen for antiderivatives, whose constants are free.
@@ -155,7 +157,7 @@ impl<'c> Scene<'c> {
                 groups.extend([vec![divergence, divergence - cofactor], Vec::new()]);
             }
             groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
-            groups.push(model.system.criterion(phase).into_iter().collect());
+            groups.push(model.system.criterion(phase));
             groups.push(model.system.energy(phase).into_iter().collect());
             for claim in &case.claims {
                 let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
@@ -194,7 +196,7 @@ impl<'c> Scene<'c> {
         let field = next();
         let (divergences, determinant) = (next(), next().first().cloned());
         let chi = next();
-        let (criterion, energy) = (next().first().cloned(), next().first().cloned());
+        let (criterion, energy) = (next(), next().first().cloned());
         let claims =
             self.case.claims.iter().map(|claim| (claim.name.clone(), next(), next())).collect();
         let antiderivatives = (0..self.inputs - self.point.len())
@@ -211,7 +213,8 @@ impl<'c> Scene<'c> {
             divergence: divergences.first().cloned().unwrap_or_default(),
             level_divergence: divergences.get(1).cloned().unwrap_or_default(),
             chi: <[N; 3]>::try_from(chi).ok(),
-            criterion,
+            criterion: <[N; 1]>::try_from(criterion.clone()).ok().map(|[value]| value),
+            conditions: <[N; 2]>::try_from(criterion).ok(),
             energy,
             antiderivatives,
             claims,

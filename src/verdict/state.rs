@@ -11,7 +11,7 @@ pub enum StateError {
     #[error("`{0}` is not of the form name=value, such as ω=[3/7,0,-1/2] or x=0.5")]
     Malformed(String),
     /// The name is not a state variable.
-    #[error("`{name}` is no state variable; this system has {known}")]
+    #[error("`{name}` is not a state variable; this system has {known}")]
     Unknown {
         /// Name that was given.
         name: String,

@@ -94,9 +94,10 @@ pub const BODIES: [Body; 17] = [
 ];
 
 impl Body {
-    /// Writes the case: no claims, only equations.
-    pub fn case_text(&self) -> String {
-        let system = if self.curved { "rubber-sphere" } else { "rubber-plane" };
+    /// Writes the case of the body, free to spin or not: no claims, only equations.
+    pub fn case_text(&self, spins: bool) -> String {
+        let way = if spins { "rolling" } else { "rubber" };
+        let system = format!("{way}-{}", if self.curved { "sphere" } else { "plane" });
         let mut text = format!("title = \"{}\"\nsystem = \"{system}\"\n", self.name);
         text.push_str(
             "check-weights = false\n[parameters]\nm = \"0.5..2\"\nI = \"full(0.5..5)\"\n",

@@ -1,7 +1,7 @@
 //! The raw equations of motion with multipliers, as one linear system.
 //!
 //! In body axes, v is the velocity of the mass centre, Λ the force at the contact r, λγ the moment
-//! that prevents spinning, F and M the applied force and moment:
+//! that prevents spinning (λ = 0 where the body may spin), F and M the applied force and moment:
 //!
 //! ```text
 //! m(v' + ω×v) = Λ + F                    Iω' + ω×(Iω + S) = r×Λ + λγ + M
@@ -35,8 +35,8 @@ pub struct Acceleration {
 pub const ROUNDINGS: f64 = 64.0;
 
 impl Moment {
-    /// Solves for (v', ω', Λ, λ).
-    pub fn solve(&self) -> Acceleration {
+    /// Solves for (v', ω', Λ, λ), with λ = 0 in place of the last equation if the body `spins`.
+    pub fn solve(&self, spins: bool) -> Acceleration {
         type Square = SMatrix<f64, 10, 10>;
         type Column = SVector<f64, 10>;
         let v = -self.omega.cross(&self.r);
@@ -49,13 +49,16 @@ impl Moment {
         a.fixed_view_mut::<3, 1>(3, 9).copy_from(&-self.gamma);
         a.fixed_view_mut::<3, 3>(6, 0).copy_from(&identity);
         a.fixed_view_mut::<3, 3>(6, 3).copy_from(&-self.r.cross_matrix());
-        a.fixed_view_mut::<1, 3>(9, 3).copy_from(&self.gamma.transpose());
+        match spins {
+            true => a[(9, 9)] = 1.0,
+            false => a.fixed_view_mut::<1, 3>(9, 3).copy_from(&self.gamma.transpose()),
+        }
         let momentum = self.inertia * self.omega + self.rotor;
         let mut b = Column::zeros();
         b.fixed_rows_mut::<3>(0).copy_from(&(self.force - self.omega.cross(&v) * self.mass));
         b.fixed_rows_mut::<3>(3).copy_from(&(self.torque - self.omega.cross(&momentum)));
         b.fixed_rows_mut::<3>(6).copy_from(&-self.omega.cross(&self.r_rate));
-        b[9] = -self.omega.dot(&self.gamma_rate);
+        b[9] = if spins { 0.0 } else { -self.omega.dot(&self.gamma_rate) };
 
         let x = a.lu().solve(&b).expect("the constraints determine the motion");
         let spread = a.singular_values();

@@ -1,4 +1,4 @@
-//! Reports of `liouville bench`: their form, and errors in the order that theory predicts. Times
+//! Reports of `liouville measure bench`: their form, and errors in the order that theory predicts. Times
 //! are reported, never tested.
 
 use std::collections::HashSet;

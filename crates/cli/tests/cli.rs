@@ -2,6 +2,8 @@
 
 #[path = "cli/motion.rs"]
 mod motion;
+#[path = "cli/start.rs"]
+mod start;
 #[path = "cli/wrong.rs"]
 mod wrong;
 
@@ -143,7 +145,7 @@ fn one_bad_file_does_not_stop_the_others() {
     liouville(&["check", path.to_str().expect("UTF-8")])
         .assert()
         .code(2)
-        .stdout(contains("balanced ball"))
+        .stdout(contains("b-good.toml: 1 proved"))
         .stdout(contains("1 file could not be judged"));
 }
 
@@ -207,8 +209,8 @@ fn what_has_nothing_to_show_shows_nothing() {
 }
 
 #[test]
-fn both_tables_come_out_of_the_catalogue() {
-    for (number, columns) in [("1", 6), ("2", 8)] {
+fn the_tables_come_out_of_the_catalogue() {
+    for (number, columns) in [("1", 6), ("2", 8), ("4", 11)] {
         let table = json(&["table", number, "--json"], 0);
         assert_eq!(table["columns"].as_array().map(Vec::len), Some(columns), "table {number}");
         for row in table["rows"].as_array().expect("rows") {

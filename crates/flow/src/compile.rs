@@ -18,6 +18,20 @@ impl Program {
     /// Compiles a field: `rates` and `outputs` as functions of the graph's inputs, which are the
     /// state alone.
     pub fn compile(graph: &Graph, rates: &[Expr], outputs: &[Expr]) -> Result<Self, FlowError> {
+        Self::with_constants(graph, &constants(graph), rates, outputs)
+    }
+
+    /// Compiles a field without rounding: constants such as √2 are rows.
+    pub fn exact(graph: &Graph, rates: &[Expr]) -> Result<Self, FlowError> {
+        Self::with_constants(graph, &vec![None; graph.len()], rates, &[])
+    }
+
+    fn with_constants(
+        graph: &Graph,
+        constants: &[Option<Pair>],
+        rates: &[Expr],
+        outputs: &[Expr],
+    ) -> Result<Self, FlowError> {
         let dimension = rates.len();
         let wanted: Vec<usize> =
             rates.iter().chain(outputs).map(|expr| graph.place(*expr)).collect();
@@ -36,7 +50,6 @@ impl Program {
             circular: Vec::new(),
             thetas: Vec::new(),
         };
-        let constants = constants(graph);
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             let form = match (step, &constants[place]) {
                 (Step::Constant(value), _) => Form::of_constant(value),
@@ -138,7 +151,8 @@ impl Compiler {
                 let (factor, x) = self.factor(a);
                 let out = self.next;
                 let row = self.emit(Rule::Recip(x), Self::product(x, out));
-                Form::of_row(factor.recip().unwrap_or_else(Self::one), row)
+                let nowhere = || FlowError::Singular { time: 0.0, state: Vec::new() };
+                Form::of_row(factor.recip().ok_or_else(nowhere)?, row)
             }
             Step::Unary(function, a) => {
                 let x = self.row(a);

@@ -21,7 +21,9 @@ pub enum FlowError {
         state: Vec<f64>,
     },
     /// The section uses variables that this system does not have.
-    #[error("sections in the variables (1.17) are for a rolling body with the state ω, γ alone")]
+    #[error(
+        "sections in the variables (1.17) are for a body that rolls without spinning, with the state ω, γ alone"
+    )]
     NoAndoyer,
     /// The case has no section.
     #[error("the case has no [section]")]
@@ -33,7 +35,7 @@ pub enum FlowError {
     #[error("the case is a map, and motions are followed of flows")]
     Discrete,
     /// The point does not lie on the sphere.
-    #[error("(l, L/G) = ({l}, {z}) is no point of the section: |L/G| has to be below 1")]
+    #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
     OffSphere {
         /// Coordinate l.
         l: f64,
@@ -93,7 +95,7 @@ pub enum FlowError {
         period: usize,
     },
     /// The point has no separatrices.
-    #[error("the periodic point ({l:.6}, {z:.6}) is no hyperbolic one but of kind: {kind}")]
+    #[error("the periodic point ({l:.6}, {z:.6}) is not hyperbolic but of kind: {kind}")]
     NotHyperbolic {
         /// Coordinate l.
         l: f64,
@@ -102,6 +104,9 @@ pub enum FlowError {
         /// Kind of the periodic point.
         kind: &'static str,
     },
+    /// The field has a sum of more terms than a proof allows for.
+    #[error("the field has a sum of more than a thousand terms")]
+    TooLong,
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -160,8 +165,9 @@ impl FlowError {
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
             FlowError::NotHyperbolic { .. } => {
-                "`liouville periodic` tells what kind a point is; start near a hyperbolic one"
+                "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
+            FlowError::TooLong => "write the field with fewer terms, by [let]",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

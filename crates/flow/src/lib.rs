@@ -37,6 +37,7 @@ mod shadow;
 mod start;
 mod stepper;
 mod swarm;
+mod validated;
 mod variational;
 
 pub use andoyer::spread;
@@ -54,4 +55,5 @@ pub use section::{
 };
 pub use separatrix::{Separatrices, separatrices};
 pub use start::{Start, fixed_parameters};
+pub use validated::{Enclosure, Obstacle, ProvedOrbit, Request, prove};
 pub use variational::Variational;

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 
 use super::error::FlowError;
 use liouville::graph::{Choice, Evaluator, Expr, Graph, Step, Tape, record};
-use liouville::mechanics::{Chart, Model};
+use liouville::mechanics::Model;
 use liouville::number::exact::{Exact, square_root};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
@@ -184,7 +184,7 @@ fn state(model: &Model, inputs: usize, index: usize) -> Result<Vec<Rational>, Fl
     let kept = vec![true; model.level.len()];
     let count = model.dimension();
     let (graph, made) = record(draws.len(), |draws| {
-        let mut state = Chart::Rolling.point(model, &kept, &[], draws);
+        let mut state = model.system.chart().point(model, &kept, &[], draws);
         state.truncate(count);
         state
     })?;

@@ -162,12 +162,12 @@ fn wrong_input_is_refused_in_its_words() {
         ("exponent = \"zero\"\nstart = [1, 0]\nstate = {}\ntime = 10", "one start"),
         ("exponent = \"zero\"\nintegral = \"1\"\nstart = [1, 0]\ntime = 9", "makes 2 statements"),
         ("exponent = \"zero\"\nstart = [1, 0]\ntime = 10\nwhere = \"level\"", "`where`"),
-        ("periodic-point = [\"x\", 0]", "is no number"),
+        ("periodic-point = [\"x\", 0]", "is not a number"),
         ("periodic-point = [1, 0]\nmodulus = 1\nmultiplier = 2", "complex or real"),
         ("limit-cycle = 4\nstart = [1, 0]\ncrossings = 10", "do not show a cycle"),
-        ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is no count"),
+        ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is not a count"),
         ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "no part of the section"),
-        ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is no share"),
+        ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is not a share"),
         ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
     ];
     for (claim, message) in wrong {

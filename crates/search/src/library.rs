@@ -17,12 +17,7 @@ fn has(model: &Model, name: &str, kind: Type) -> bool {
 /// Names the scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Texts {
     use liouville::mechanics::Potential;
-    let potential = match &model.system {
-        System::Rubber(body) => &body.potential,
-        System::Ball(ball) => &ball.potential,
-        _ => return Vec::new(),
-    };
-    let Some(Potential::Formula(formula)) = potential else { return Vec::new() };
+    let Some(Potential::Formula(formula)) = model.system.potential() else { return Vec::new() };
     let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
     formula
         .symbols()
@@ -81,7 +76,7 @@ fn pieces(model: &Model) -> Pieces {
         free: Vec::new(),
     };
     match &model.system {
-        System::Rubber(body) => {
+        System::Rubber(_) | System::Spinning(_) => {
             pieces.normal = Some("γ");
             let constant = if matrix("J") { "J" } else { "I" };
             for tensor in ["Ĩ", constant] {
@@ -91,7 +86,7 @@ fn pieces(model: &Model) -> Pieces {
                 pieces.linear.push("B⁻¹*ω".to_string());
             }
             pieces.linear.push("ω".to_string());
-            if let Some(rotor) = &body.gyrostat {
+            if let Some(rotor) = model.system.gyrostat() {
                 pieces.linear.push(rotor.text().to_string());
             }
             pieces.forms.push("ω3".to_string());
@@ -125,7 +120,7 @@ fn pieces(model: &Model) -> Pieces {
                 let tensor = if matrix("B") { "B⁻¹" } else { constant };
                 pieces.free.extend(separable(&parameter, tensor));
             }
-            if body.potential.is_some() {
+            if model.system.potential().is_some() {
                 pieces.free.extend(pieces.weights.iter().map(|weight| product(&["U", weight])));
                 pieces.free.push("U*(γ,adj(B⁻¹)*(B*γ))".to_string());
             }
@@ -219,7 +214,7 @@ pub fn denominators(model: &Model) -> Texts {
     let offers = [("J", "(γ,J⁻¹*γ)"), ("B", "(γ,B*γ)")];
     for (name, text) in offers {
         if has(model, name, Type::MATRIX)
-            && matches!(model.system, System::Rubber(_) | System::Ball(_))
+            && (model.system.body().is_some() || matches!(model.system, System::Ball(_)))
         {
             found.push(text.to_string());
         }
@@ -257,6 +252,22 @@ pub fn factors(model: &Model) -> Texts {
             }
             if matrix("B") {
                 factors.push("(γ,B*γ)".to_string());
+            }
+        }
+        System::Spinning(_) => {
+            if matrix("J") {
+                factors.push("(γ,J⁻¹*γ)".to_string());
+                factors.push("(1 − m*R²*(γ,J⁻¹*γ))".to_string());
+            }
+            // With I₁ = I₂: √Δ and I₁ + mr² of a body of revolution.
+            factors.push("(I1 + m*r²)".to_string());
+            factors.push("(I1*I3 + m*(r,I*r))".to_string());
+            factors.push("det(Ĩ)".to_string());
+            if scalar("D_T") {
+                factors.push("D_T".to_string());
+            }
+            if matrix("B") && scalar("μ") {
+                factors.push("(μ + m*r²)".to_string());
             }
         }
         System::FlatBase(_) => factors.extend(
@@ -303,8 +314,8 @@ pub fn exponents(model: &Model) -> Texts {
     let mut found = vec!["1".to_string()];
     if has(model, "κ", Type::Scalar) {
         found.push("k*R".to_string());
-    } else if let (System::Rubber(body), true) = (&model.system, has(model, "g1", Type::Scalar))
-        && body.curvature.is_some()
+    } else if model.system.body().is_some_and(|body| body.curvature.is_some())
+        && has(model, "g1", Type::Scalar)
         && has(model, "R", Type::Scalar)
     {
         found.push("k*R".to_string());

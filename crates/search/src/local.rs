@@ -26,7 +26,7 @@ pub struct Coordinates {
 enum Kind {
     /// Coordinates (u,v) of γ by stereographic projection, with ω = w₁γ_u + w₂γ_v.
     Rolling,
-    /// Stereographic projection of γ, with M free.
+    /// Stereographic projection of γ, with M or ω free.
     Sphere,
     /// Components of the state: positions, then velocities.
     Components(Vec<usize>),
@@ -48,7 +48,7 @@ impl Coordinates {
             (System::Rubber(_), Chart::Rolling) => {
                 Ok(Self { kind: Kind::Rolling, positions: 2, velocities: 2 })
             }
-            (System::Ball(_), Chart::Sphere) => {
+            (System::Ball(_) | System::Spinning(_), Chart::Sphere) => {
                 Ok(Self { kind: Kind::Sphere, positions: 2, velocities: 3 })
             }
             (System::FlatBase(_), _) => Ok(split(vec![2, 3], vec![0, 1])),

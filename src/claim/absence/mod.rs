@@ -1,7 +1,6 @@
-//! Claims of absence: that there is no integral, or no density, of a class.
+//! Claims of absence: no integral, or no density, of a class exists.
 //!
-//! They have no residual. What cannot be is counted, and `search` counts. Each kind is one file that
-//! says what is claimed.
+//! These claims have no residual; the counts of `search` decide them. Each kind is one file.
 
 mod no_density;
 mod no_integral;
@@ -11,20 +10,20 @@ use super::Reader;
 pub use no_density::NoDensity;
 pub use no_integral::NoIntegral;
 
-/// A kind of claim of absence: how it is read.
+/// A kind of claim of absence.
 pub trait Absent: Clone {
-    /// Its key in case files, and its name in reports.
+    /// Key in case files, and name in reports.
     const NAME: &'static str;
-    /// The degrees that can be asked for.
+    /// Degrees that are allowed.
     const DEGREES: std::ops::RangeInclusive<u32>;
 
-    /// Makes it from the degree that stands in the file.
+    /// Makes the claim for a degree.
     fn of_degree(degree: u32) -> Self;
 
     /// Returns the claim in a few words.
     fn text(&self) -> String;
 
-    /// Reads it.
+    /// Reads the claim.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let (least, most) = (Self::DEGREES.start(), Self::DEGREES.end());
         let remedy =
@@ -35,19 +34,19 @@ pub trait Absent: Clone {
         match text.parse() {
             Ok(degree) if Self::DEGREES.contains(&degree) => Ok(Self::of_degree(degree)),
             _ => {
-                let message = format!("`{text}` is no degree that can be counted");
+                let message = format!("`{text}` is not a degree");
                 Err(from.complaint_inside(Self::NAME, "degree", message, &remedy))
             }
         }
     }
 }
 
-/// A statement that something does not exist.
+/// A statement of absence.
 #[derive(Clone, Debug)]
 pub enum Absence {
-    /// See [`NoIntegral`].
+    /// Absence of further integrals.
     NoIntegral(NoIntegral),
-    /// See [`NoDensity`].
+    /// Absence of a density.
     NoDensity(NoDensity),
 }
 
@@ -64,7 +63,7 @@ impl Absence {
         }
     }
 
-    /// The kind's name in case files and reports.
+    /// Returns the name of the kind in case files and reports.
     pub fn name(&self) -> &'static str {
         match self {
             Absence::NoIntegral(_) => NoIntegral::NAME,

@@ -1,12 +1,13 @@
-//! No invariant density of a class.
+//! Absence of an invariant density of a class.
 
 use super::Absent;
 
-/// No density P^(1/α) with a polynomial P of at most this degree; nor, where P is a polynomial in all
-/// variables of the state, exp P.
+/// The claim that no density P^(1/α) exists with a polynomial P of at most a given degree, nor one
+/// exp P if P is a polynomial in all state variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoDensity {
-    /// In the velocities where these are known apart, else in all variables of the state.
+    /// Degree in the velocities, or in all state variables if velocities cannot be told from
+    /// positions.
     pub degree: u32,
 }
 

@@ -1,12 +1,13 @@
-//! No integral but those that are known.
+//! Absence of integrals besides those that are known.
 
 use super::Absent;
 
-/// Every integral that is a polynomial of at most this degree is a polynomial in those that the file
-/// claims, and the energy.
+/// The claim that every polynomial integral of at most a given degree is a polynomial in the energy
+/// and the integrals that the file claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoIntegral {
-    /// In the velocities where these are known apart, else in all variables of the state.
+    /// Degree in the velocities, or in all state variables if velocities cannot be told from
+    /// positions.
     pub degree: u32,
 }
 

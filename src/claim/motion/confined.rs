@@ -43,7 +43,7 @@ impl Motional for Confined {
             [low, "l", high] => (low, Axis::L, high),
             [low, "L/G", high] => (low, Axis::Z, high),
             _ => {
-                let message = format!("`{text}` is no part of the section");
+                let message = format!("`{text}` is not a part of the section");
                 return Err(from.complaint(Self::NAME, message, "write \"0.4 < l < 2.9\""));
             }
         };
@@ -53,7 +53,7 @@ impl Motional for Confined {
         let skip = count(from, "skip")?.unwrap_or(0);
         let share = number(from, "share")?.map_or(1.0, |share| share.value);
         if !(share > 0.0 && share <= 1.0) {
-            let message = format!("{share} is no share");
+            let message = format!("{share} is not a share");
             return Err(from.complaint("share", message, "write a number above 0, at most 1"));
         }
         Ok(Self { text, axis, between, share, beginning, crossings, skip })

@@ -1,9 +1,11 @@
 //! Claims about motion: long orbits, periodic points and limits of orbits.
 //!
 //! They have no residual that could be proved to vanish, but are observed: confirmed or refuted by
-//! numbers with errors. Each kind is one file that defines the claim; `observe` measures.
+//! numbers with errors. Closed orbits are proved. Each kind is one file that defines the claim;
+//! `observe` measures.
 
 mod beginning;
+mod closed_orbit;
 mod confined;
 mod contacts;
 mod exponent;
@@ -16,6 +18,7 @@ mod stated;
 use super::Reader;
 
 pub use beginning::Beginning;
+pub use closed_orbit::{Change, ClosedOrbit};
 pub use confined::{Axis, Confined};
 pub use contacts::{Contacts, Touch};
 pub use exponent::{Exponent, Growth};
@@ -97,6 +100,7 @@ kinds! {
     Confined,
     LimitOfMotion,
     Contacts,
+    ClosedOrbit,
 }
 
 /// Reads the number of a key.
@@ -112,7 +116,7 @@ fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::
 
 fn stated<R: Reader>(from: &R, key: &'static str, text: &str) -> Result<Stated, R::Error> {
     Stated::parse(text).ok_or_else(|| {
-        let message = format!("`{text}` is no number");
+        let message = format!("`{text}` is not a number");
         from.complaint(key, message, "write 1.234, 3/7, π/2, or \"0.035 ± 0.003\"")
     })
 }
@@ -141,7 +145,7 @@ fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Err
             let message = format!("`{text}` is beyond all that can be followed");
             Err(from.complaint(key, message, &format!("write a number up to {MOST}")))
         }
-        _ => Err(from.complaint(key, format!("`{text}` is no count"), "write 1, 2, 3, …")),
+        _ => Err(from.complaint(key, format!("`{text}` is not a count"), "write 1, 2, 3, …")),
     }
 }
 

@@ -3,12 +3,13 @@
 use std::io::IsTerminal;
 
 use liouville::case::Case;
-use liouville::verdict::Options;
-use liouville::verdict::{CaseReport, JudgeError};
-use liouville_cli::report::{diagnostic, json, terminal};
+use liouville::verdict::{CaseReport, ClaimReport, JudgeError, Options};
+use liouville_cli::report::terminal::{Detail, Style};
+use liouville_cli::report::{diagnostic, json, records, terminal};
 
+use super::eval::read_settings;
 use super::files::Judge;
-use super::{Answer, Check, colour, files, width};
+use super::{Answer, Check, CheckFormat, colour, files, width};
 
 /// Judge of cases, including the claims of absence, and those about motion where requested.
 fn judge(options: &Check) -> Judge {
@@ -23,23 +24,37 @@ fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError
 }
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let run = files::judge(
+    let mut run = files::judge(
         &options.paths,
+        &read_settings(&options.settings)?,
         &Options { mutants: options.mutants, ..options.sampling.options() },
         judge(options),
         options.sampling.threads,
     )?;
-    let text = if options.json {
-        json::render(&run).map_err(|error| format!("error: {error}"))? + "\n"
-    } else {
-        let style = terminal::Style {
-            verbose: options.verbose,
-            colour: colour(std::io::stdout().is_terminal()),
-            width: width(),
-        };
-        terminal::render(&run, style)
+    if !options.claims.is_empty() {
+        run.retain(|claim| options.claims.iter().any(|wanted| is_meant(claim, wanted)));
+        if run.claims().next().is_none() && run.summary().errors == 0 {
+            let wanted = options.claims.join("` or `");
+            return Err(format!("error: no claim has a name or source like `{wanted}`"));
+        }
+    }
+    let format = if options.json { CheckFormat::Json } else { options.format };
+    let text = match format {
+        CheckFormat::Json => json::render(&run).map_err(|error| format!("error: {error}"))? + "\n",
+        CheckFormat::Csv => records::csv(&run),
+        CheckFormat::Junit => records::junit(&run),
+        CheckFormat::Text => {
+            let detail = match (options.verbose, options.quiet) {
+                (true, _) => Detail::Evidence,
+                (_, true) => Detail::Summary,
+                _ if run.outcomes.len() == 1 || !options.claims.is_empty() => Detail::Claims,
+                _ => Detail::Cases,
+            };
+            let colour = colour(std::io::stdout().is_terminal());
+            terminal::render(&run, Style { detail, colour, width: width() })
+        }
     };
-    if options.json {
+    if format != CheckFormat::Text {
         for outcome in &run.outcomes {
             if let Err(failures) = &outcome.result {
                 anstream::eprintln!("{}", diagnostic::rendered(failures));
@@ -47,4 +62,57 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         }
     }
     Ok(Answer { text, code: run.exit_code() })
+}
+
+/// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.
+fn is_meant(claim: &ClaimReport, wanted: &str) -> bool {
+    let is_pattern = wanted.contains(['*', '?']);
+    [&claim.name, &claim.source].into_iter().any(|text| match is_pattern {
+        true => matches(wanted, text),
+        false => text.contains(wanted),
+    })
+}
+
+/// Whether a text matches a pattern, in which `*` stands for any characters and `?` for one.
+fn matches(pattern: &str, text: &str) -> bool {
+    let (pattern, text): (Vec<char>, Vec<char>) =
+        (pattern.chars().collect(), text.chars().collect());
+    // The ends of the text that the pattern so far can match.
+    let mut ends = vec![false; text.len() + 1];
+    ends[0] = true;
+    for wanted in pattern {
+        if wanted == '*' {
+            let first = ends.iter().position(|end| *end).unwrap_or(ends.len());
+            ends.iter_mut().skip(first).for_each(|end| *end = true);
+        } else {
+            for end in (1..ends.len()).rev() {
+                ends[end] = ends[end - 1] && (wanted == '?' || wanted == text[end - 1]);
+            }
+            ends[0] = false;
+        }
+    }
+    ends.last() == Some(&true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn patterns_match_as_in_a_shell() {
+        for (pattern, text) in [
+            ("F2*", "F2 with I"),
+            ("*I", "F2 with I"),
+            ("F?", "F2"),
+            ("*", ""),
+            ("a*b*c", "aXbYbc"),
+        ] {
+            assert!(matches(pattern, text), "{pattern} {text}");
+        }
+        for (pattern, text) in
+            [("F2*", "aF2"), ("F?", "F"), ("?", ""), ("a*b", "abc"), ("", "a"), ("F?", "F22")]
+        {
+            assert!(!matches(pattern, text), "{pattern} {text}");
+        }
+    }
 }

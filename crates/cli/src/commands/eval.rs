@@ -9,7 +9,7 @@ use liouville::verdict;
 use liouville_cli::report::diagnostic;
 use liouville_cli::report::point;
 
-use super::{Answer, Eval, colour};
+use super::{Answer, Eval, colour, source};
 
 pub fn run(options: &Eval) -> Result<Answer, String> {
     let case = open(&options.case, &options.settings)?;
@@ -37,6 +37,17 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
 
 /// Reads a case with the values given by `--set`.
 pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
+    let settings = read_settings(settings)?;
+    let shown = path.display().to_string();
+    let coloured = colour(std::io::stderr().is_terminal());
+    let (text, case) = source::read(path, &settings);
+    case.map_err(|error| {
+        diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
+    })
+}
+
+/// Reads the values of `--set`.
+pub(super) fn read_settings(settings: &[String]) -> Result<Vec<Setting>, String> {
     let settings =
         settings.iter().map(|text| setting(text)).collect::<Result<Vec<Setting>, String>>()?;
     for (index, setting) in settings.iter().enumerate() {
@@ -44,12 +55,7 @@ pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
             return Err(format!("error: --set: `{}` is given twice", setting.name));
         }
     }
-    let shown = path.display().to_string();
-    let coloured = colour(std::io::stderr().is_terminal());
-    let (text, case) = Case::read(path, &settings);
-    case.map_err(|error| {
-        diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
-    })
+    Ok(settings)
 }
 
 fn written<N: point::Written>(

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville::case::Case;
+use liouville::case::{Case, Setting};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_cli::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use rayon::prelude::*;
+
+use super::source;
 
 /// Delay before a progress bar appears.
 const BLINK: Duration = Duration::from_millis(300);
@@ -16,9 +18,10 @@ const BLINK: Duration = Duration::from_millis(300);
 /// Function that judges a case.
 pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
 
-/// Judges every case under `paths`.
+/// Judges every case under `paths`, with the values of `settings`.
 pub fn judge(
     paths: &[PathBuf],
+    settings: &[Setting],
     options: &Options,
     judge: Judge,
     threads: Option<usize>,
@@ -36,7 +39,7 @@ pub fn judge(
             .par_iter()
             .map(|file| {
                 let outcome = match file {
-                    Ok(path) => judge_file(path, options, judge),
+                    Ok(path) => judge_file(path, settings, options, judge),
                     Err((path, problem)) => failed(path, vec![problem.clone()]),
                 };
                 advance(&bar, started);
@@ -84,9 +87,13 @@ pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
                 }
             }
             Ok(_) => files.push(Ok(path.clone())),
+            Err(_) if source::is_standard_input(path) => files.push(Ok(path.clone())),
+            Err(_) if !source::inside(path).is_empty() => {
+                files.extend(source::inside(path).iter().map(|(name, _)| Ok(name.into())));
+            }
             Err(error) => {
                 let message = format!("cannot read {}: {error}", path.display());
-                let help = "give case files or folders of them; without any, ./cases is read";
+                let help = "give case files, folders of them, or cases of `liouville cases list`";
                 files.push(Err((path.clone(), plain(path, &message, help))));
             }
         }
@@ -129,9 +136,9 @@ fn failed(path: &Path, problems: Vec<Failure>) -> Outcome {
     Outcome { path, heading: Heading::default(), result: Err(problems) }
 }
 
-fn judge_file(path: &Path, options: &Options, judge: Judge) -> Outcome {
+fn judge_file(path: &Path, settings: &[Setting], options: &Options, judge: Judge) -> Outcome {
     let shown = path.display().to_string();
-    let (text, case) = Case::read(path, &[]);
+    let (text, case) = source::read(path, settings);
     let case = match case {
         Ok(case) => case,
         Err(error) => {

@@ -1,28 +1,33 @@
 //! Commands and their options.
 
+pub mod cases;
 pub mod check;
 pub mod eval;
+pub mod explain;
 pub mod explore;
 mod files;
+pub mod names;
+pub mod new;
+mod source;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
-/// Commands by purpose.
-const FAMILIES: &str = "\
-By purpose:
-  judge claims      check, eval, table
-  find invariants   search, report
-  follow motions    orbit, section, exponents, chart, periodic
-  measure the tool  bench, stress";
+/// First steps, below the list of commands.
+const FIRST_STEPS: &str = "\
+Examples:
+  liouville new rolling body.toml      start a case of a rolling body
+  liouville check body.toml -v         judge its claims, with the evidence
+  liouville report body.toml           list all of its invariants
+  liouville cases list kovalevskaya    look into the catalogue";
 
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
-#[command(name = "liouville", version, max_term_width = 100, after_help = FAMILIES)]
+#[command(name = "liouville", version, max_term_width = 100, after_help = FIRST_STEPS)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
@@ -30,14 +35,50 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Check the claims of case files; all of cases/ by default
+    /// Judge the claims of case files
+    #[command(after_help = "\
+Examples:
+  liouville check body.toml -v
+  liouville check cases/plane --claim F2
+  liouville check - < body.toml")]
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
+    #[command(
+        after_help = "Example:\n  liouville eval plane/balanced-ball --set m=5/4 --digits 50"
+    )]
     Eval(Eval),
     #[command(flatten)]
     Explore(Box<explore::Command>),
     /// Print a hierarchy table of the paper, filled from verdicts
+    #[command(after_help = "Example:\n  liouville table 1 --format latex")]
     Table(Table),
+    /// Write a commented case to start from
+    #[command(after_help = "Example:\n  liouville new field system.toml")]
+    New(new::New),
+    /// List the names that formulas of a case may use
+    #[command(after_help = "Example:\n  liouville names plane/balanced-ball")]
+    Names(names::Names),
+    /// Explain a word of the reports
+    #[command(after_help = "Example:\n  liouville explain witness")]
+    Explain(explain::Explain),
+    /// List, print or copy cases of the catalogue inside the program
+    #[command(after_help = "Example:\n  liouville cases list rattleback")]
+    Cases(cases::Cases),
+}
+
+/// Commands of version 0.1 that are part of `motion` and `measure` now.
+const FORMER: [&str; 7] = ["orbit", "section", "exponents", "chart", "periodic", "bench", "stress"];
+
+impl Arguments {
+    /// Reads the arguments of the program; former names work, and are left out of the help.
+    pub fn read() -> Self {
+        let mut command = Self::command();
+        for name in FORMER {
+            command = command.mut_subcommand(name, |former| former.hide(true));
+        }
+        let matches = command.get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
 }
 
 /// Options of the sampling.
@@ -79,9 +120,20 @@ impl Sampling {
 
 #[derive(Debug, Args)]
 pub struct Check {
-    /// Case files, or folders of them
+    /// Case files, folders of them, or `-` for standard input; paths that do not exist are looked
+    /// up in the catalogue inside the program
     #[arg(default_value = "cases")]
     pub paths: Vec<PathBuf>,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// Show only claims whose name or source contains this text, or matches it if it has `*` or
+    /// `?`
+    #[arg(long = "claim", value_name = "TEXT")]
+    pub claims: Vec<String>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = CheckFormat::Text, conflicts_with = "json")]
+    pub format: CheckFormat,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -91,11 +143,27 @@ pub struct Check {
     /// Also check claims about motion (slow: minutes for cases/figures)
     #[arg(long)]
     pub motion: bool,
-    /// Show witnesses and the evidence for each verdict
+    /// Show each claim of each case, with witnesses and evidence
     #[arg(short, long)]
     pub verbose: bool,
+    /// Print the summary alone
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
     #[command(flatten)]
     pub sampling: Sampling,
+}
+
+/// Format of the verdicts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CheckFormat {
+    /// Text for a terminal
+    Text,
+    /// JSON, one document
+    Json,
+    /// One line for each claim, with a header
+    Csv,
+    /// JUnit's XML, for continuous integration
+    Junit,
 }
 
 fn parse_digits(text: &str) -> Result<usize, String> {
@@ -130,8 +198,9 @@ pub struct Eval {
 
 #[derive(Debug, Args)]
 pub struct Table {
-    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=3))]
+    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
+    /// rolling with and without spin
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]
     pub number: u32,
     /// Case files, or folders of them
     #[arg(default_value = "cases")]
@@ -183,6 +252,22 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Writes a file that must not exist yet.
+fn write_new(path: &Path, text: &str) -> Result<(), String> {
+    let file = std::fs::OpenOptions::new().write(true).create_new(true).open(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
+        let shown = path.display();
+        match error.kind() {
+            ErrorKind::AlreadyExists => {
+                format!(
+                    "error: {shown} exists already\nhelp: give another name, or remove it first"
+                )
+            }
+            _ => format!("error: cannot write {shown}: {error}"),
+        }
+    })
 }
 
 /// Whether to use colours on this stream.

@@ -6,8 +6,8 @@ use liouville_search::judge;
 use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
-    let run =
-        files::judge(&options.paths, &options.sampling.options(), judge, options.sampling.threads)?;
+    let sampling = &options.sampling;
+    let run = files::judge(&options.paths, &[], &sampling.options(), judge, sampling.threads)?;
     for outcome in &run.outcomes {
         if let Err(failures) = &outcome.result {
             anstream::eprintln!("{}", diagnostic::rendered(failures));

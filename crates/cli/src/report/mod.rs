@@ -4,11 +4,13 @@ pub mod bench;
 pub mod chart;
 pub mod diagnostic;
 pub mod diagram;
+mod evidence;
 pub mod exponents;
 pub mod json;
 pub mod orbit;
 pub mod picture;
 pub mod point;
+pub mod records;
 pub mod search;
 pub mod section;
 pub mod stress;
@@ -144,6 +146,17 @@ impl RunReport {
             let report = outcome.result.as_ref().ok()?;
             Some((outcome, report.mutants.as_ref()?))
         })
+    }
+
+    /// Keeps some claims; cases without any are left out.
+    pub fn retain(&mut self, keep: impl Fn(&ClaimReport) -> bool) {
+        self.outcomes.retain_mut(|outcome| match &mut outcome.result {
+            Err(_) => true,
+            Ok(report) => {
+                report.claims.retain(&keep);
+                !report.claims.is_empty()
+            }
+        });
     }
 
     /// Counts over the run.

@@ -71,6 +71,9 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
     if let Some(criterion) = &report.criterion {
         root.insert("criterion".into(), number(criterion));
     }
+    if let Some(conditions) = &report.conditions {
+        root.insert("conditions".into(), list(conditions));
+    }
     if let Some(energy) = &report.energy {
         root.insert("energy".into(), number(energy));
     }
@@ -112,6 +115,10 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
     }
     if let Some(criterion) = &report.criterion {
         line("criterion", shown(criterion));
+    }
+    if let Some([along, across]) = &report.conditions {
+        line("C1", shown(along));
+        line("C2", shown(across));
     }
     if let Some(energy) = &report.energy {
         line("energy", shown(energy));

@@ -2,32 +2,52 @@
 
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
+use super::evidence::{details, measured};
 use super::{Outcome, RunReport, diagnostic};
 use liouville::case::Expect;
 use liouville::verdict::{
     CaseReport, ClaimReport, Independence, Measurement, Method, Sign, Verdict,
 };
 
-/// Decimal places of measured numbers in the table, and with `-v`.
+/// Decimal places of measured numbers in the table.
 const SHOWN: f64 = 10.0;
-const ALL: f64 = 15.0;
 
 /// Style of the output.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Whether to show witnesses, notes and the climb to each verdict.
-    pub verbose: bool,
+    /// Amount of detail.
+    pub detail: Detail,
     /// Whether to use colours.
     pub colour: bool,
     /// Width of the terminal.
     pub width: u16,
 }
 
+/// Amount of detail of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Detail {
+    /// The summary, cases that could not be judged, and verdicts against expectation.
+    Summary,
+    /// One line for each case, with the claims that are not proved or refuted as expected.
+    Cases,
+    /// All claims.
+    Claims,
+    /// All claims, with witnesses, notes and the climb to each verdict.
+    Evidence,
+}
+
 /// Renders all cases of a run.
 pub fn render(run: &RunReport, style: Style) -> String {
     let mut out = String::new();
     for outcome in &run.outcomes {
-        out.push_str(&case(outcome, style));
+        if style.detail >= Detail::Claims || outcome.result.is_err() {
+            out.push_str(&case(outcome, style));
+            out.push('\n');
+        } else {
+            out.push_str(&line(outcome, style));
+        }
+    }
+    if style.detail == Detail::Cases {
         out.push('\n');
     }
     out.push_str(&mutants(run));
@@ -49,15 +69,16 @@ fn case(outcome: &Outcome, style: Style) -> String {
     for warning in &report.warnings {
         out.push_str(&format!("  warning: {warning}\n"));
     }
-    if style.verbose {
+    if style.detail == Detail::Evidence {
         for note in &heading.notes {
             out.push_str(&format!("  note: {note}\n"));
         }
     }
-    out.push_str(&claims(report, style));
+    let all: Vec<&ClaimReport> = report.claims.iter().collect();
+    out.push_str(&claims(&all, style));
     out.push('\n');
-    if style.verbose {
-        out.push_str(&details(report));
+    if style.detail == Detail::Evidence {
+        out.push_str(&details(&outcome.path, report));
     } else {
         out.push_str(&theorems(report));
     }
@@ -73,8 +94,50 @@ fn theorems(report: &CaseReport) -> String {
     stated.collect()
 }
 
-fn claims(report: &CaseReport, style: Style) -> String {
+/// Renders a case as one line with the counts of its verdicts, followed by the claims that deserve
+/// attention.
+fn line(outcome: &Outcome, style: Style) -> String {
+    let Ok(report) = &outcome.result else { return String::new() };
+    let is_settled = |claim: &&ClaimReport| {
+        claim.agrees && matches!(claim.verdict, Verdict::Proved | Verdict::Refuted)
+    };
+    let is_shown = |claim: &&ClaimReport| match style.detail {
+        Detail::Summary => !claim.agrees,
+        _ => !is_settled(claim),
+    };
+    let shown: Vec<&ClaimReport> = report.claims.iter().filter(is_shown).collect();
+    let mut out = String::new();
+    if style.detail != Detail::Summary || !shown.is_empty() {
+        let count = |verdict: Verdict| {
+            let number = report.claims.iter().filter(|claim| claim.verdict == verdict).count();
+            (number > 0).then(|| format!("{number} {}", verdict.word()))
+        };
+        let counts = [Verdict::Proved, Verdict::Confirmed, Verdict::Refuted, Verdict::Undecided];
+        let counts: Vec<String> = counts.into_iter().filter_map(count).collect();
+        let counts = if counts.is_empty() { NO_CLAIMS.to_string() } else { counts.join(", ") };
+        out.push_str(&format!("{}: {counts}\n", outcome.path));
+    }
+    if style.detail != Detail::Summary {
+        for warning in &report.warnings {
+            out.push_str(&format!("  warning: {warning}\n"));
+        }
+    }
+    if !shown.is_empty() {
+        out.push_str(&claims(&shown, style));
+        out.push('\n');
+    }
+    out
+}
+
+/// Remark on a case without claims.
+const NO_CLAIMS: &str = "no claims; `liouville report` lists the invariants of a system";
+
+fn claims(claims: &[&ClaimReport], style: Style) -> String {
+    if claims.is_empty() {
+        return format!("      {NO_CLAIMS}");
+    }
     let mut table = Table::new();
+    table.set_header(["   ", "  verdict", "expected", "kind", "claim", "evidence", "source"]);
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(style.width);
     if style.colour {
@@ -82,8 +145,8 @@ fn claims(report: &CaseReport, style: Style) -> String {
     } else {
         table.force_no_tty();
     }
-    for claim in &report.claims {
-        let mark = if claim.agrees { "✓" } else { "✗" };
+    for claim in claims {
+        let mark = if claim.agrees { " " } else { "✗" };
         let mut verdict = Cell::new(format!("{mark} {}", claim.verdict.word()));
         if style.colour {
             verdict = verdict.fg(match (claim.agrees, claim.verdict) {
@@ -165,6 +228,7 @@ fn remark(claim: &ClaimReport) -> String {
             } else {
                 words.push(format!("at almost every state, {}", evidence.method));
             }
+            words.extend(evidence.remark.clone());
         }
         Verdict::Undecided => {}
     }
@@ -176,84 +240,6 @@ fn remark(claim: &ClaimReport) -> String {
     }
     words.retain(|word| !word.is_empty());
     words.join(", ")
-}
-
-/// Formats a number with its error, to the digits that the error leaves, and the statement about
-/// it.
-fn measured(found: &Measurement, most: f64) -> String {
-    let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
-    let places = (1.0 - libm::floor(libm::log10(found.error))).clamp(0.0, most) as usize;
-    let (quantity, error) = (&found.quantity, found.error);
-    // without the sign of a rounded zero
-    let value = if found.value.abs() < error { found.value.abs() } else { found.value };
-    format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
-}
-
-fn details(report: &CaseReport) -> String {
-    let mut out = String::new();
-    for claim in &report.claims {
-        out.push_str(&format!("    {}\n", claim.name));
-        if let Some(formula) = claim.formula.as_ref().filter(|formula| **formula != claim.name) {
-            out.push_str(&format!("      formula   {formula}\n"));
-        }
-        let evidence = &claim.evidence;
-        if evidence.measured.is_empty() && evidence.method != Method::Count {
-            out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
-        }
-        for (index, found) in evidence.measured.iter().enumerate() {
-            let label = if index == 0 { "measured" } else { "" };
-            out.push_str(&format!("      {label:<9} {}\n", measured(found, ALL)));
-        }
-        for (index, rung) in evidence.climb.iter().enumerate() {
-            let label = if index == 0 { "climb" } else { "" };
-            out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
-        }
-        if let Some(scaled) = evidence.max_scaled_residual {
-            out.push_str(&format!("      rounding  {scaled:.3} of its error bound at most\n"));
-        }
-        if let Some(sign) = evidence.sign {
-            let sign = match sign {
-                Sign::Positive => "positive",
-                Sign::Negative => "negative",
-                Sign::Changes => "of both signs",
-            };
-            let extent = match (evidence.sign_is_proved, evidence.sign) {
-                (true, Some(Sign::Changes)) => "at states with the same parameters",
-                (true, _) => "at all states",
-                (false, _) => "at the states that were tried",
-            };
-            out.push_str(&format!("      sign      {sign} {extent}\n"));
-        }
-        if let Some(volume) = &evidence.volume {
-            out.push_str(&format!("      volume    {volume}\n"));
-        }
-        if let Some(witness) = &evidence.witness {
-            let shown = witness
-                .digits
-                .clone()
-                .unwrap_or_else(|| format!("{:e} ± {:.1e}", witness.residual, witness.error_bound));
-            out.push_str(&format!("      witness   residual {shown}\n"));
-            let set =
-                witness.parameters.iter().map(|(name, value)| format!(" --set '{name}={value}'"));
-            out.push_str(&format!(
-                "                eval …{} --state '{}'\n",
-                set.collect::<String>(),
-                witness.state
-            ));
-        }
-        for (label, text) in [("theorem", &evidence.theorem), ("exhibit", &evidence.exhibit)] {
-            if let Some(text) = text {
-                out.push_str(&format!("      {label:<9} {text}\n"));
-            }
-        }
-        if let Some(reason) = &evidence.reason {
-            out.push_str(&format!("      reason    {reason}\n"));
-        }
-        if let Some(note) = &claim.note {
-            out.push_str(&format!("      note      {note}\n"));
-        }
-    }
-    out
 }
 
 /// Lists the mutants that deserve attention.

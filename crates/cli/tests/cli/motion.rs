@@ -58,7 +58,7 @@ fn sections_that_cannot_be_drawn_say_why() {
     let down = ["section", &figure("fig-3"), "--direction", "down", "--start", "1,0.3"];
     fails(&down, "1001 times in the direction that does not count");
     fails(&["section", &case, "--start", "1,1.5"], "has to be below 1");
-    fails(&["section", &case, "--g0", "tomorrow"], "is no angle");
+    fails(&["section", &case, "--g0", "tomorrow"], "is not an angle");
     fails(
         &["section", &case, "--start", "1,0", "--crossings", "1", "--out", "x.gif"],
         "neither .svg",

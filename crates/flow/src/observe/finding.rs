@@ -2,7 +2,7 @@
 
 use crate::Measured;
 use liouville::claim::motion::Stated;
-use liouville::verdict::{Evidence, Measurement, Verdict};
+use liouville::verdict::{Evidence, Measurement, Method, Verdict};
 
 /// Number of standard errors within which means agree.
 pub const ERRORS: f64 = 3.0;
@@ -17,6 +17,8 @@ pub struct Finding {
     open: Vec<String>,
     /// Further consequence.
     pub remark: Option<String>,
+    /// Theorem on which the finding rests, in place of numbers with estimated errors.
+    pub theorem: Option<String>,
 }
 
 impl Finding {
@@ -25,7 +27,8 @@ impl Finding {
         self.note(quantity, found, None);
     }
 
-    fn note(&mut self, quantity: &str, found: Measured, stated: Option<&Stated>) {
+    /// Notes a number with the one stated.
+    pub fn note(&mut self, quantity: &str, found: Measured, stated: Option<&Stated>) {
         self.measured.push(Measurement {
             quantity: quantity.to_string(),
             value: found.value,
@@ -83,12 +86,17 @@ impl Finding {
         let verdict = match (self.against.is_empty(), self.open.is_empty()) {
             (false, _) => Verdict::Refuted,
             (true, false) => Verdict::Undecided,
+            (true, true) if self.theorem.is_some() => Verdict::Proved,
             (true, true) => Verdict::Confirmed,
+        };
+        let method = match self.theorem {
+            Some(_) => Method::EnclosedOrbit,
+            None => Method::Motion,
         };
         let reasons = if verdict == Verdict::Refuted { self.against } else { self.open };
         let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
-        let (measured, remark) = (self.measured, self.remark);
-        (verdict, Evidence { measured, reason, remark, ..Evidence::default() })
+        let (measured, remark, theorem) = (self.measured, self.remark, self.theorem);
+        (verdict, Evidence { method, measured, reason, remark, theorem, ..Evidence::default() })
     }
 }
 

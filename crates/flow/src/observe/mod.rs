@@ -4,10 +4,11 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Nothing here is a proof. A stated number agrees with a computed one if they differ by no more
+//! Nothing here is a proof but of closed orbits, which are enclosed. A stated number agrees with a computed one if they differ by no more
 //! than the last stated digit and the error that the computation itself shows: the spread of
 //! blocks, or the difference between f64 and double-double.
 
+mod closed_orbit;
 mod contacts;
 mod density;
 mod exponents;
@@ -40,10 +41,11 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
 /// Tests all claims about motion of a case.
 pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
     let scene = Scene::new(case, options.seed);
-    case.motions.iter().map(|claim| report(claim, look(claim, &scene), options)).collect()
+    let look = |claim| look(claim, &scene, options);
+    case.motions.iter().map(|claim| report(claim, look(claim), options)).collect()
 }
 
-fn look(claim: &MotionClaim, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {
     match &claim.kind {
         Motion::Exponent(claim) => exponents::exponent(claim, scene),
         Motion::MeanDivergence(claim) => exponents::mean_divergence(claim, scene),
@@ -52,6 +54,7 @@ fn look(claim: &MotionClaim, scene: &Scene<'_>) -> Result<Finding, FlowError> {
         Motion::Confined(claim) => section::confined(claim, scene),
         Motion::LimitOfMotion(claim) => limit::look(claim, scene),
         Motion::Contacts(claim) => contacts::look(claim, scene),
+        Motion::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
     }
 }
 
@@ -64,17 +67,17 @@ fn report(
         Ok(finding) => finding.conclude(),
         Err(problem) => {
             let reason = Some(format!("{problem}: {}", problem.help()));
-            (Verdict::Undecided, Evidence { reason, ..Evidence::default() })
+            let method = Method::Motion;
+            (Verdict::Undecided, Evidence { method, reason, ..Evidence::default() })
         }
     };
-    evidence.method = Method::Motion;
     let enough = options.trust != Trust::Proof;
     if verdict == Verdict::Confirmed && !enough {
         evidence.reason = Some("a proof was asked for, and motions are only observed".to_string());
     }
     let agrees = match claim.expect {
         Expect::Open => true,
-        Expect::Holds => verdict == Verdict::Confirmed && enough,
+        Expect::Holds => verdict == Verdict::Proved || verdict == Verdict::Confirmed && enough,
         Expect::Fails => verdict == Verdict::Refuted,
     };
     ClaimReport {

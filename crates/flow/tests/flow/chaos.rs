@@ -2,6 +2,7 @@
 
 use liouville::case::{Case, Setting};
 use liouville::number::rational::Rational;
+use liouville::verdict::{evaluate, read_state};
 use liouville_flow::{
     Axis, Character, Coordinate, Launch, PlaneRequest, Variational, plane, section_starts,
 };
@@ -46,6 +47,36 @@ fn vectors_align_in_chaos_and_stay_apart_on_tori() {
     let (chaos, aligned) = class("figures/fig-14.toml", [1.26685, 0.42875], 600.0);
     assert_eq!(chaos, Character::ConservativeChaos, "a measure is kept");
     assert!(aligned.index < 1e-8 && aligned.since.is_some(), "one direction is left: {aligned:?}");
+}
+
+/// Chaplygin's ball is integrable: its field and its tangent vectors are those off (ω,γ) = 0.
+#[test]
+fn a_ball_that_spins_moves_on_tori_and_a_rattleback_gains_and_loses_volume() {
+    let exponents = |text: &str, state: &str, time: f64| {
+        let case = crate::parse(text);
+        let motion = Variational::new(&case.model, &crate::start(&case, state));
+        motion.and_then(|motion| motion.exponents(time)).expect("no singularity")
+    };
+    let ball = "title = 'ball'\nsystem = 'rolling-plane'\n[parameters]\nm = 1.1\nR = 1.2\n\
+                I = [1.6, 2.5, 2.3]\n[body]\nshape = 'ball'\n";
+    let start = "ω=[-1.4,1.5,0.8] γ=[2/3,-1/3,2/3]";
+    for time in [1000.0, -1000.0] {
+        let regular = exponents(ball, start, time);
+        assert_eq!(regular.character, Character::Regular, "{regular:?}");
+        assert!(regular.largest.mean < 0.005, "falls like (ln t)/t: {regular:?}");
+    }
+    // The divergence at the rotations about e₃ is ∓0.15507, by a 100-digit computation.
+    let rattleback = "title = 'rattleback'\nsystem = 'rolling-plane'\n[parameters]\nm = 1\n\
+                      B = [4, 1, 0.64]\na_g = 9.8\n\
+                      I = [[0.30897, -0.0894012, 0], [-0.0894012, 1.19103, 0], [0, 0, 1.3]]\n\
+                      [body]\nshape = 'ellipsoid'\npotential = 'm*a_g*h'\n";
+    let case = crate::parse(rattleback);
+    for spin in [1, -1] {
+        let state = read_state(&case, &format!("ω=[0,0,{spin}] γ=[0,0,1]")).expect("a state");
+        let found = evaluate(&case, Some(&state), 1, 0).expect("evaluated");
+        let (growth, _) = found.level_divergence.expect("defined");
+        assert!((growth + 0.15507 * f64::from(spin)).abs() < 1e-5, "{growth} at Ω = {spin}");
+    }
 }
 
 /// Makes an axis of a plane of starts in figure 14, or of parameters.

@@ -92,9 +92,19 @@ impl Graph {
     pub fn reached_from(&self, places: &[usize]) -> Vec<bool> {
         let mut reached = vec![false; self.nodes.len()];
         places.iter().for_each(|place| reached[*place] = true);
-        for (place, step) in self.steps().enumerate().rev() {
-            if reached[place] {
-                step.arguments().for_each(|argument| reached[argument] = true);
+        // Arguments come before the steps that use them.
+        let end = places.iter().max().map_or(0, |last| last + 1);
+        for place in (0..end).rev() {
+            if !reached[place] {
+                continue;
+            }
+            match self.nodes[place] {
+                Node::Constant(_) | Node::Input(_) => {}
+                Node::Unary(_, a) | Node::Power(a, _) => reached[a.0 as usize] = true,
+                Node::Binary(_, a, b) => {
+                    reached[a.0 as usize] = true;
+                    reached[b.0 as usize] = true;
+                }
             }
         }
         reached
@@ -112,15 +122,18 @@ impl Graph {
         mut replace: impl FnMut(usize, Step<'_>, &[Option<Expr>]) -> Option<Expr>,
     ) -> Vec<Option<Expr>> {
         let mut values: Vec<Option<Expr>> = Vec::with_capacity(self.nodes.len());
-        for (place, step) in self.steps().enumerate() {
+        let end = reached.iter().rposition(|reached| *reached).map_or(0, |last| last + 1);
+        for place in 0..end {
             if !reached[place] {
                 values.push(None);
                 continue;
             }
+            let step = self.step(place);
             let value = replace(place, step, &values)
                 .or_else(|| step.repeat(inputs, |place| values[place]));
             values.push(value);
         }
+        values.resize(self.nodes.len(), None);
         values
     }
 }

@@ -58,23 +58,24 @@ impl Tape {
             outputs: Vec::new(),
             slots: 0,
         };
-        let used = |index: usize| last_use[index] != UNUSED;
+        let used: Vec<usize> =
+            (0..last_use.len()).filter(|index| last_use[*index] != UNUSED).collect();
         let mut slot_of: Vec<Slot> = vec![0; graph.nodes.len()];
-        for (index, node) in graph.nodes.iter().enumerate().filter(|(index, _)| used(*index)) {
-            if let Node::Constant(constant) = node {
+        for index in used.iter().copied() {
+            if let Node::Constant(constant) = graph.nodes[index] {
                 slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
-                tape.constants.push(graph.constants[*constant as usize].clone());
+                tape.constants.push(graph.constants[constant as usize].clone());
             }
         }
         let mut slots =
             Slots { free: Vec::new(), next: (tape.inputs + tape.constants.len()) as Slot };
-        for (index, node) in graph.nodes.iter().enumerate().filter(|(index, _)| used(*index)) {
+        for index in used {
             let release = |argument: usize, slots: &mut Slots| {
                 if last_use[argument] == index && graph.nodes[argument].is_computed() {
                     slots.free.push(slot_of[argument]);
                 }
             };
-            let instruction = match *node {
+            let instruction = match graph.nodes[index] {
                 Node::Constant(_) => continue,
                 Node::Input(input) => {
                     slot_of[index] = input;
@@ -168,11 +169,12 @@ const UNUSED: usize = usize::MAX;
 /// without users.
 fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
     let end = graph.nodes.len();
+    let first_unused = roots.iter().filter(|root| **root < end).max().map_or(0, |last| last + 1);
     let mut last = vec![UNUSED; end];
     for root in roots.iter().filter(|root| **root < end) {
         last[*root] = end;
     }
-    for index in (0..end).rev() {
+    for index in (0..first_unused).rev() {
         if last[index] == UNUSED {
             continue;
         }

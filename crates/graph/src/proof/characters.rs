@@ -1,15 +1,12 @@
-//! Quadratic residues among radicands at random points: characters of radicands without roots,
-//! refusals of nested ones.
+//! Quadratic characters of radicands without roots at random points.
 
 use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
-use crate::number::quadratic::Quadratic;
 
 use super::chance::{Chance, Stream};
 use super::digest::Digest;
 use super::lower::Algebraic;
-use super::tower::Standing;
-use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, Trial, prime_of};
+use super::trial::{LANES, PRIMES, Trial, prime_of};
 
 /// Number of points beyond the number of radicands at which characters are taken.
 const SPARE: usize = 20;
@@ -17,9 +14,6 @@ const SPARE: usize = 20;
 pub const MOST_FIRST: usize = u128::BITS as usize - SPARE;
 /// Number of blocks of points to try for characters, for each block needed.
 const PATIENCE: usize = 8;
-/// Number of points for each prime without a refusal after which a nested root is taken to be
-/// dependent.
-const ACCEPTED: usize = 32;
 
 /// Quadratic character of the values of one radicand.
 pub enum Character<'c> {
@@ -133,84 +127,6 @@ impl Space {
         self.rows.push((vector, members | 1 << member));
         self.rows.sort_unstable_by_key(|row| std::cmp::Reverse(row.0));
         None
-    }
-}
-
-/// Non-squares among nested radicands, at points where the radicands before them are squares.
-pub struct Refusals {
-    /// Whether the radicand was refused, by radicand and prime.
-    refused: Vec<[bool; PRIMES]>,
-    /// Number of points that accepted the radicand, by radicand.
-    accepted: Vec<usize>,
-}
-
-impl Refusals {
-    /// Tests the radicands of the bases `nested` in order.
-    pub fn of(
-        algebraic: &Algebraic<'_>,
-        trial: &Trial<'_>,
-        nested: &[usize],
-        digest: Digest,
-    ) -> Self {
-        // By base: its radicand, and the radicands of those of its links whose roots are links too.
-        let chains = nested.iter().map(|index| {
-            let base = &algebraic.bases[*index];
-            let inner = base.links.len().saturating_sub(1);
-            let links = base.links[..inner].iter().map(|(link, _)| *link);
-            [base.radicand].into_iter().chain(links).collect::<Vec<Expr>>()
-        });
-        let chains: Vec<Vec<Expr>> = chains.collect();
-        let tape = Tape::new(&algebraic.graph, &chains.concat());
-        let field = Quadratic::new(*trial.moduli());
-        let mut evaluator = Evaluator::new(&tape, field.clone());
-        let mut chance = Chance::of(digest, Stream::Refusals);
-        let mut found =
-            Self { refused: vec![[false; PRIMES]; nested.len()], accepted: vec![0; nested.len()] };
-        let roots: usize = chains.iter().map(Vec::len).sum();
-        let most = (4 * ACCEPTED * PRIMES / LANES) << (roots as u32).min(MOST_NESTED);
-        for _ in 0..most {
-            let points = trial.points(&[], &mut chance);
-            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&points));
-            for lane in 0..LANES {
-                let mut place = 0;
-                for (index, chain) in chains.iter().enumerate() {
-                    let (own, links) = (place, place + 1..place + chain.len());
-                    place = links.end;
-                    match field.is_square(evaluator.output(own), lane) {
-                        Some(true) => found.accepted[index] += 1,
-                        // 0 is the square of 0.
-                        Some(false) if evaluator.output(own)[lane] == [0, 0] => break,
-                        Some(false) => {
-                            found.refused[index][prime_of(lane)] = true;
-                            break;
-                        }
-                        None => break,
-                    }
-                    // All roots before the next must exist, √√A among them: it is independent where
-                    // √A is, as -1 is a square.
-                    let mut links = links.map(|at| field.is_square(evaluator.output(at), lane));
-                    if links.any(|is_square| is_square != Some(true)) {
-                        break;
-                    }
-                }
-            }
-            if (0..nested.len()).all(|index| found.standing(index) != Standing::Unreached) {
-                break;
-            }
-        }
-        found
-    }
-
-    /// Returns the standing of a radicand, by its index among those tested.
-    pub fn standing(&self, index: usize) -> Standing {
-        let refused = &self.refused[index];
-        if refused.iter().all(|refused| *refused) {
-            Standing::Independent
-        } else if self.accepted[index] >= ACCEPTED && !refused.contains(&true) {
-            Standing::Dependent(Vec::new())
-        } else {
-            Standing::Unreached
-        }
     }
 }
 

@@ -37,6 +37,7 @@ mod numbers;
 mod polynomial;
 mod rank;
 mod reconstruct;
+mod refusals;
 mod relations;
 mod rewrite;
 mod roots;

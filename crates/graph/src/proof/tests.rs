@@ -320,6 +320,31 @@ fn products_of_nested_roots_are_found() {
 }
 
 #[test]
+fn radicands_that_are_even_in_a_root_are_compared() {
+    // y²/x - a² with a = (x + y + 1)^64, which is too large to be expanded.
+    let root = |x: &[Expr]| {
+        let a = (0..6).fold(x[0] + x[1] + 1.0, |a, _| a * a);
+        (x[1] / x[0].sqrt(), a)
+    };
+    let first = |x: &[Expr]| ((root(x).0 + root(x).1) * (root(x).0 - root(x).1)).sqrt();
+    let second = |x: &[Expr]| {
+        let (b, a) = root(x);
+        ((b * x[1] - a * x[1]) * (a + b) / x[1]).sqrt()
+    };
+    let outcome = prove_anywhere(2, |x| first(x) - second(x));
+    assert!(is_proved(&outcome), "both are √(y²/x - a²): {outcome:?}");
+    let outcome = prove_anywhere(2, |x| first(x) - second(x) * x[1]);
+    assert!(outcome.is_nonzero(), "{outcome:?}");
+    // -s² is a square over F_p(i), and so is its root's product with s.
+    let outcome = prove_anywhere(2, |x| {
+        let (b, a) = root(x);
+        let s = (a + b) * (b - a);
+        (-(s * s)).sqrt() - s
+    });
+    assert!(!is_proved(&outcome) && !outcome.is_nonzero(), "√(-s²) has no value: {outcome:?}");
+}
+
+#[test]
 fn nothing_holds_where_nothing_is_real() {
     let outcome = prove(&[false, false], |x| {
         let root = (-(x[0] * x[0]) - x[1] * x[1]).sqrt();

@@ -5,7 +5,7 @@
 //! of them is a square in F_p or is not, which makes a vector over the field of two elements for
 //! each; if these vectors, together with that of -1, are linearly independent, no product of the
 //! radicands is a square up to sign. A vector that depends on others names the product that may be
-//! a square. A radicand that contains roots is not a square if it is a non-square at one point.
+//! a square. For radicands that contain roots, see [`Refusals`].
 //!
 //! docs/soundness.md, "Roots".
 
@@ -14,9 +14,10 @@ use rustc_hash::FxHashSet;
 use crate::graph::{Expr, Graph, Step};
 use crate::number::{Function, Operation};
 
-use super::characters::{Character, Characters, MOST_FIRST, Refusals, Space};
+use super::characters::{Character, Characters, MOST_FIRST, Space};
 use super::digest::Digest;
 use super::lower::Algebraic;
+use super::refusals::Refusals;
 use super::trial::{MOST_NESTED, Trial};
 
 /// Status of the root of a base.
@@ -149,7 +150,10 @@ impl Tower {
         if open.is_empty() {
             return;
         }
-        let refusals = Refusals::of(algebraic, trial, &open, digest);
+        let first: Vec<usize> = (0..self.standings.len())
+            .filter(|index| self.standings[*index] == Standing::Independent)
+            .collect();
+        let refusals = Refusals::of(algebraic, trial, &first, &open, digest);
         for (own, index) in open.iter().enumerate() {
             if !self.is_clean(algebraic, algebraic.bases[*index].radicand) {
                 continue;

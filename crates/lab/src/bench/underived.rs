@@ -69,6 +69,11 @@ impl Underived {
                 "the level changes beside itself: its cofactor takes second derivatives",
             ));
         }
+        let is_criterion =
+            matches!(claim.kind, Kind::AnalyticDensity(_) | Kind::PositionDensity(_));
+        if is_criterion && matches!(model.system, System::Spinning(_)) {
+            return Ok(Err("C₁ is not the derivative of one function"));
+        }
         let formula = match &claim.kind {
             Kind::Integral(Integral(formula)) | Kind::Density(Density(formula)) => Some(formula),
             Kind::AnalyticDensity(_) | Kind::PositionDensity(_) => None,

@@ -10,7 +10,7 @@ use liouville::mechanics::{
 /// is not a function of the configuration.
 pub fn with_potential(model: &Model, further: &str) -> Option<Model> {
     let mut changed = model.clone();
-    let System::Rubber(body) = &mut changed.system else { return None };
+    let body = changed.system.body_mut()?;
     let text = match &body.potential {
         None => further.to_string(),
         Some(Potential::Formula(own)) => format!("{} + {further}", own.text()),
@@ -31,9 +31,8 @@ pub fn with_gyrostat(model: &Model, rotor: &str) -> Option<Model> {
     let mut changed = model.clone();
     let read = Formula::parse(rotor, &changed.vocabulary).ok()?;
     let own = match &mut changed.system {
-        System::Rubber(body) => &mut body.gyrostat,
         System::FlatBase(body) => &mut body.gyrostat,
-        _ => return None,
+        system => &mut system.body_mut()?.gyrostat,
     };
     if own.is_some() {
         return None;

@@ -40,7 +40,7 @@ impl Variables {
         }
         let (is_velocity, ideal) = match (&model.system, &case.chart) {
             (System::Rubber(_), Chart::Rolling) => (first(3, 6), Ideal::Rolling),
-            (System::Ball(_), Chart::Sphere) => (first(3, 6), Ideal::Sphere),
+            (System::Ball(_) | System::Spinning(_), Chart::Sphere) => (first(3, 6), Ideal::Sphere),
             (System::FlatBase(_), _) => (first(2, 4), Ideal::None),
             (System::Lagrangian(lagrangian), _) if model.level.is_empty() => {
                 let roles = lagrangian.roles.iter().zip(&model.state);

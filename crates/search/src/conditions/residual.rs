@@ -46,7 +46,9 @@ impl Residual {
         let (graph, (residual, values)) = recorded(case, |jet| {
             let residual: Option<Vec<Expr>> = match claim {
                 Some(claim) => Some(claim.kind.residual(jet, &claim.place.kept)),
-                None => model.system.criterion(&jet.phase).map(|value| vec![value]),
+                None => {
+                    Some(model.system.criterion(&jet.phase)).filter(|values| !values.is_empty())
+                }
             };
             let values = terms.iter().map(|term| jet.phase.scalar(&term.formula)).collect();
             (residual, values)

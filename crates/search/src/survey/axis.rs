@@ -20,7 +20,7 @@ pub struct Axis {
 /// Lists the candidates: the axes of the frame, and those along the vectors of the case.
 pub fn tried(case: &Case) -> Vec<Axis> {
     let second = match &case.model.system {
-        System::Rubber(_) => "γ",
+        System::Rubber(_) | System::Spinning(_) => "γ",
         System::Ball(ball) if matches!(ball.surface, liouville::mechanics::Surface::Level(_)) => {
             "r"
         }

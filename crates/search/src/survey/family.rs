@@ -46,7 +46,7 @@ macro_rules! files {
     };
 }
 
-const TEXTS: [&str; 48] = files![
+const TEXTS: [&str; 70] = files![
     "rubber",
     "rubber-free",
     "plane-reference",
@@ -75,6 +75,28 @@ const TEXTS: [&str; 48] = files![
     "sphere-revolution-rotor",
     "sphere-disk",
     "sphere-ellipsoid",
+    "rolling",
+    "rolling-free",
+    "rolling-ball-balanced",
+    "rolling-ball-balanced-momentum",
+    "rolling-ball-balanced-momentum-rotor",
+    "rolling-plane-ball-balanced",
+    "rolling-plane-ball-balanced-rotor",
+    "rolling-plane-ball-brun",
+    "rolling-sphere-ball-brun",
+    "rolling-sphere-ball-kappa",
+    "rolling-ball-unbalanced",
+    "rolling-plane-revolution",
+    "rolling-sphere-revolution",
+    "rolling-plane-ball-axis",
+    "rolling-plane-ball-axis-rotor",
+    "rolling-sphere-ball-axis",
+    "rolling-plane-revolution-linear",
+    "rolling-sphere-revolution-linear",
+    "rolling-plane-spherical-inertia",
+    "rolling-sphere-spherical-inertia",
+    "rolling-plane-ellipsoid-mb-mu",
+    "rolling-sphere-ellipsoid-mb-mu",
     "flat-base",
     "flat-base-free",
     "flat-base-central",

@@ -39,7 +39,8 @@ pub struct Geometry {
     pub bindings: Vec<Definition>,
 }
 
-const TEXTS: [&str; 5] = [
+const TEXTS: [&str; 6] = [
+    include_str!("facts/rolling.toml"),
     include_str!("facts/rubber.toml"),
     include_str!("facts/sphere.toml"),
     include_str!("facts/flat-base.toml"),
@@ -71,7 +72,7 @@ impl Geometry {
             }
             geometry.try_axis(case, options, axis)?;
         }
-        if matches!(case.model.system, System::Rubber(_)) {
+        if case.model.system.body().is_some() {
             geometry.name_shape(case, options)?;
         }
         Ok(geometry)
@@ -130,8 +131,9 @@ impl Geometry {
             self.facts.push(Fact { id, words, holds: true, claim: None });
         };
         let (forces, rotor) = match &case.model.system {
-            System::Rubber(body) => {
-                (body.potential.is_some() || body.moment.is_some(), body.gyrostat.is_some())
+            system @ (System::Rubber(_) | System::Spinning(_)) => {
+                let forces = system.potential().is_some() || system.moment().is_some();
+                (forces, system.gyrostat().is_some())
             }
             System::FlatBase(body) => (false, body.gyrostat.is_some()),
             System::Ball(ball) => {
@@ -164,7 +166,7 @@ impl Geometry {
 
     fn try_axis(&mut self, case: &Case, options: &Options, axis: Axis) -> Result<(), JudgeError> {
         let (a, name) = (&axis.vector, &axis.name);
-        let is_body = matches!(case.model.system, System::Rubber(_));
+        let is_body = case.model.system.body().is_some();
         let (what, tensor) = match is_body {
             true => ("the body and its inertia are", format!("I*hat({a}) − hat({a})*I")),
             false => ("the surface is", "0*E".to_string()),
@@ -250,12 +252,12 @@ fn is_true(claim: &ClaimReport) -> bool {
 /// Binds the names of the families to what the case names differently.
 fn bindings(case: &Case) -> Vec<Definition> {
     let mut found: Vec<(&str, &str)> = Vec::new();
+    if let Some(body) = case.model.system.body() {
+        found.extend([("m", body.mass.text()), ("I", body.inertia.text())]);
+        found.extend(body.curvature.as_ref().map(|k| ("k", k.text())));
+        found.extend(body.gyrostat.as_ref().map(|s| ("S", s.text())));
+    }
     match &case.model.system {
-        System::Rubber(body) => {
-            found.extend([("m", body.mass.text()), ("I", body.inertia.text())]);
-            found.extend(body.curvature.as_ref().map(|k| ("k", k.text())));
-            found.extend(body.gyrostat.as_ref().map(|s| ("S", s.text())));
-        }
         System::FlatBase(body) => {
             found.extend([
                 ("m", body.mass.text()),
@@ -277,7 +279,12 @@ fn bindings(case: &Case) -> Vec<Definition> {
                 found.push(("F", function.text()));
             }
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
+        System::Rubber(_)
+        | System::Spinning(_)
+        | System::Lagrangian(_)
+        | System::Hamiltonian(_)
+        | System::Field(_)
+        | System::Map(_) => {}
     }
     found.retain(|(name, text)| name != text);
     found.into_iter().map(|(name, text)| define(name, text)).collect()

@@ -68,8 +68,7 @@ pub fn count(
 fn has_energy(case: &Case) -> bool {
     let conserved = |case: &Case| match &case.model.system {
         liouville::mechanics::System::Ball(ball) => ball.rotation.is_none(),
-        liouville::mechanics::System::Rubber(body) => body.moment.is_none(),
-        system => system.has_energy(),
+        system => system.has_energy() && system.moment().is_none(),
     };
     conserved(case) && case.model.vocabulary.find("energy").is_some()
 }

@@ -49,7 +49,8 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> 
 fn candidates(case: &Case) -> Vec<Candidate> {
     let turns = || Turn::all().into_iter();
     match &case.model.system {
-        System::Rubber(_) => {
+        system @ (System::Rubber(_) | System::Spinning(_)) => {
+            let spins = matches!(system, System::Spinning(_));
             let candidate = |map: &Map, axial: i8| Candidate {
                 name: map.name(axial < 0),
                 key: key(axial),
@@ -57,8 +58,9 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                     ("ω".into(), map.image("ω", axial * map.determinant())),
                     ("γ".into(), map.image("γ", 1)),
                 ],
-                // |γ| = 1 and (ω,γ) = 0 on the fixed spaces of both.
+                // |γ| = 1, and (ω,γ) = 0 without spin, on the fixed spaces of both.
                 fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
+                    _ if spins => along.checked_sub(1).map(|d| d + velocity),
                     1 => along.checked_sub(1).map(|d| d + velocity),
                     _ => along.checked_sub(1).map(|d| d + velocity - 1),
                 }),

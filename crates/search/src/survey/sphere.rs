@@ -1,7 +1,7 @@
 //! Maps on the sphere of γ for one body of the case: of the density, or of the criterion that
 //! excludes it.
 //!
-//! d ln ρ = d ln ρ₀ − (w,dγ) on |γ| = 1, where ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T and w is the covector of
+//! d ln ρ = d ln ρ₀ − (w,dγ) on |γ| = 1, where ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T, or det Ĩ D_T with spin, and w is the covector of
 //! the criterion (BMB 2013, (2.6); (2.20) on the sphere). It is integrated along the equator from
 //! e₁, and from there along meridians.
 
@@ -34,7 +34,7 @@ type Parameters = Vec<(String, String)>;
 /// Values on a grid of the sphere of γ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereMap {
-    /// Quantity of the map: `ln ρ`, minus its value at e₁, or `C`, the criterion.
+    /// Quantity of the map: `ln ρ`, minus its value at e₁, or the criterion, `C` or `C₁`.
     pub quantity: &'static str,
     /// Values of the free parameters, by name.
     pub parameters: Parameters,
@@ -105,7 +105,10 @@ pub fn criterion(case: &Case, options: &Options) -> Result<Option<SphereMap>, Ju
     let row =
         |latitude: &f64| longitudes.iter().map(|longitude| value(*latitude, *longitude)).collect();
     Ok(Some(SphereMap {
-        quantity: "C",
+        quantity: match case.model.system {
+            System::Spinning(_) => "C₁",
+            _ => "C",
+        },
         parameters,
         values: latitudes.iter().map(row).collect(),
         latitudes: degrees(&latitudes),
@@ -143,7 +146,7 @@ impl<'c> Body<'c> {
         options: &Options,
     ) -> Result<Option<(Self, Parameters)>, JudgeError> {
         let model = &case.model;
-        if !matches!(model.system, System::Rubber(_)) || !model.extension.is_empty() {
+        if model.system.body().is_none() || !model.extension.is_empty() {
             return Ok(None);
         }
         let printed = Sampler::new(case, &Place::level(model), options.seed)?
@@ -169,22 +172,25 @@ impl<'c> Body<'c> {
 
     /// Computes the point of contact r.
     pub fn contact(&self, gamma: [f64; 3]) -> [f64; 3] {
-        self.at(gamma, |phase| match &self.model.system {
-            System::Rubber(body) => body.shape.contact(&phase.configuration).0.into(),
-            _ => [f64::NAN; 3],
+        self.at(gamma, |phase| match self.model.system.body() {
+            Some(body) => body.shape.contact(&phase.configuration).0.into(),
+            None => [f64::NAN; 3],
         })
     }
 
     /// Computes ρ₀.
     fn reference(&self, gamma: [f64; 3]) -> f64 {
-        self.at(gamma, |phase| match &self.model.system {
-            System::Rubber(body) => body.reference_density(&phase.configuration),
-            _ => f64::NAN,
-        })
+        let density = |phase: &Phase<'_, f64>| {
+            self.model.system.reference_density(&phase.configuration).unwrap_or(f64::NAN)
+        };
+        self.at(gamma, density)
     }
 
     fn criterion(&self, gamma: [f64; 3]) -> f64 {
-        self.at(gamma, |phase| self.model.system.criterion(phase)).unwrap_or(f64::NAN)
+        self.at(gamma, |phase| self.model.system.criterion(phase))
+            .first()
+            .copied()
+            .unwrap_or(f64::NAN)
     }
 
     /// Computes ∫ (w,dγ) along a path with parameter 0 ≤ t ≤ 1.

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Bodies of the catalogue, with at least one for each family.
-const BODIES: [&str; 33] = [
+const BODIES: [&str; 50] = [
     "plane/spherical-inertia-ball",
     "plane/balanced-ball-gravity",
     "plane/balanced-ball",
@@ -26,6 +26,23 @@ const BODIES: [&str; 33] = [
     "sphere/body-of-revolution-gyrostat",
     "sphere/disk",
     "sphere/ellipsoid",
+    "spin/chaplygin-ball",
+    "spin/chaplygin-ball-gyrostat",
+    "spin/chaplygin-ball-kozlov",
+    "spin/homogeneous-ball",
+    "spin/routh-sphere",
+    "spin/routh-sphere-gyrostat",
+    "spin/revolution",
+    "spin/spherical-inertia",
+    "spin/ellipsoid-mb-mu",
+    "spin/unbalanced-ball",
+    "spin/borisov-fedorov",
+    "spin/sphere-balanced-ball-kozlov",
+    "spin/sphere-revolution",
+    "spin/sphere-routh-sphere",
+    "spin/sphere-spherical-inertia",
+    "spin/sphere-ellipsoid-mb-mu",
+    "spin/sphere-revolution-free",
     "flat-base/base-through-centre",
     "flat-base/symmetric-base",
     "flat-base/symmetric-base-gyrostat",

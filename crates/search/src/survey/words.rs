@@ -30,7 +30,7 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
         (false, false) => ", without forces",
     };
     match &case.model.system {
-        System::Rubber(body) => {
+        system @ (System::Rubber(_) | System::Spinning(_)) => {
             let shape = match (has("ball"), has("central"), has("ellipsoid"), about()) {
                 (true, true, ..) => "a ball whose mass centre is its centre".to_string(),
                 (true, false, ..) => "a ball with displaced mass centre".to_string(),
@@ -39,13 +39,18 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
                 (_, _, _, Some(axis)) => format!("a body of revolution about {axis}"),
                 _ => "a body whose surface is none of those that have a name here".to_string(),
             };
-            let base = match &body.curvature {
+            let curvature = system.body().and_then(|body| body.curvature.as_ref());
+            let base = match curvature {
                 None => "a plane".to_string(),
                 Some(curvature) => format!("a sphere of curvature {}", curvature.text()),
             };
-            let forces = body.potential.is_some() || body.moment.is_some();
-            let with = with(body.gyrostat.is_some(), forces);
-            format!("{} rolls on {base} without slipping or spinning{with}.", capital(&shape))
+            let forces = system.potential().is_some() || system.moment().is_some();
+            let with = with(system.gyrostat().is_some(), forces);
+            let way = match system {
+                System::Spinning(_) => "without slipping, free to spin",
+                _ => "without slipping or spinning",
+            };
+            format!("{} rolls on {base} {way}{with}.", capital(&shape))
         }
         System::FlatBase(body) => format!(
             "A body with a flat base rolls on a sphere without slipping or spinning{}.",

@@ -1,17 +1,16 @@
-//! The command `liouville bench`.
+//! The command `liouville measure bench`.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use liouville::case::Case;
 use liouville::verdict::LANES;
 use liouville_cli::report::bench::{self, BenchRun};
 use liouville_cli::report::{Failure, diagnostic, diagram, terminal};
 use liouville_lab::bench::{Item, Measured, Options, measure_item, work_items};
 
-use super::{Answer, colour, files, width};
+use super::{Answer, colour, files, source, width};
 
 #[derive(Debug, Args)]
 pub struct Bench {
@@ -67,7 +66,10 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
         bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"
     } else {
         let colour = colour(std::io::stdout().is_terminal());
-        bench::text(&run, terminal::Style { verbose: false, colour, width: width() })
+        bench::text(
+            &run,
+            terminal::Style { detail: terminal::Detail::Claims, colour, width: width() },
+        )
     };
     Ok(Answer { text, code: if run.errors.is_empty() { 0 } else { 2 } })
 }
@@ -91,7 +93,7 @@ fn items(options: &Bench) -> Result<Vec<Named>, String> {
 
 fn item(path: &Path) -> Result<Item, Vec<Failure>> {
     let shown = path.display().to_string();
-    let (text, case) = Case::read(path, &[]);
+    let (text, case) = source::read(path, &[]);
     match case {
         Ok(case) if case.model.system.is_map() => {
             let message = "the case is a map, and derivatives are timed along flows";

@@ -1,4 +1,4 @@
-//! The command `liouville chart`.
+//! The command `liouville motion chart`.
 
 use clap::Args;
 use liouville::case::Case;

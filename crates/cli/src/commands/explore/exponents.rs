@@ -1,4 +1,4 @@
-//! The command `liouville exponents`.
+//! The command `liouville motion exponents`.
 
 use clap::Args;
 use liouville::case::Case;

@@ -1,4 +1,4 @@
-//! The command `liouville orbit`.
+//! The command `liouville motion orbit`.
 
 use clap::{Args, ValueEnum};
 use liouville::number::pair::Pair;

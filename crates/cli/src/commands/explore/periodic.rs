@@ -1,4 +1,4 @@
-//! The command `liouville periodic`.
+//! The command `liouville motion periodic`.
 
 use clap::Args;
 use liouville_flow::{FlowError, Multipliers, PeriodicPoint, SectionMap};

@@ -1,4 +1,4 @@
-//! The command `liouville section`.
+//! The command `liouville motion section`.
 
 use clap::Args;
 use liouville::case::{Case, Direction, Line};

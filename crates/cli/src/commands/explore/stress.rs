@@ -1,4 +1,4 @@
-//! The command `liouville stress`.
+//! The command `liouville measure stress`.
 
 use std::path::PathBuf;
 use std::time::Instant;

@@ -118,6 +118,9 @@ fn measure(survey: &Survey) -> Vec<Block> {
             format!(" Around closed parallels the quadrature gives 0 but for {error:e}.")
         });
         let what = match map.quantity {
+            "C₁" => {
+                "The condition C₁ over the sphere of γ: with a density of the configuration it would be 0 everywhere."
+            }
             "C" => {
                 "The criterion (γ, rot w) over the sphere of γ: it would be 0 everywhere if there were a density of the configuration."
             }

@@ -69,7 +69,7 @@ pub fn sphere(map: &SphereMap) -> Picture {
     let (low, high) = values
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
     // The criterion has both signs, and 0 in the middle of the scale.
-    let is_signed = map.quantity == "C";
+    let is_signed = map.quantity.starts_with('C');
     let (low, high) = match is_signed {
         true => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
         false => (low, high),

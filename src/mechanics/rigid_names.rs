@@ -1,4 +1,4 @@
-//! Evaluation of the names that a rubber body defines.
+//! Evaluation of the names that a rolling body defines.
 
 use nalgebra::Vector3;
 
@@ -7,13 +7,14 @@ use super::configuration::Configuration;
 use super::linear::{isotropic, point_mass};
 use super::phase::Phase;
 use super::quantity::Quantity;
-use super::rubber::{Rubber, normal};
+use super::rigid::RigidBody;
+use super::rubber::normal;
 use crate::formula::Value;
 use crate::scalar::Scalar;
 
-impl Rubber {
+impl RigidBody {
     /// Evaluates a quantity named in a formula.
-    pub fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+    pub(super) fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         let at = &phase.configuration;
         match quantity {
             Quantity::Contact => Value::Vector(self.motion(phase).pose.r),
@@ -32,8 +33,6 @@ impl Rubber {
                 })
             }
             Quantity::Energy => Value::Scalar(self.energy(phase)),
-            Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase).0),
-            Quantity::Multiplier => Value::Scalar(self.acceleration(phase).1),
             Quantity::Profile
             | Quantity::ProfileRate
             | Quantity::ProfileF1
@@ -48,7 +47,7 @@ impl Rubber {
     }
 
     /// Evaluates a quantity that does not depend on velocities and needs no derivative.
-    pub fn configuration_quantity<T: Scalar>(
+    pub(super) fn configuration_quantity<T: Scalar>(
         &self,
         quantity: Quantity,
         at: &Configuration<'_, T>,

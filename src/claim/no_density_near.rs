@@ -1,9 +1,9 @@
-//! Fixed points near which no density exists: the volume about them does not stay.
+//! Absence of a density near a fixed point at which the flow changes volumes.
 //!
-//! Where v(x₀) = 0 the flow's derivative there is exp(tA), and det exp(tA) = exp(t div v). A measure
-//! with a continuous density ρ is kept only if ρ(x₀) = ρ(x₀) exp(t div v). So div v(x₀) ≠ 0 excludes
-//! each that is positive there; on a level the divergence is that of the level's volume. For a map the
-//! factor is det DΦ, and has to be ±1.
+//! Where v(x₀) = 0, the derivative of the flow is exp(tA), with det exp(tA) = exp(t div v). A measure
+//! with a continuous density ρ is invariant only if ρ(x₀) = ρ(x₀) exp(t div v). So div v(x₀) ≠ 0
+//! excludes every ρ that is positive at x₀. On a level, div v refers to the level's volume. For a
+//! map the factor is det DΦ, which must be ±1.
 
 use super::components::Components;
 use super::point::read_point;
@@ -13,16 +13,17 @@ use crate::mechanics::Model;
 use crate::mechanics::calculus::Jet;
 use crate::scalar::Scalar;
 
-/// No measure with a density that is continuous, and positive at a fixed point, is kept near it.
+/// The claim that no measure with a continuous density, positive at a fixed point, is invariant
+/// near it.
 #[derive(Clone, Debug)]
-pub struct NoDensity(Components);
+pub struct NoDensityNear(Components);
 
-impl NoDensity {
+impl NoDensityNear {
     fn jet<'m, T: Scalar>(&self, jet: &Jet<'m, T>) -> Jet<'m, T> {
         Jet::new(jet.phase.with(&[], &self.0.at(&jet.phase)))
     }
 
-    /// The divergence at the point, or (det DΦ)² - 1.
+    /// Computes the divergence at the point, or (det DΦ)² - 1 of a map.
     fn growth(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Expr {
         let at = self.jet(jet);
         if jet.phase.model().system.is_map() {
@@ -33,7 +34,7 @@ impl NoDensity {
     }
 }
 
-impl Statement for NoDensity {
+impl Statement for NoDensityNear {
     const NAME: &'static str = "no-density-near";
     const WIDENS: bool = false;
     const OF_MAPS: bool = true;
@@ -46,7 +47,7 @@ impl Statement for NoDensity {
         Some(format!("no density near ({})", self.0.text))
     }
 
-    /// The point is a fixed one, on the level.
+    /// Computes the field at the point and the level functions there.
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
         let at = self.jet(jet);
         let mut residual = match at.phase.model().system.is_map() {

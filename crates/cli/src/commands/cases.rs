@@ -1,0 +1,102 @@
+//! The command `liouville cases`: the catalogue inside the program.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+
+use super::source::{CATALOGUE, inside};
+use super::{Answer, write_new};
+
+#[derive(Debug, Args)]
+pub struct Cases {
+    #[command(subcommand)]
+    pub action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Action {
+    /// List the cases whose path or title contains all of the words
+    List {
+        /// Words to look for, in upper or lower case
+        words: Vec<String>,
+    },
+    /// Print a case
+    Show {
+        /// Case, such as plane/balanced-ball
+        name: PathBuf,
+    },
+    /// Write cases to a folder, to change them
+    Copy {
+        /// Case or folder of the catalogue, such as plane/balanced-ball or plane
+        name: PathBuf,
+        /// Folder to write to
+        #[arg(default_value = ".")]
+        folder: PathBuf,
+    },
+}
+
+pub fn run(options: &Cases) -> Result<Answer, String> {
+    let text = match &options.action {
+        Action::List { words } => list(words)?,
+        Action::Show { name } => match found(name)?.as_slice() {
+            [(_, text)] => text.to_string(),
+            several => several.iter().map(|(name, _)| format!("{name}\n")).collect(),
+        },
+        Action::Copy { name, folder } => copy(name, folder)?,
+    };
+    Ok(Answer { text, code: 0 })
+}
+
+fn list(words: &[String]) -> Result<String, String> {
+    let words: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
+    let mut out = String::new();
+    for (name, text) in CATALOGUE {
+        let title = title(text);
+        let searched = format!("{name} {title}").to_lowercase();
+        if words.iter().all(|word| searched.contains(word)) {
+            let short = name.trim_start_matches("cases/").trim_end_matches(".toml");
+            // a `String` takes all that is written to it
+            _ = writeln!(out, "{short:<52} {title}");
+        }
+    }
+    match out.is_empty() {
+        true => Err(format!(
+            "error: no case contains {}\nhelp: `liouville cases list` lists all {}",
+            words.join(" and "),
+            CATALOGUE.len()
+        )),
+        false => Ok(out),
+    }
+}
+
+/// Returns the title of a case.
+fn title(text: &str) -> &str {
+    let value = text.lines().find_map(|line| line.strip_prefix("title"));
+    value.map_or("", |value| value.trim_matches([' ', '=', '"', '\'']))
+}
+
+fn found(name: &Path) -> Result<Vec<(&'static str, &'static str)>, String> {
+    match inside(name) {
+        none if none.is_empty() => Err(format!(
+            "error: the catalogue has no case {}\nhelp: `liouville cases list WORD` lists the cases \
+             whose path or title contains a word",
+            name.display()
+        )),
+        found => Ok(found),
+    }
+}
+
+fn copy(name: &Path, folder: &Path) -> Result<String, String> {
+    let mut out = String::new();
+    for (name, text) in found(name)? {
+        let file = folder.join(name.trim_start_matches("cases/"));
+        if let Some(parent) = file.parent() {
+            std::fs::create_dir_all(parent)
+                .map_err(|error| format!("error: cannot make {}: {error}", parent.display()))?;
+        }
+        write_new(&file, text)?;
+        _ = writeln!(out, "{}", file.display());
+    }
+    Ok(out)
+}

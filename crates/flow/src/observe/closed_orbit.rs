@@ -1,0 +1,239 @@
+//! Closed orbits, proved by enclosures, and what their ∮ div v excludes.
+
+use super::finding::Finding;
+use super::scene::Scene;
+use crate::{Enclosure, FlowError, Measured, Obstacle, ProvedOrbit, Request, Start, prove};
+use liouville::case::Case;
+use liouville::claim::motion::{Beginning, Change, ClosedOrbit, Stability, Stated};
+use liouville::mechanics::{Chart, Draw, LevelFunction, Line};
+use liouville::verdict::{self, Options, Trust, Verdict};
+
+/// Distance from the start within which an orbit is the claimed one, relative to the state; the
+/// same for the period.
+const NEAR: f64 = 1e-2;
+
+/// Proves the closed orbit of a claim.
+pub fn look(
+    claim: &ClosedOrbit,
+    scene: &Scene<'_>,
+    options: &Options,
+) -> Result<Finding, FlowError> {
+    let mut finding = Finding::default();
+    let case = scene.case;
+    let model = &case.model;
+    if model.system.has_arbitrary_function() {
+        return Err(FlowError::Arbitrary);
+    }
+    if model.free_components() > 0 {
+        let reason = "some parameters have ranges, and an orbit is proved for fixed values";
+        finding.leave_open(reason.to_string());
+        return Ok(finding);
+    }
+    if case.one_sided.is_some() {
+        finding.leave_open("under a one-sided constraint no orbit is proved".to_string());
+        return Ok(finding);
+    }
+    let start = scene.start(&claim.beginning)?;
+    let found = kept(case, claim, options)
+        .and_then(|keeps_energy| enclosed(claim, scene, &start, keeps_energy));
+    match found {
+        Ok(found) => judge(claim, &found, &mut finding),
+        Err(reason) => finding.leave_open(reason),
+    }
+    Ok(finding)
+}
+
+/// Encloses the orbit, and checks that it lies where its integrals are proved.
+fn enclosed(
+    claim: &ClosedOrbit,
+    scene: &Scene<'_>,
+    start: &Start,
+    keeps_energy: bool,
+) -> Result<ProvedOrbit, String> {
+    let energy = match claim.beginning {
+        Beginning::Section(_) => scene.case.section.as_ref().map(|plan| &plan.energy),
+        Beginning::State(_) => None,
+    };
+    let found = prove(&Request {
+        model: &scene.case.model,
+        start,
+        period: claim.period.value,
+        keeps_energy,
+        energy,
+        integrals: &claim.integrals.iter().collect::<Vec<_>>(),
+        wants_multipliers: claim.stability.is_some(),
+    })
+    .map_err(|obstacle| match obstacle {
+        Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
+        other => other.to_string(),
+    })?;
+    if found.kept > 0 && !is_inside(scene.case, &found.start) {
+        let reason = "the orbit starts outside the ranges of [state], where its integrals are \
+                      proved";
+        return Err(reason.to_string());
+    }
+    Ok(found)
+}
+
+/// Checks that the level functions and the claimed integrals are proved to be kept. Returns whether
+/// the energy is.
+fn kept(case: &Case, claim: &ClosedOrbit, options: &Options) -> Result<bool, String> {
+    let level = case.model.level.iter().map(|equation| match &equation.function {
+        LevelFunction::UnitNormal => "(γ,γ)".to_string(),
+        LevelFunction::NoSpin => "(ω,γ)".to_string(),
+        LevelFunction::Formula(_) => match equation.text.split_once('=') {
+            Some((left, right)) => format!("({left}) - ({right})"),
+            None => equation.text.clone(),
+        },
+    });
+    let integrals = claim.integrals.iter().map(|formula| formula.text().to_string());
+    let needed: Vec<String> = level.chain(integrals).collect();
+    if let Some(text) = needed.iter().find(|text| !is_proved(case, text, options)) {
+        return Err(format!("it is not proved that the motion keeps {}", text.trim()));
+    }
+    Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
+}
+
+/// Whether a function is proved to be an integral on the level.
+fn is_proved(case: &Case, function: &str, options: &Options) -> bool {
+    let text = function.replace('\\', "\\\\").replace('"', "\\\"");
+    let Ok(asked) = case.ask(&format!("[[claim]]\nintegral = \"{text}\"\n")) else { return false };
+    let options = Options { trust: Trust::Best, mutants: false, ..*options };
+    let report = verdict::judge(&asked, &options);
+    report.is_ok_and(|report| report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))
+}
+
+/// Whether a box of states lies where identities are proved: near a state that can be drawn they
+/// hold, and an analytic function that is 0 there is 0 along the orbit.
+fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
+    match case.chart {
+        Chart::Rolling | Chart::Sphere => return true,
+        Chart::Given(_) => return false,
+        Chart::Free | Chart::Equations => {}
+    }
+    let is_within = |(draw, x): (&Draw, &Enclosure)| {
+        let (low, high) = (x.mid - x.rad, x.mid + x.rad);
+        match draw {
+            Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
+            Draw::Of(Line::All, _) => true,
+            Draw::Of(Line::Positive, _) => low > 0.0,
+            Draw::OneOf(_) | Draw::Sign => false,
+        }
+    };
+    case.free_draws.len() == state.len() && case.free_draws.iter().zip(state).all(is_within)
+}
+
+/// Compares an orbit with the claim.
+fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut Finding) {
+    let shift = (found.period.mid - claim.period.value).abs() / claim.period.value;
+    if !(found.moved <= NEAR && shift <= NEAR) {
+        finding.leave_open(format!(
+            "the closed orbit that is found has period {:.10}, and lies at a distance of {:.1e} \
+             of the state: start nearer to it",
+            found.period.mid, found.moved
+        ));
+        return;
+    }
+    let measured = |x: Enclosure| Measured { value: x.mid, error: x.rad };
+    finding.note("period", measured(found.period), Some(&claim.period));
+    finding.note("∮ div v dt", measured(found.volume), None);
+    compare_period(&claim.period, found.period, finding);
+    let negative = (-found.volume).is_positive();
+    let changes = found.volume.is_positive() || negative;
+    if !changes && (claim.divergence.is_some() || claim.excludes_density) {
+        finding.leave_open("∮ div v dt is not separated from 0".to_string());
+    }
+    match claim.divergence {
+        Some(Change::Negative) if found.volume.is_positive() => {
+            finding.refute("along the orbit volume grows".to_string());
+        }
+        Some(Change::Positive) if negative => {
+            finding.refute("along the orbit volume shrinks".to_string());
+        }
+        _ => {}
+    }
+    let seen = claim.stability.and_then(|_| stability(found));
+    if let Some(claimed) = claim.stability {
+        if let Some(sum) = found.sum {
+            finding.note("λ₁ + λ₂", measured(sum), None);
+        }
+        match seen {
+            Some(seen) if seen == claimed => {}
+            Some(seen) => finding.refute(format!("the orbit is of another kind: {}", name(seen))),
+            None => finding.leave_open("its stability is not proved by the enclosures".to_string()),
+        }
+    }
+    finding.theorem = Some(theorem(found, changes, seen));
+}
+
+/// Stability by the enclosed multipliers, one or two of them. That their moduli are 1 is not proved.
+fn stability(found: &ProvedOrbit) -> Option<Stability> {
+    let grows = match (found.volume.is_positive(), (-found.volume).is_positive()) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    };
+    let by_volume = |grows| if grows { Stability::Source } else { Stability::Sink };
+    match found.multipliers {
+        1 => grows.map(by_volume),
+        2 => {
+            // The characteristic polynomial at ±1 is 1 + λ₁λ₂ ∓ (λ₁ + λ₂).
+            let sum = found.sum?;
+            let one_and_product = Enclosure::exact(1.0) + found.volume.exp();
+            let [ahead, behind] = [one_and_product - sum, one_and_product + sum];
+            if (-ahead).is_positive() || (-behind).is_positive() {
+                return Some(Stability::Hyperbolic);
+            }
+            let is_inside = ahead.is_positive() && behind.is_positive();
+            grows.filter(|_| is_inside).map(by_volume)
+        }
+        _ => None,
+    }
+}
+
+fn name(stability: Stability) -> &'static str {
+    let named = Stability::ALL.iter().find(|(_, one)| *one == stability);
+    named.map_or("", |(name, _)| name)
+}
+
+/// Compares an enclosed period with the digits stated.
+fn compare_period(stated: &Stated, period: Enclosure, finding: &mut Finding) {
+    let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + stated.value.abs());
+    let gap = (period.mid - stated.value).abs();
+    if gap > stated.unit + period.rad + rounding {
+        finding.refute(format!("the period is not {}", stated.text));
+    } else if stated.unit == 0.0 {
+        let reason = "an enclosure does not prove that the period is exactly";
+        finding.leave_open(format!("{reason} {}: write a decimal", stated.text));
+    } else if !(gap + period.rad + rounding <= stated.unit) {
+        finding.leave_open("the enclosure of the period is wider than the digits".to_string());
+    }
+}
+
+fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> String {
+    let state: Vec<String> = found.start.iter().map(|x| format!("{:.12}", x.mid)).collect();
+    let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
+    let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
+    let orbit = format!(
+        "a closed orbit goes through ({}) ± {wide:.0e}, with period {:.13} ± {:.0e} and ∮ div v dt \
+         = {:.13} ± {:.0e} ({} segments, ‖1 − CG'‖ ≤ {:.0e}){kind}",
+        state.join(", "),
+        found.period.mid,
+        found.period.rad,
+        found.volume.mid,
+        found.volume.rad,
+        found.segments,
+        found.contraction
+    );
+    if !changes {
+        return orbit;
+    }
+    let near = match found.kept {
+        0 => "and all near them",
+        _ => "and all near them for which the motion keeps the same functions",
+    };
+    format!(
+        "{orbit}; so no invariant measure has a density that is continuous and positive on it, for \
+         these parameters {near}"
+    )
+}

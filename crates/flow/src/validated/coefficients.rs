@@ -1,0 +1,260 @@
+//! Taylor coefficients as balls, over all starts in a box, several boxes at once.
+
+use liouville::graph::{Work, with_widest_vectors};
+use liouville::number::ball::{Ball, Balls};
+use liouville::number::{Domain, Function, Operation as Binary};
+
+use super::enclosure::{Enclosure, raised};
+use super::plan::{Exponent, Operation, Plan, Sum};
+use crate::form::Row;
+
+/// Number of boxes expanded at once.
+pub const LANES: usize = 8;
+/// One f64 for each box.
+pub type Lane = [f64; LANES];
+/// One ball for each box.
+pub type Block = Balls<LANES>;
+
+const BALL: Ball<LANES> = Ball;
+
+/// Plan with the coefficients of its rows, orders 0 to `order`.
+///
+/// Rows other than the state end at `order` - 1. With each coefficient x there is a bound of |x|.
+pub struct Coefficients<'p> {
+    pub plan: &'p Plan,
+    pub order: usize,
+    stride: usize,
+    mid: Vec<Lane>,
+    rad: Vec<Lane>,
+    magnitude: Vec<Lane>,
+}
+
+impl<'p> Coefficients<'p> {
+    /// Prepares expansions to this order.
+    pub fn new(plan: &'p Plan, order: usize) -> Self {
+        let stride = order + 1;
+        let zeros = vec![[0.0; LANES]; plan.rows * stride];
+        Self { plan, order, stride, mid: zeros.clone(), rad: zeros.clone(), magnitude: zeros }
+    }
+
+    /// Computes all coefficients at boxes of states, one in each lane.
+    pub fn expand(&mut self, state: &[Block]) {
+        self.begin(state);
+        with_widest_vectors(Expansion(self, self.order));
+    }
+
+    /// Computes order 0 of all rows.
+    pub fn values(&mut self, state: &[Block]) {
+        self.begin(state);
+        with_widest_vectors(Expansion(self, 1));
+    }
+
+    fn begin(&mut self, state: &[Block]) {
+        for (row, value) in state.iter().enumerate() {
+            self.put(row, 0, value);
+        }
+    }
+
+    /// One coefficient.
+    #[inline(always)]
+    pub fn get(&self, row: Row, n: usize) -> Block {
+        let place = row * self.stride + n;
+        Balls::new(self.mid[place], self.rad[place])
+    }
+
+    /// Bounds of the magnitudes of a row's coefficients.
+    pub fn magnitudes(&self, row: Row) -> &[Lane] {
+        &self.magnitude[row * self.stride..(row + 1) * self.stride]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, row: Row, n: usize, value: &Block) {
+        let place = row * self.stride + n;
+        for lane in 0..LANES {
+            let (mid, rad) = (value.mid[lane], value.rad[lane]);
+            self.mid[place][lane] = mid;
+            self.rad[place][lane] = rad;
+            self.magnitude[place][lane] = raised(mid.abs() + rad, 1);
+        }
+    }
+
+    /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
+    #[inline(always)]
+    fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Block {
+        let (mut mid, mut rad, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (x, y) = (x * self.stride, y * self.stride + n);
+        for k in first..=last {
+            let (xm, ym) = (&self.mid[x + k], &self.mid[y - k]);
+            let (xr, yr) = (&self.rad[x + k], &self.rad[y - k]);
+            let (xa, ya) = (&self.magnitude[x + k], &self.magnitude[y - k]);
+            for lane in 0..LANES {
+                mid[lane] += xm[lane] * ym[lane];
+                rad[lane] += xr[lane] * ya[lane] + xa[lane] * yr[lane];
+                size[lane] += xa[lane] * ya[lane];
+            }
+        }
+        // The error of a sum of n products is at most γ_n times the sum of their magnitudes.
+        let share = (n as f64 + 4.0) * f64::EPSILON / 2.0;
+        let rad = std::array::from_fn(|lane| raised(rad[lane] + share * size[lane], 2 * n + 4));
+        Balls::new(mid, rad)
+    }
+
+    /// Encloses Σ k x_k y_{n-k} over k from 1 to `last`.
+    #[inline(always)]
+    fn weighted(&self, x: Row, y: Row, n: usize, last: usize) -> Block {
+        let mut sum = constant(Enclosure::ZERO);
+        for k in 1..=last {
+            let weight = constant(Enclosure::exact(k as f64));
+            sum = add(&sum, &mul(&weight, &mul(&self.get(x, k), &self.get(y, n - k))));
+        }
+        sum
+    }
+
+    /// Computes one coefficient of a row from those of lower orders and of rows before it.
+    #[inline(always)]
+    fn coefficient(&self, out: Row, operation: &Operation, n: usize) -> Block {
+        let at = |row: &Row, n: usize| self.get(*row, n);
+        let number = |k: usize| constant(Enclosure::exact(k as f64));
+        match operation {
+            Operation::Sum(sum) => self.sum(sum, n),
+            Operation::Theta(x) => mul(&number(n), &at(x, n)),
+            Operation::Recip(x) if n == 0 => apply(Function::Recip, &at(x, 0)),
+            Operation::Recip(x) => {
+                let inner = self.convolved(*x, out, n, 1, n);
+                apply(Function::Neg, &mul(&at(&out, 0), &inner))
+            }
+            Operation::Power { x, exponent, .. } if n == 0 => power(&at(x, 0), exponent),
+            Operation::Power { x, exponent, .. } => {
+                let moved = mul(&constant(exponent.value), &self.weighted(*x, out, n, n));
+                let own = self.weighted(out, *x, n, n - 1);
+                let divisor = apply(Function::Recip, &mul(&number(n), &at(x, 0)));
+                mul(&sub(&moved, &own), &divisor)
+            }
+            Operation::Exp(x) if n == 0 => apply(Function::Exp, &at(x, 0)),
+            Operation::Exp(x) => divided(&self.weighted(*x, out, n, n), n),
+            Operation::Ln { x, .. } if n == 0 => apply(Function::Ln, &at(x, 0)),
+            Operation::Ln { x, .. } => {
+                let own = self.weighted(out, *x, n, n - 1);
+                let rest = sub(&mul(&number(n), &at(x, n)), &own);
+                mul(&rest, &apply(Function::Recip, &mul(&number(n), &at(x, 0))))
+            }
+            Operation::Sin { x, .. } if n == 0 => apply(Function::Sin, &at(x, 0)),
+            Operation::Sin { x, cosine } => divided(&self.weighted(*x, *cosine, n, n), n),
+            Operation::Cos { x, .. } if n == 0 => apply(Function::Cos, &at(x, 0)),
+            Operation::Cos { x, sine } => {
+                divided(&apply(Function::Neg, &self.weighted(*x, *sine, n, n)), n)
+            }
+            Operation::Atan { x, .. } if n == 0 => apply(Function::Atan, &at(x, 0)),
+            Operation::Atan { x, square, .. } => {
+                let own = self.weighted(out, *square, n, n - 1);
+                let rest = sub(&mul(&number(n), &at(x, n)), &own);
+                mul(&rest, &apply(Function::Recip, &mul(&number(n), &at(square, 0))))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sum(&self, sum: &Sum, n: usize) -> Block {
+        let mut total = constant(match sum.constant {
+            Some(value) if n == 0 => value,
+            _ => Enclosure::ZERO,
+        });
+        for (weight, x) in &sum.linear {
+            total = plus(&total, *weight, &self.get(*x, n));
+        }
+        for (weight, x, y) in &sum.products {
+            total = plus(&total, *weight, &self.convolved(*x, *y, n, 0, n));
+        }
+        total
+    }
+
+    /// Encloses Σ x_k h^k of a component of the state, k from 0 to `order`.
+    pub fn polynomial(&self, component: usize, h: &Block) -> Block {
+        let mut sum = self.get(component, self.order);
+        for n in (0..self.order).rev() {
+            sum = add(&mul(&sum, h), &self.get(component, n));
+        }
+        sum
+    }
+}
+
+/// Work of an expansion, up to an order.
+struct Expansion<'c, 'p>(&'c mut Coefficients<'p>, usize);
+
+impl Work for Expansion<'_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self(own, order) = self;
+        let plan = own.plan;
+        for n in 0..order {
+            for (out, operation) in &plan.operations {
+                let value = own.coefficient(*out, operation, n);
+                own.put(*out, n, &value);
+            }
+            for (component, rate) in plan.rates.iter().enumerate() {
+                let next = divided(&own.get(*rate, n), n + 1);
+                own.put(component, n + 1, &next);
+            }
+        }
+    }
+}
+
+/// The same ball in every lane.
+#[inline(always)]
+pub fn constant(value: Enclosure) -> Block {
+    Balls::new([value.mid; LANES], [value.rad; LANES])
+}
+
+/// Encloses x + y.
+#[inline(always)]
+pub fn add(x: &Block, y: &Block) -> Block {
+    let mut out = constant(Enclosure::ZERO);
+    BALL.binary(Binary::Add, x, y, &mut out);
+    out
+}
+
+#[inline(always)]
+fn sub(x: &Block, y: &Block) -> Block {
+    let mut out = constant(Enclosure::ZERO);
+    BALL.binary(Binary::Sub, x, y, &mut out);
+    out
+}
+
+#[inline(always)]
+fn mul(x: &Block, y: &Block) -> Block {
+    let mut out = constant(Enclosure::ZERO);
+    BALL.binary(Binary::Mul, x, y, &mut out);
+    out
+}
+
+#[inline(always)]
+fn apply(function: Function, x: &Block) -> Block {
+    let mut out = constant(Enclosure::ZERO);
+    BALL.unary(function, x, &mut out);
+    out
+}
+
+/// Encloses x/n.
+#[inline(always)]
+fn divided(x: &Block, n: usize) -> Block {
+    mul(x, &apply(Function::Recip, &constant(Enclosure::exact(n as f64))))
+}
+
+/// Encloses x + weight y; weights ±1 are exact.
+#[inline(always)]
+fn plus(x: &Block, weight: Enclosure, y: &Block) -> Block {
+    match weight {
+        Enclosure { mid: 1.0, rad: 0.0 } => add(x, y),
+        Enclosure { mid: -1.0, rad: 0.0 } => sub(x, y),
+        _ => add(x, &mul(&constant(weight), y)),
+    }
+}
+
+fn power(x: &Block, exponent: &Exponent) -> Block {
+    if exponent.is_root {
+        return apply(Function::Sqrt, x);
+    }
+    let mut out = constant(Enclosure::ZERO);
+    BALL.power(x, &exponent.exact, &mut out);
+    out
+}

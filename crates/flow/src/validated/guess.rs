@@ -1,0 +1,54 @@
+//! Nodes of a closed orbit, as approximate numbers.
+
+use crate::error::FlowError;
+use crate::motion::program;
+use crate::start::Start;
+use crate::stepper::{Accuracy, Stepper};
+use liouville::mechanics::Model;
+use liouville::number::pair::Pair;
+
+use super::motion::ORDER;
+
+/// Nodes of an orbit with the shares of its period between them.
+#[derive(Clone, Debug)]
+pub struct Nodes {
+    pub states: Vec<Vec<f64>>,
+    pub shares: Vec<f64>,
+    pub period: f64,
+}
+
+impl Nodes {
+    /// Follows a motion for a time; each step is a segment. A larger `kappa` makes shorter ones.
+    pub fn along(
+        model: &Model,
+        start: &Start,
+        time: f64,
+        kappa: f64,
+        most: usize,
+    ) -> Result<Option<Self>, FlowError> {
+        let program = program(model, &start.parameters, |_| Vec::new())?;
+        let mut stepper = Stepper::<f64>::new(&program, Accuracy { order: ORDER, kappa });
+        stepper.start(0, &start.state, Pair::from_f64(time));
+        let (mut states, mut shares) = (Vec::new(), Vec::new());
+        while !stepper.is_done(0) {
+            if states.len() == most {
+                return Ok(None);
+            }
+            stepper.expand();
+            stepper.check(0)?;
+            states.push(stepper.pairs(0).iter().map(|x| x.hi).collect());
+            shares.push(stepper.step(0) / time);
+            stepper.advance();
+        }
+        Ok(Some(Self { states, shares, period: time }))
+    }
+
+    /// Adds a step to all unknowns.
+    pub fn move_by(&mut self, step: &[f64]) {
+        let mut step = step.iter();
+        for (x, dx) in self.states.iter_mut().flatten().zip(step.by_ref()) {
+            *x += dx;
+        }
+        self.period += step.next().copied().unwrap_or(f64::NAN);
+    }
+}

@@ -1,0 +1,322 @@
+//! Closed orbits proved: Krawczyk's method on multiple shooting, with Taylor steps in balls.
+//!
+//! ```text
+//! start, period ─ follow ─▶ nodes ─ Newton ─▶ nodes ─ boxes, K(Y) ⊂ Y ─▶ one closed orbit, ∮ div v
+//! ```
+//!
+//! docs/closed-orbits.md has the theorem, and what the numbers here have to fulfil for it.
+
+mod band;
+mod coefficients;
+mod enclosure;
+mod functions;
+mod guess;
+mod krawczyk;
+mod motion;
+mod multipliers;
+mod plan;
+mod sharp;
+mod shooting;
+mod tail;
+#[cfg(test)]
+mod tests;
+
+use crate::error::FlowError;
+use crate::start::Start;
+use liouville::formula::Formula;
+use liouville::mechanics::Model;
+use liouville::number::rational::Rational;
+
+pub use enclosure::Enclosure;
+
+use functions::{Functions, norm};
+use guess::Nodes;
+use krawczyk::{Inverse, is_regular};
+use motion::{Boxed, Motion, Passage};
+use shooting::{Frames, Shooting, boxes, times};
+
+/// Largest number of unknowns; the inverse has its square of entries.
+const MOST_UNKNOWNS: usize = 6000;
+/// Step size constants tried: shorter segments where longer ones are not proved.
+const KAPPAS: [f64; 3] = [3.0, 3.5, 4.2];
+/// Limit on the iterations of Newton's method, and the step after which it has converged.
+const MOST_ITERATIONS: usize = 12;
+const CONVERGED: f64 = 1e-8;
+/// Limit on the boxes tried, and the growth from one to the next.
+const MOST_BOXES: usize = 6;
+const GROWTH: f64 = 1.3;
+/// Least radius of a box, relative to the unknown.
+const LEAST_RADIUS: f64 = 1e-15;
+
+/// What a closed orbit is looked for with.
+pub struct Request<'r> {
+    /// Model of the case.
+    pub model: &'r Model,
+    /// State near the orbit, with the values of the free parameters.
+    pub start: &'r Start,
+    /// Approximate period.
+    pub period: f64,
+    /// Whether the energy is proved to be kept.
+    pub keeps_energy: bool,
+    /// Exact value of the energy; that of the start where none is given.
+    pub energy: Option<&'r Rational>,
+    /// Further functions proved to be kept.
+    pub integrals: &'r [&'r Formula],
+    /// Whether the sum of two multipliers is to be enclosed.
+    pub wants_multipliers: bool,
+}
+
+/// A closed orbit that is proved to exist.
+#[derive(Clone, Debug)]
+pub struct ProvedOrbit {
+    /// Box that contains exactly one point of such an orbit with the phase of the start.
+    pub start: Vec<Enclosure>,
+    /// Time after which the orbit closes.
+    pub period: Enclosure,
+    /// Integral of the divergence on the level along it.
+    pub volume: Enclosure,
+    /// Number of multipliers on the level of all functions that are kept.
+    pub multipliers: usize,
+    /// Sum of two multipliers, where asked for and enclosed.
+    pub sum: Option<Enclosure>,
+    /// Number of segments.
+    pub segments: usize,
+    /// Largest radius of the boxes of its nodes.
+    pub radius: f64,
+    /// Bound of ‖1 - C G'‖ over the boxes.
+    pub contraction: f64,
+    /// Distance between the state given and the orbit's node, relative to the state.
+    pub moved: f64,
+    /// Number of functions that are kept, the level's among them.
+    pub kept: usize,
+}
+
+/// Reason why no closed orbit is proved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Obstacle {
+    /// The motion cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] FlowError),
+    /// The level equations are dependent at the start.
+    #[error("the level equations are not independent at the start")]
+    Level,
+    /// The orbit is too long.
+    #[error("the orbit takes more than {MOST_UNKNOWNS} unknowns")]
+    TooLong,
+    /// The equations are singular.
+    #[error(
+        "the equations for the orbit are singular: it is degenerate, or one of a family of closed \
+         orbits, or there is none"
+    )]
+    Degenerate,
+    /// Newton's method does not converge.
+    #[error("no closed orbit is found near the start: Newton's method does not converge")]
+    NoOrbit,
+    /// A step is not proved.
+    #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
+    NoStep(f64),
+    /// The boxes are not mapped into themselves.
+    #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
+    NoContraction(f64),
+    /// The gradients of the kept functions are not proved independent.
+    #[error("the gradients of the functions kept are not proved independent along the orbit")]
+    Gradients,
+}
+
+/// Proves that there is a closed orbit near a state, with enclosures.
+pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
+    let Request { model, start, .. } = request;
+    let state: Vec<f64> = start.state.iter().map(|x| x.hi).collect();
+    let mut functions =
+        Functions::new(model, &start.parameters, request.keeps_energy, request.integrals)?;
+    let values = functions.choose(&state);
+    if functions.of_level_in_use() < functions.of_level {
+        return Err(Obstacle::Level);
+    }
+    let known = values.into_iter().map(|value| Rational::from_f64(value).ok_or(Obstacle::NoOrbit));
+    let mut values = known.collect::<Result<Vec<Rational>, _>>()?;
+    values[..functions.of_level].fill(Rational::from(0));
+    if request.keeps_energy
+        && let Some(energy) = request.energy
+    {
+        let place = functions.of_level;
+        if functions.uses(place) {
+            values[place] = energy.clone();
+        }
+    }
+    let motion = Motion::new(model, &start.parameters)?;
+    let shooting = Shooting { motion, functions, values };
+    let mut obstacle = Obstacle::NoOrbit;
+    for kappa in KAPPAS {
+        let most = MOST_UNKNOWNS / model.dimension().max(1);
+        let nodes = Nodes::along(model, start, request.period, kappa, most)?;
+        match Search::new(&shooting, nodes.ok_or(Obstacle::TooLong)?)
+            .and_then(|search| search.prove(request.wants_multipliers))
+        {
+            Ok(mut found) => {
+                let gap: Vec<f64> =
+                    found.start.iter().zip(&state).map(|(x, y)| x.mid - y).collect();
+                found.moved = norm(&gap) / norm(&state);
+                return Ok(found);
+            }
+            // Shorter segments have better chances.
+            Err(problem @ Obstacle::NoStep(_)) => obstacle = problem,
+            Err(problem) => return Err(problem),
+        }
+    }
+    Err(obstacle)
+}
+
+/// Nodes near a closed orbit, with an approximate inverse of the derivative there.
+struct Search<'s> {
+    shooting: &'s Shooting,
+    nodes: Nodes,
+    frames: Frames,
+    inverse: Inverse,
+}
+
+impl<'s> Search<'s> {
+    /// Moves the nodes to a closed orbit by Newton's method.
+    fn new(shooting: &'s Shooting, mut nodes: Nodes) -> Result<Self, Obstacle> {
+        let order = shooting.folded(nodes.states.len());
+        let size = nodes.states.iter().flatten().fold(nodes.period, |a, b| a.max(b.abs()));
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_ITERATIONS {
+            let frames = shooting.frames(&nodes).ok_or(Obstacle::NoOrbit)?;
+            let starts = boxes(&nodes, None);
+            let passages = passages(shooting, &nodes, &starts, Enclosure::exact(nodes.period))?;
+            let columns = shooting.derivative(&nodes, &frames, &starts, &passages);
+            let inverse = Inverse::new(&columns, &order).ok_or(Obstacle::Degenerate)?;
+            let step = inverse.times(&residual(shooting, &nodes, &frames)?);
+            let length = step.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+            if !length.is_finite() || length > size {
+                return Err(Obstacle::NoOrbit);
+            }
+            nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
+            if nodes.period <= 0.0 {
+                return Err(Obstacle::NoOrbit);
+            }
+            if length <= CONVERGED * size {
+                return Ok(Self { shooting, nodes, frames, inverse });
+            }
+            if length > 2.0 * last {
+                return Err(Obstacle::NoOrbit);
+            }
+            last = length;
+        }
+        Err(Obstacle::NoOrbit)
+    }
+
+    /// Finds boxes that Krawczyk's operator maps into their interior.
+    fn prove(mut self, wants_multipliers: bool) -> Result<ProvedOrbit, Obstacle> {
+        // To the last digit of f64: the residual has twice as many.
+        let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
+        self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
+        let Self { shooting, nodes, frames, inverse } = &self;
+        let offsets = inverse.bounds(&residual(shooting, nodes, frames)?);
+        let unknowns: Vec<f64> =
+            nodes.states.iter().flatten().copied().chain([nodes.period]).collect();
+        let floor = |x: &f64| LEAST_RADIUS * x.abs().max(1.0);
+        let mut radii: Vec<f64> =
+            offsets.iter().zip(&unknowns).map(|(z, x)| 2.0 * z + floor(x)).collect();
+        let mut contraction = f64::NAN;
+        for _ in 0..MOST_BOXES {
+            let starts = boxes(nodes, Some(&radii));
+            let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
+            let passages = passages(shooting, nodes, &starts, period)?;
+            let columns = shooting.derivative(nodes, frames, &starts, &passages);
+            let (moved, norm) = inverse.defects(&columns, &radii);
+            contraction = norm;
+            let images: Vec<f64> = offsets.iter().zip(&moved).map(|(z, d)| raised(z, d)).collect();
+            if images.iter().zip(&radii).all(|(image, radius)| image < radius) {
+                let mut found = self.proved(&starts, &passages, &images, norm)?;
+                if wants_multipliers && found.multipliers == 2 {
+                    found.sum = multipliers::sum(shooting, frames, &starts, &passages);
+                }
+                return Ok(found);
+            }
+            if !images.iter().all(|x| x.is_finite()) {
+                break;
+            }
+            radii = images.iter().zip(&unknowns).map(|(k, x)| GROWTH * k + floor(x)).collect();
+        }
+        Err(Obstacle::NoContraction(contraction))
+    }
+
+    /// Checks that the segments fit together, and gathers the enclosures. The zero lies in the image
+    /// of the boxes, which is narrower.
+    fn proved(
+        &self,
+        starts: &[Boxed],
+        passages: &[Passage],
+        radii: &[f64],
+        contraction: f64,
+    ) -> Result<ProvedOrbit, Obstacle> {
+        let Self { shooting, nodes, frames, .. } = self;
+        for (index, passage) in passages.iter().enumerate() {
+            let next = (index + 1) % starts.len();
+            let hull: Boxed =
+                passage.end.iter().zip(&starts[next]).map(|(x, y)| x.hull(*y)).collect();
+            let directions = frames.across[next].iter();
+            let mut rows: Vec<Boxed> = directions
+                .map(|direction| direction.iter().map(|x| Enclosure::exact(*x)).collect())
+                .collect();
+            rows.extend(shooting.functions.at(&hull).1);
+            if !is_regular(&rows) {
+                return Err(Obstacle::Gradients);
+            }
+        }
+        let shares = nodes.shares.iter();
+        let share = shares.fold(Enclosure::ZERO, |sum, share| sum + Enclosure::exact(*share));
+        let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
+        let volumes = passages.iter().map(|passage| passage.volume);
+        Ok(ProvedOrbit {
+            start: boxes(nodes, Some(radii)).swap_remove(0),
+            period: share * period,
+            volume: volumes.fold(Enclosure::ZERO, |sum, volume| sum + volume),
+            multipliers: shooting.motion.dimension.saturating_sub(shooting.functions.len() + 1),
+            sum: None,
+            segments: starts.len(),
+            radius: radii.iter().copied().fold(0.0, f64::max),
+            contraction,
+            moved: 0.0,
+            kept: shooting.functions.len(),
+        })
+    }
+}
+
+/// Upper bound of a sum of two bounds.
+fn raised(a: &f64, b: &f64) -> f64 {
+    enclosure::raised(a + b, 1)
+}
+
+fn passages(
+    shooting: &Shooting,
+    nodes: &Nodes,
+    starts: &[Boxed],
+    period: Enclosure,
+) -> Result<Vec<Passage>, Obstacle> {
+    all(nodes, shooting.motion.passages(starts, &times(nodes, period)))
+}
+
+fn residual(
+    shooting: &Shooting,
+    nodes: &Nodes,
+    frames: &Frames,
+) -> Result<Vec<Enclosure>, Obstacle> {
+    shooting.residual(nodes, frames).map_err(|index| Obstacle::NoStep(time(nodes, index)))
+}
+
+/// Approximate time of a node.
+fn time(nodes: &Nodes, index: usize) -> f64 {
+    nodes.shares[..index].iter().sum::<f64>() * nodes.period
+}
+
+/// Results of all segments, or the time of the first that has none.
+fn all<T>(nodes: &Nodes, found: Vec<Option<T>>) -> Result<Vec<T>, Obstacle> {
+    let failed = found.iter().position(Option::is_none);
+    match failed {
+        Some(index) => Err(Obstacle::NoStep(time(nodes, index))),
+        None => Ok(found.into_iter().flatten().collect()),
+    }
+}

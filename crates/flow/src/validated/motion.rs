@@ -1,0 +1,159 @@
+//! Motions over one Taylor step from many boxes: end states, derivatives, ∫ div v.
+
+use super::coefficients::{Block, Coefficients, LANES};
+use super::enclosure::Enclosure;
+use super::plan::Plan;
+use super::sharp;
+use super::tail::{self, End};
+use crate::error::FlowError;
+use crate::motion::point;
+use crate::program::Program;
+use liouville::graph::{Expr, record};
+use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::{Model, Phase};
+use liouville::number::ball::Balls;
+use liouville::number::rational::Rational;
+
+/// Order of the series.
+pub const ORDER: usize = 20;
+
+/// Box of states, an enclosure for each component.
+pub type Boxed = Vec<Enclosure>;
+
+/// End of a step from a box, with its derivative.
+pub struct Passage {
+    /// End states.
+    pub end: Boxed,
+    /// Derivative of the end with respect to the start, row by row.
+    pub derivative: Vec<Boxed>,
+    /// Integral of the divergence on the level.
+    pub volume: Enclosure,
+}
+
+/// Equations of a model with fixed parameters, for steps that are proved.
+pub struct Motion {
+    pub dimension: usize,
+    state: Plan,
+    full: Plan,
+}
+
+impl Motion {
+    /// Records the field, its derivative along each axis, and the divergence on the level.
+    pub fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
+        let n = model.dimension();
+        let state = plan(model, parameters, 0, |phase, _| phase.field().to_vec())?;
+        let full = plan(model, parameters, n * n + 1, |phase, more| {
+            let jet = Jet::new(phase.with(&[], &phase.state()));
+            let mut rates = jet.phase.field().to_vec();
+            for vector in more[..n * n].chunks(n) {
+                rates.extend(jet.phase.lift(vector).field().iter().map(|rate| rate.eps));
+            }
+            let level = vec![true; model.level.len()];
+            rates.push(jet.divergence() - jet.level_cofactor(&level));
+            rates
+        })?;
+        Ok(Self { dimension: n, state, full })
+    }
+
+    /// Encloses how far the states after steps of `shares` of a period are from `targets`, in
+    /// double-double. `None` where a step is not proved.
+    pub fn gaps(
+        &self,
+        starts: &[Vec<f64>],
+        shares: &[f64],
+        period: f64,
+        targets: &[&[f64]],
+    ) -> Vec<Option<Boxed>> {
+        let boxed: Vec<Boxed> = starts
+            .iter()
+            .map(|state| state.iter().map(|x| Enclosure::exact(*x)).collect())
+            .collect();
+        let times = shares.iter().map(|share| Enclosure::exact(*share) * Enclosure::exact(period));
+        let rests = steps(&self.state, &boxed, &times.collect::<Vec<_>>());
+        let gaps = sharp::gaps(&self.state, ORDER, starts, shares, period, targets);
+        let widened = |(gap, end): (Boxed, Option<End>)| {
+            let rest = end?.rest;
+            let gap = gap.iter().zip(rest).map(|(x, rest)| *x + Enclosure::about(0.0, rest));
+            Some(gap.collect())
+        };
+        gaps.into_iter().zip(rests).map(widened).collect()
+    }
+
+    /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
+    pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Passage>> {
+        let n = self.dimension;
+        let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        let vectors = (0..n).flat_map(|i| (0..n).map(move |j| Enclosure::exact(unit(i, j))));
+        let vectors: Vec<Enclosure> = vectors.chain([Enclosure::ZERO]).collect();
+        let starts: Vec<Boxed> =
+            starts.iter().map(|state| [state.as_slice(), &vectors].concat()).collect();
+        let passage = |end: End| {
+            let mut end = end.state;
+            let columns = end.split_off(n);
+            let derivative = (0..n)
+                .map(|row| (0..n).map(|column| columns[column * n + row]).collect())
+                .collect();
+            Passage { end, derivative, volume: columns[n * n] }
+        };
+        steps(&self.full, &starts, h).into_iter().map(|end| end.map(passage)).collect()
+    }
+
+    /// Encloses the field at states.
+    pub fn field(&self, states: &[Boxed]) -> Vec<Boxed> {
+        let mut coefficients = Coefficients::new(&self.state, 1);
+        let mut fields = Vec::new();
+        for group in states.chunks(LANES) {
+            coefficients.values(&blocks(group));
+            for lane in 0..group.len() {
+                let rates = self.state.rates.iter();
+                fields.push(rates.map(|row| of_lane(&coefficients.get(*row, 0), lane)).collect());
+            }
+        }
+        fields
+    }
+}
+
+/// Compiles rates over the state and `more` further variables, all constants enclosed.
+fn plan(
+    model: &Model,
+    parameters: &[Rational],
+    more: usize,
+    build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> Vec<Expr>,
+) -> Result<Plan, FlowError> {
+    let dimension = model.dimension();
+    let (graph, rates) = record(dimension + more, |inputs| {
+        let (state, more) = inputs.split_at(dimension);
+        build(&point(model, parameters, state), more)
+    })?;
+    if graph.inputs() > dimension + more {
+        return Err(FlowError::Antiderivative);
+    }
+    Plan::new(&Program::exact(&graph, &rates)?)
+}
+
+fn steps(plan: &Plan, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
+    let mut coefficients = Coefficients::new(plan, ORDER);
+    let (mut ends, mut hope) = (Vec::new(), tail::FIRST);
+    for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
+        coefficients.expand(&blocks(group));
+        let h: Vec<Boxed> = h.iter().map(|h| vec![*h]).collect();
+        let found = tail::states(&coefficients, &blocks(&h)[0], &mut hope);
+        ends.extend(found.into_iter().take(group.len()));
+    }
+    ends
+}
+
+/// Puts states into lanes; the last is repeated.
+fn blocks(states: &[Boxed]) -> Vec<Block> {
+    let width = states.first().map_or(0, Vec::len);
+    let at = |lane: usize, row: usize| states[lane.min(states.len() - 1)][row];
+    let block = |row: usize| {
+        let lanes: [Enclosure; LANES] = std::array::from_fn(|lane| at(lane, row));
+        Balls::new(lanes.map(|x| x.mid), lanes.map(|x| x.rad))
+    };
+    (0..width).map(block).collect()
+}
+
+fn of_lane(block: &Block, lane: usize) -> Enclosure {
+    Enclosure { mid: block.mid[lane], rad: block.rad[lane] }
+}

@@ -1,0 +1,148 @@
+//! Taylor programs with enclosed coefficients, and the reciprocals that their tails need.
+
+use crate::error::FlowError;
+use crate::form::{Form, Row};
+use crate::program::{Program, Rule};
+
+use super::enclosure::Enclosure;
+use liouville::number::rational::Rational;
+
+/// Largest number of terms of a sum, which the allowance for rounding in `tail` covers.
+const MOST_TERMS: usize = 1000;
+
+/// Rule of a row, as in the module on programs; `inverse` is a row of reciprocals.
+#[derive(Clone, Debug)]
+pub enum Operation {
+    /// constant + Σ c x + Σ c x y
+    Sum(Sum),
+    /// n x_n, which only rules of other programs read.
+    Theta(Row),
+    /// 1/x
+    Recip(Row),
+    /// x^q, with 1/x.
+    Power {
+        x: Row,
+        inverse: Row,
+        exponent: Exponent,
+    },
+    Exp(Row),
+    /// ln x, with 1/x.
+    Ln {
+        x: Row,
+        inverse: Row,
+    },
+    Sin {
+        x: Row,
+        cosine: Row,
+    },
+    Cos {
+        x: Row,
+        sine: Row,
+    },
+    /// atan x, with 1 + x² and its reciprocal.
+    Atan {
+        x: Row,
+        square: Row,
+        inverse: Row,
+    },
+}
+
+/// Exponent of a power.
+#[derive(Clone, Debug)]
+pub struct Exponent {
+    /// Whether it is 1/2, and the power a root.
+    pub is_root: bool,
+    /// The number itself.
+    pub exact: Rational,
+    /// The number in an enclosure.
+    pub value: Enclosure,
+}
+
+/// Sum of products with enclosed coefficients.
+#[derive(Clone, Debug)]
+pub struct Sum {
+    pub constant: Option<Enclosure>,
+    pub linear: Vec<(Enclosure, Row)>,
+    pub products: Vec<(Enclosure, Row, Row)>,
+    /// The same with exact coefficients.
+    pub form: Form,
+}
+
+impl Sum {
+    fn of(form: &Form) -> Self {
+        let products = form.products.iter();
+        Self {
+            constant: form.constant.as_ref().map(Enclosure::of),
+            linear: form.linear.iter().map(|(c, x)| (Enclosure::of(c), *x)).collect(),
+            products: products.map(|(c, x, y)| (Enclosure::of(c), *x, *y)).collect(),
+            form: form.clone(),
+        }
+    }
+}
+
+/// A program to be run over balls. Rows `0..dimension` are the state.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub dimension: usize,
+    pub rows: usize,
+    /// Operations with the rows that they make, arguments first.
+    pub operations: Vec<(Row, Operation)>,
+    /// Rows of the rates of the state's components.
+    pub rates: Vec<Row>,
+}
+
+impl Plan {
+    /// Encloses the coefficients of a program whose constants were not rounded.
+    pub fn new(program: &Program) -> Result<Self, FlowError> {
+        let mut plan = Self {
+            dimension: program.dimension,
+            rows: program.rows,
+            operations: Vec::new(),
+            rates: program.rates.clone(),
+        };
+        for instruction in &program.instructions {
+            let operation = match &instruction.rule {
+                Rule::Sum => {
+                    if instruction.form.len() > MOST_TERMS {
+                        return Err(FlowError::TooLong);
+                    }
+                    Operation::Sum(Sum::of(&instruction.form))
+                }
+                Rule::Theta(x) => Operation::Theta(*x),
+                Rule::Recip(x) => Operation::Recip(*x),
+                Rule::Sqrt(x) => {
+                    let (exact, value) = (Rational::new(1, 2), Enclosure::exact(0.5));
+                    let exponent = Exponent { is_root: true, exact, value };
+                    Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
+                }
+                Rule::Power { x, exponent } => {
+                    let (exact, value) = (exponent.clone(), Enclosure::of(exponent));
+                    let exponent = Exponent { is_root: false, exact, value };
+                    Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
+                }
+                Rule::Exp(x) => Operation::Exp(*x),
+                Rule::Ln(x) => Operation::Ln { x: *x, inverse: plan.inverse(*x) },
+                Rule::Sin { x, cosine } => Operation::Sin { x: *x, cosine: *cosine },
+                Rule::Cos { x, sine } => Operation::Cos { x: *x, sine: *sine },
+                Rule::Atan { x, square } => {
+                    let inverse = plan.inverse(*square);
+                    Operation::Atan { x: *x, square: *square, inverse }
+                }
+            };
+            plan.operations.push((instruction.out, operation));
+        }
+        Ok(plan)
+    }
+
+    /// Row of 1/x, made once.
+    fn inverse(&mut self, x: Row) -> Row {
+        let is_own = |(_, operation): &&(Row, Operation)| matches!(operation, Operation::Recip(own) if *own == x);
+        if let Some((row, _)) = self.operations.iter().find(is_own) {
+            return *row;
+        }
+        let row = self.rows;
+        self.rows += 1;
+        self.operations.push((row, Operation::Recip(x)));
+        row
+    }
+}

@@ -1,0 +1,84 @@
+//! Closed orbits, with the change of volume along them.
+
+use super::{Beginning, Motional, Stability, Stated, required_number, word};
+use crate::claim::Reader;
+use crate::formula::{Formula, Type};
+
+/// Change of volume along a closed orbit: the sign of the integral of the divergence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Contraction.
+    Negative,
+    /// Expansion.
+    Positive,
+    /// Either of the two.
+    Nonzero,
+}
+
+/// The claim that a motion is periodic, with this period.
+#[derive(Clone, Debug)]
+pub struct ClosedOrbit {
+    /// Period.
+    pub period: Stated,
+    /// State near the orbit.
+    pub beginning: Beginning,
+    /// Change of volume along the orbit.
+    pub divergence: Option<Change>,
+    /// Stability on the level of the functions that are kept.
+    pub stability: Option<Stability>,
+    /// Whether the orbit is to exclude densities.
+    pub excludes_density: bool,
+    /// Integrals that hold the orbit besides the level functions and the energy.
+    pub integrals: Vec<Formula>,
+}
+
+impl Motional for ClosedOrbit {
+    const NAME: &'static str = "closed-orbit";
+    const COMPANIONS: &'static [&'static str] =
+        &["start", "state", "divergence", "stability", "density", "integrals"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let period = required_number(from, Self::NAME)?;
+        if period.value <= 0.0 || period.value.is_nan() {
+            let message = format!("a closed orbit does not have the period {}", period.text);
+            return Err(from.complaint(Self::NAME, message, "write its period, above 0"));
+        }
+        let changes = [
+            ("negative", Change::Negative),
+            ("positive", Change::Positive),
+            ("nonzero", Change::Nonzero),
+        ];
+        let integrals = from.list("integrals")?.unwrap_or_default();
+        if integrals.iter().any(|formula| formula.value_type() != Type::Scalar) {
+            let message = "an integral that holds an orbit is a scalar".to_string();
+            return Err(from.complaint("integrals", message, "list the components one by one"));
+        }
+        Ok(Self {
+            period,
+            beginning: Beginning::read(from)?,
+            divergence: word(from, "divergence", &changes)?,
+            stability: word(from, "stability", &Stability::ALL)?,
+            excludes_density: word(from, "density", &[("none", ())])?.is_some(),
+            integrals,
+        })
+    }
+
+    fn beginning(&self) -> &Beginning {
+        &self.beginning
+    }
+
+    fn text(&self) -> String {
+        let volume = match self.divergence {
+            None => "",
+            Some(Change::Negative) => ", volume shrinks",
+            Some(Change::Positive) => ", volume grows",
+            Some(Change::Nonzero) => ", volume changes",
+        };
+        let named = |stability| Stability::ALL.iter().find(|(_, one)| *one == stability);
+        let kind =
+            self.stability.and_then(named).map_or(String::new(), |(name, _)| format!("{name}, "));
+        let density = if self.excludes_density { ", no density" } else { "" };
+        let (period, start) = (&self.period.text, self.beginning.text());
+        format!("{kind}closed orbit of period {period} near {start}{volume}{density}")
+    }
+}

@@ -1,0 +1,255 @@
+//! Rolling without slipping of a rigid body that is free to spin, on a plane or on a sphere.
+//!
+//! Names and frame are those of [`rolling`](super::rolling); nothing acts against spinning, so that
+//! λ = 0 and (ω,γ) is a free variable:
+//!
+//! ```text
+//! Ĩω' = K = (Ĩω + S)×ω - m r×(ω×r') + M_P,   γ' = Γ⁻¹(γ×ω),   r' = Bω,   B = (∂r/∂γ)Γ⁻¹[γ]×
+//! ```
+//!
+//! Chaplygin 1897, 1903; Borisov, Mamaev, Reg. Chaot. Dyn. 7 (2002) 177-200.
+//!
+//! Densities ρ(γ). On |γ| = 1, with u = Ĩ⁻¹γ and τ = tr Ĩ⁻¹B,
+//!
+//! ```text
+//! div v = (χ,ω) - (ln D_T)',   χ = -m[tr(Ĩ⁻¹)Bᵀr + Ĩ⁻¹Bᵀr - BᵀĨ⁻¹r - τr]
+//! C₁ = (χ,γ) = m[τ(r,γ) - (r,Bu)]
+//! C₂ = (γ, rot θ),   θ = m(∂r/∂γ)ᵀ[(r,γ)u - (u,γ)r]
+//! ```
+//!
+//! since [Ĩω]× and [S]× have no trace with a symmetric matrix, and r×(ω×Bω) = (r,Bω)ω - (r,ω)Bω.
+//! ρ = D_T det Ĩ N(γ) is invariant exactly when C₁ = 0 and d ln N = (θ,dγ), so that some N exists
+//! on the sphere exactly when C₁ = 0 and C₂ = 0 there. Neither U nor S enters.
+
+use std::ops::{Deref, DerefMut};
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual;
+
+use super::body::axis;
+use super::chart::Chart;
+use super::configuration::Configuration;
+use super::dynamics::Dynamics;
+use super::linear::{adjugate, determinant_with};
+use super::phase::Phase;
+use super::quantity::Quantity;
+use super::rigid::RigidBody;
+use super::rubber::{NORMAL, normal};
+use super::system::System;
+use crate::formula::{Formula, Value};
+use crate::scalar::Scalar;
+
+/// A body that rolls without slipping and may spin.
+#[derive(Clone, Debug)]
+pub struct Spinning(pub RigidBody);
+
+impl Deref for Spinning {
+    type Target = RigidBody;
+
+    fn deref(&self) -> &RigidBody {
+        &self.0
+    }
+}
+
+impl DerefMut for Spinning {
+    fn deref_mut(&mut self) -> &mut RigidBody {
+        &mut self.0
+    }
+}
+
+/// The body at one γ, where its measure is concerned.
+struct Pose<T> {
+    gamma: Vector3<T>,
+    r: Vector3<T>,
+    slope: Matrix3<T>,
+    mass: T,
+    /// Tensor Ĩ⁻¹.
+    inverse: Matrix3<T>,
+    determinant: T,
+    /// Matrix B of r' = Bω.
+    rolling: Matrix3<T>,
+}
+
+impl<T: Scalar> Pose<T> {
+    /// Computes τ.
+    fn twist(&self) -> T {
+        (self.inverse * self.rolling).trace()
+    }
+
+    /// Computes χ.
+    fn chi(&self) -> Vector3<T> {
+        let Self { r, mass, inverse, rolling, .. } = self;
+        let back = rolling.transpose();
+        let pull = back * r;
+        let sum = pull * inverse.trace() + inverse * pull - back * (inverse * r) - r * self.twist();
+        -sum * *mass
+    }
+
+    /// Computes C₁.
+    fn along(&self) -> T {
+        let Self { gamma, r, mass, inverse, rolling, .. } = self;
+        *mass * (self.twist() * r.dot(gamma) - r.dot(&(rolling * (inverse * gamma))))
+    }
+
+    /// Computes θ.
+    fn covector(&self) -> Vector3<T> {
+        let Self { gamma, r, slope, mass, inverse, .. } = self;
+        let u = inverse * gamma;
+        slope.transpose() * (u * r.dot(gamma) - r * u.dot(gamma)) * *mass
+    }
+}
+
+impl Spinning {
+    fn pose<T: Scalar>(&self, at: &Configuration<'_, T>) -> Pose<T> {
+        let gamma = normal(at);
+        let (r, slope) = self.shape.contact(at);
+        let across = self.gamma_across(at, &slope);
+        let turned = |j: usize| {
+            let mut unit = Vector3::repeat(T::zero());
+            unit[j] = T::one();
+            let free = gamma.cross(&unit);
+            slope * across.as_ref().map_or(free, |big_gamma| big_gamma.solve(&free))
+        };
+        let inertia = self.inertia_at(at, &r);
+        let adjugate = adjugate(&inertia);
+        let determinant = determinant_with(&inertia, &adjugate);
+        Pose {
+            mass: at.scalar(&self.mass),
+            inverse: adjugate.map(|x| x / determinant),
+            rolling: Matrix3::from_columns(&[0, 1, 2].map(turned)),
+            gamma,
+            r,
+            slope,
+            determinant,
+        }
+    }
+
+    /// Computes C₂.
+    fn rotation<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let gamma = normal(at);
+        let slope = |j| self.pose(&at.lift(NORMAL, axis(j))).covector().map(|x: Dual<T>| x.eps);
+        let slopes = [0, 1, 2].map(slope);
+        [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
+            .into_iter()
+            .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
+            .sum()
+    }
+
+    /// Computes ω'.
+    fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vector3<T> {
+        let inertia = &self.motion(phase).pose.inertia;
+        let adjugate = adjugate(inertia);
+        let determinant = determinant_with(inertia, &adjugate);
+        (adjugate * self.torque(phase)).map(|x| x / determinant)
+    }
+
+    /// Computes D_T, 1 on the plane.
+    fn gamma_determinant<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let (_, slope) = self.shape.contact(at);
+        self.gamma_across(at, &slope).map_or_else(T::one, |big_gamma| big_gamma.determinant())
+    }
+}
+
+impl Dynamics for Spinning {
+    fn functions(&self) -> Vec<&Formula> {
+        self.0.functions()
+    }
+
+    fn dimensional(&self) -> Vec<&Formula> {
+        self.0.dimensional()
+    }
+
+    fn chart(&self) -> Chart {
+        Chart::Sphere
+    }
+
+    /// Returns the rates (ω', γ').
+    fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let acceleration = self.acceleration(phase);
+        let rate = self.motion(phase).normal_rate;
+        acceleration.iter().chain(rate.iter()).copied().collect()
+    }
+
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        Some(self.0.energy(phase))
+    }
+
+    fn energy_is_inhomogeneous(&self) -> bool {
+        self.is_loaded()
+    }
+
+    fn without_forces(&self) -> Option<System> {
+        self.unloaded().map(|body| System::Spinning(Box::new(Self(body))))
+    }
+
+    fn body(&self) -> Option<&RigidBody> {
+        Some(&self.0)
+    }
+
+    fn body_mut(&mut self) -> Option<&mut RigidBody> {
+        Some(&mut self.0)
+    }
+
+    fn has_criterion(&self) -> bool {
+        true
+    }
+
+    /// Returns C₁ and C₂.
+    fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
+        vec![self.pose(at).along(), self.rotation(at)]
+    }
+
+    /// Returns -θ, so that d ln N = -(w,dγ) as for a rubber body.
+    fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        let covector = self.pose(&phase.configuration).covector();
+        Some(covector.iter().map(|x| -*x).collect())
+    }
+
+    /// C₁ and C₂ are dimensionless, and so is χ.
+    fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        let chi = self.pose(&phase.configuration).chi();
+        T::one() + chi.dot(&chi)
+    }
+
+    /// Returns D_T det Ĩ.
+    fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        Some(self.pose(at).determinant * self.gamma_determinant(at))
+    }
+
+    /// Returns χ less the covector of (ln D_T)'.
+    fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        let at = &phase.configuration;
+        let chi = self.pose(at).chi();
+        let (_, slope) = self.shape.contact(at);
+        let Some(big_gamma) = self.gamma_across(at, &slope) else { return Some(chi.into()) };
+        let drift = Vector3::from_fn(|j, _| {
+            let volume = self.gamma_determinant(&at.lift(NORMAL, axis(j)));
+            volume.eps / volume.re
+        });
+        Some((chi - big_gamma.solve_transposed(&drift).cross(&normal(at))).into())
+    }
+
+    fn rest_excludes_densities(&self) -> bool {
+        true
+    }
+
+    fn conserves_level(&self) -> bool {
+        self.is_homogeneous()
+    }
+
+    fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
+        match quantity {
+            Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase)),
+            _ => self.0.quantity(quantity, phase),
+        }
+    }
+
+    fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        self.0.configuration_quantity(quantity, at)
+    }
+}
