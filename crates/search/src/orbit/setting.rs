@@ -4,7 +4,7 @@ use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Tape};
 use liouville::mechanics::Draw;
-use liouville::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::coordinates;
@@ -15,6 +15,7 @@ use super::super::streams::Stream;
 use super::super::terms::{Term, read, recorded};
 use super::super::{Effort, SearchError};
 use super::monomials::Along;
+use super::primes;
 use super::taylor::Flow;
 
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
@@ -99,7 +100,7 @@ impl<'c> Setting<'c> {
         let seed = effort.options.seed;
         let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
         let primes = (0..PRIMES).map(prime).collect();
-        let split_primes = split_primes(seed);
+        let split_primes = primes::split(seed, PRIMES as usize);
         Ok(Ok(Self { case, effort, flow, terms, points, coordinates, primes, split_primes }))
     }
 
@@ -227,15 +228,6 @@ impl<'c> Setting<'c> {
         }
         Ok(Some(Relations { point, vectors, free }))
     }
-}
-
-/// Draws primes p = 1 mod 840 between 2^60 and 2^61.
-fn split_primes(seed: u64) -> Vec<Modulus> {
-    let mut chance = Stream::OrbitLines.under(seed);
-    let whole = Modulus::new((1 << 61) - 1);
-    let candidates = std::iter::repeat_with(|| (chance.element(&whole) | 1 << 60) / 840 * 840 + 1);
-    let primes = candidates.filter(|own| own >> 60 == 1 && is_prime(*own));
-    primes.take(PRIMES as usize).map(Modulus::new).collect()
 }
 
 /// Runs a tape at one point; `None` where an output has no value.
