@@ -27,10 +27,6 @@ fn field(parameters: &str, rates: &[&str]) -> String {
     )
 }
 
-fn has(report: &Report, kind: &str, formula: &str) -> bool {
-    report.formulas(kind).any(|found| found == formula)
-}
-
 fn cofactor<'r>(report: &'r Report, formula: &str) -> Option<&'r str> {
     let own = report
         .found
@@ -66,6 +62,7 @@ fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
         ("s = '0.5..2'\nr = '0.5..2'", ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"], "x² − 2*s*z"),
         ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], "y² + z²"),
         ("", ["(y - x)/3", "3*x - y - x*z", "x*y"], ""),
+        ("", ["y - x", "2*x - y - x*z", "x*y - 4*z"], ""),
     ];
     for (parameters, rates, formula) in cases {
         let report = searched(&field(parameters, &rates), &Effort::default());
@@ -86,9 +83,7 @@ fn cofactors_give_logarithms_and_densities() {
     assert_eq!(cofactor(&report, "y"), Some("−d + c*x"), "y' = (c x − d) y");
     let integrals: Vec<&str> = report.formulas("integral").collect();
     assert!(integrals.len() == 1 && integrals[0].contains("ln(x)"), "{integrals:?}");
-    assert!(
-        has(&report, "density", "(x)^(−1)*(y)^(−1)") || report.formulas("density").count() == 1
-    );
+    assert_eq!(report.formulas("density").count(), 1, "Π f^α e^g");
     assert!(excluded(&report).is_some_and(|degree| degree >= 8), "no rational integral");
 }
 
@@ -147,7 +142,7 @@ fn written(form: [i64; 3]) -> String {
 fn planted_integrals_are_never_excluded() {
     // v = ∇F × w G² keeps F = A/B in coordinates turned at random: ∇(A/B) = (B ∇A − A ∇B)/B².
     let mut numbers = Numbers(17);
-    for plant in 0..60 {
+    for plant in 0..40 {
         let (a, b, c, w) = (numbers.form(), numbers.form(), numbers.form(), numbers.form());
         let shift = numbers.next();
         let (above, below) =
@@ -165,7 +160,7 @@ fn planted_integrals_are_never_excluded() {
             .map(|k| format!("{}*({}) − {}*({})", slope(i[k]), w[j[k]], slope(j[k]), w[i[k]]))
             .collect();
         let rates: Vec<&str> = rates.iter().map(String::as_str).collect();
-        let effort = Effort { halt: Halt::within(Duration::from_secs(20)), ..Effort::default() };
+        let effort = Effort::default();
         let Ok(case) = Case::parse(&field("", &rates), &[]) else { continue };
         let Ok(report) = search(&case, &effort, &mut |_| {}) else { continue };
         assert!(

@@ -6,7 +6,6 @@
 
 use liouville::graph::Tape;
 
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
 use super::super::terms::recorded;
@@ -28,7 +27,7 @@ const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
 #[derive(Clone, Debug)]
-enum Column {
+pub enum Column {
     /// Rate of a monomial.
     Monomial(Vec<u32>),
     /// Cofactor of a factor.
@@ -41,10 +40,13 @@ enum Column {
 
 /// The linear system for some factors.
 pub struct Exponents<'s, 'c> {
-    setting: &'s Setting<'c>,
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
     variables: &'s [usize],
-    factors: &'s [Factor],
-    columns: Vec<Column>,
+    /// Factors with known cofactors.
+    pub factors: &'s [Factor],
+    /// Terms of the logarithmic rate.
+    pub columns: Vec<Column>,
     divergence: Tape,
 }
 
@@ -140,60 +142,6 @@ impl<'s, 'c> Exponents<'s, 'c> {
         let make = |at: &At| self.relations(at, support).ok()?.pop();
         let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
         images::vector(&images, &self.setting.effort.halt)
-    }
-
-    /// Writes the logarithm Σ α ln f + g.
-    fn logarithm(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> String {
-        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
-        let mut functions = Vec::new();
-        let mut places = Vec::new();
-        for (place, column) in support.iter().enumerate() {
-            let function = match &self.columns[*column] {
-                Column::Monomial(own) => power_product(&names, own),
-                Column::Factor(own) if has_moduli => format!("ln|{}|", self.factors[*own].formula),
-                Column::Factor(own) => format!("ln({})", self.factors[*own].formula),
-                Column::Constant | Column::Divergence => continue,
-            };
-            functions.push(function);
-            places.push(place);
-        }
-        vector.coefficients.sum(&places, &functions)
-    }
-
-    /// Writes Π f^α e^g.
-    fn product(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> String {
-        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
-        let mut powers = Vec::new();
-        let mut exponent = (Vec::new(), Vec::new());
-        for (place, column) in support.iter().enumerate() {
-            match &self.columns[*column] {
-                Column::Monomial(own) => {
-                    exponent.0.push(place);
-                    exponent.1.push(power_product(&names, own));
-                }
-                Column::Factor(own) => {
-                    let formula = &self.factors[*own].formula;
-                    let is_whole = vector.is_whole(place);
-                    let base = match has_moduli && !is_whole {
-                        true => format!("|{formula}|"),
-                        false => format!("({formula})"),
-                    };
-                    powers.push(match vector.fraction(place).as_str() {
-                        "1" => base,
-                        power => format!("{base}^({power})"),
-                    });
-                }
-                Column::Constant | Column::Divergence => {}
-            }
-        }
-        if !exponent.0.is_empty() {
-            let above = vector.coefficients.sum(&exponent.0, &exponent.1);
-            powers.push(match vector.below().as_str() {
-                "1" => format!("exp({above})"),
-                below => format!("exp(({above})/({below}))"),
-            });
-        }
-        powers.join("*")
     }
 
     fn integral(

@@ -77,7 +77,7 @@ impl Factor {
         let above = coefficients.sum(&(0..all.len()).collect::<Vec<_>>(), &functions);
         Some(match coefficients.text(all.len()).as_str() {
             "1" => above,
-            below => format!("({above})/({below})"),
+            below => images::quotient(&above, below),
         })
     }
 }

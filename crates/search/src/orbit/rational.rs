@@ -8,12 +8,10 @@
 
 use liouville::proof::reduce;
 
-use super::super::ansatz::coefficients::Coefficients;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
 use super::super::{Report, SearchError};
-use super::claims;
+use super::fraction::Fraction;
 use super::images::{self, Images};
 use super::known::Known;
 use super::monomials::{self, value};
@@ -36,12 +34,6 @@ pub struct Rational<'s, 'c> {
     pub monomials: &'s [Vec<u32>],
     /// Their highest degree.
     pub degree: u32,
-}
-
-/// A fraction P/Q by the monomials of both and its coefficients.
-struct Fraction {
-    above: Vec<Vec<u32>>,
-    below: Vec<Vec<u32>>,
 }
 
 impl Rational<'_, '_> {
@@ -166,7 +158,8 @@ impl Relation<'_, '_, '_> {
         let mut found = false;
         for place in (0..last).filter(|k| !constant(k)) {
             setting.effort.halt.check()?;
-            let Some((above, below)) = self.lowest(at, place)? else { continue };
+            // The others have the same degree, or more.
+            let Some((above, below)) = self.lowest(at, place)? else { break };
             let make = |at: &At| self.fraction(at, place, &above, &below).ok().flatten();
             let width = above.len() + below.len();
             let images = Images { setting, width, is_split: false, make };
@@ -225,40 +218,5 @@ impl Relation<'_, '_, '_> {
             1 => vectors.pop().filter(is_fraction),
             _ => None,
         })
-    }
-}
-
-impl Rational<'_, '_> {
-    /// Writes a fraction and has it judged.
-    fn tell(
-        &self,
-        fraction: &Fraction,
-        coefficients: Option<Coefficients>,
-        known: &mut Known,
-        report: &mut Report,
-    ) -> Result<bool, SearchError> {
-        self.setting.effort.halt.check()?;
-        let Some(coefficients) = coefficients else { return Ok(false) };
-        let names: Vec<&str> = self.setting.terms.iter().map(|term| term.text.as_str()).collect();
-        let written = |own: &[Vec<u32>], start: usize| {
-            let functions: Vec<String> = own.iter().map(|a| power_product(&names, a)).collect();
-            let places: Vec<usize> = (start..start + own.len()).collect();
-            coefficients.sum(&places, &functions)
-        };
-        let above = written(&fraction.above, 0);
-        let below = written(&fraction.below, fraction.above.len());
-        let formula = match below.as_str() {
-            "1" => above.clone(),
-            below => format!("({above})/({below})"),
-        };
-        let (case, effort) = (self.setting.case, self.setting.effort);
-        let is_new = claims::integral(case, &formula, effort, report)?;
-        if is_new {
-            known.add(formula, None, self.variables);
-            let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
-            let parts = [(above, degree(&fraction.above)), (below, degree(&fraction.below))];
-            known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
-        }
-        Ok(is_new)
     }
 }
