@@ -58,6 +58,19 @@ fn chaotic_fields_have_no_rational_integral_of_degree_8() {
 
 #[test]
 fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
+    let parametric = [
+        (
+            "s = '0.5..2'\nr = '0.5..2'",
+            ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"],
+            ("−2*s*z + x²", "−2*s"),
+        ),
+        ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], ("y² + z²", "−2")),
+    ];
+    for (parameters, rates, (formula, own)) in parametric {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        assert_eq!(cofactor(&report, formula), Some(own), "{:?}", report.found);
+        assert!(excluded(&report).is_some(), "no rational integral");
+    }
     // b = 4σ, r = 2σ: one of degree 4, with the cofactor −4.
     let report = searched(&field("", &["y - x", "2*x - y - x*z", "x*y - 4*z"]), &Effort::default());
     let formula = "16*z − 8*x² + 8*x*y − 4*y² − 4*x²*z + x^4";

@@ -59,7 +59,7 @@ impl Rational<'_, '_> {
                 };
                 // Relations of lower degree, and their multiples, were looked at before.
                 let degree = self.monomials[*own].iter().sum::<u32>();
-                if degree < self.degree || first.free.iter().any(|k| divides(k)) {
+                if degree < self.degree || first.free.iter().any(divides) {
                     continue;
                 }
                 let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -81,9 +81,14 @@ struct Relation<'r, 's, 'c> {
     support: Vec<Vec<u32>>,
 }
 
+/// Coefficients of a relation, and the state of its point.
+type Along = (Vec<u64>, Vec<u64>);
+/// Monomials of a numerator and of a denominator.
+type Supports = (Vec<Vec<u32>>, Vec<Vec<u32>>);
+
 impl Relation<'_, '_, '_> {
     /// The relation along the orbit of a number, 1 at its last monomial, with the point.
-    fn along(&self, at: &At, number: u64) -> Result<Option<(Vec<u64>, Vec<u64>)>, SearchError> {
+    fn along(&self, at: &At, number: u64) -> Result<Option<Along>, SearchError> {
         let Some(all) = self.of.setting.relations(at, number, &self.support)? else {
             return Ok(None);
         };
@@ -171,11 +176,7 @@ impl Relation<'_, '_, '_> {
     }
 
     /// Monomials of numerator and denominator of a coefficient, of the lowest degree.
-    fn lowest(
-        &self,
-        at: &At,
-        place: usize,
-    ) -> Result<Option<(Vec<Vec<u32>>, Vec<Vec<u32>>)>, SearchError> {
+    fn lowest(&self, at: &At, place: usize) -> Result<Option<Supports>, SearchError> {
         let dimension = self.of.setting.dimension();
         for degree in 1.. {
             let all = monomials::up_to(self.of.variables, dimension, degree);

@@ -52,6 +52,9 @@ pub struct Setting<'c> {
     split_primes: Vec<Modulus>,
 }
 
+/// A point with the Taylor coefficients of its orbit, component by component.
+pub type Orbit = (Point, Vec<Vec<u64>>);
+
 /// The map from random numbers to parameters and states.
 struct Points {
     tape: Tape,
@@ -174,12 +177,7 @@ impl<'c> Setting<'c> {
     }
 
     /// Expands the orbit through the random point of a number.
-    pub fn orbit(
-        &self,
-        at: &At,
-        number: u64,
-        orders: usize,
-    ) -> Result<Option<(Point, Vec<Vec<u64>>)>, SearchError> {
+    pub fn orbit(&self, at: &At, number: u64, orders: usize) -> Result<Option<Orbit>, SearchError> {
         for attempt in 0..TRIES {
             let Some(point) = self.point(at, number + (attempt << 32)) else { return Ok(None) };
             if let Some(orbit) = self.along(at, &point, orders)? {
