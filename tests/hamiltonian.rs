@@ -127,7 +127,7 @@ fn wrong_systems_are_refused() {
         ("function = 'p'\npairs = [['q', 'p']]", "`v` has no bracket", "\"v,v\" = "),
         ("function = \"q'\"\npairs = [['q', 'p']]", "q'", ""),
         ("function = 'v'\npairs = [['q', 'p']]", "vector", ""),
-        ("function = 'p'\nbracket = { 'q,x' = '1' }", "no pair of the bracket's variables", ""),
+        ("function = 'p'\nbracket = { 'q,x' = '1' }", "not a pair of the bracket's variables", ""),
         ("function = 'p'\npars = [['q', 'p']]", "pars", "pairs"),
         (
             "function = 'p'\npairs = [['q', 'p']]\n[poisson]\n'q,p' = '1'",

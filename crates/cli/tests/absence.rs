@@ -334,13 +334,13 @@ fn wrong_claims_are_told_at_their_place() {
         error.to_string()
     };
     for (claim, message) in [
-        ("no-integral = { degree = -1 }", "`-1` is no degree"),
-        ("no-integral = { degree = 0 }", "`0` is no degree"),
-        ("no-integral = { degree = 1000 }", "`1000` is no degree"),
+        ("no-integral = { degree = -1 }", "`-1` is not a degree"),
+        ("no-integral = { degree = 0 }", "`0` is not a degree"),
+        ("no-integral = { degree = 1000 }", "`1000` is not a degree"),
         ("no-integral = { degree = 99999999999999999999 }", "degree"),
-        ("no-integral = { degree = 2.5 }", "`2.5` is no degree"),
-        ("no-integral = { degree = \"two\" }", "`\"two\"` is no degree"),
-        ("no-density = { degree = 5 }", "`5` is no degree"),
+        ("no-integral = { degree = 2.5 }", "`2.5` is not a degree"),
+        ("no-integral = { degree = \"two\" }", "`\"two\"` is not a degree"),
+        ("no-density = { degree = 5 }", "`5` is not a degree"),
         ("no-integral = 4", "`no-integral` does not say"),
         ("no-integral = \"x\"", "`no-integral` does not say"),
         ("no-integral = {}", "`no-integral` has no `degree`"),

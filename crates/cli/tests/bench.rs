@@ -202,7 +202,7 @@ fn the_diagram_is_well_formed_and_shows_every_row() {
 
 #[test]
 fn wrong_input_is_refused_with_a_remedy() {
-    bench(&["no-such-folder"]).assert().code(2).stderr(contains("give case files or folders"));
+    bench(&["no-such-folder"]).assert().code(2).stderr(contains("give case files, folders"));
     bench(&["--svg", "no-such-folder/a.svg"])
         .assert()
         .code(2)

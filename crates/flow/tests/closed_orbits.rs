@@ -189,6 +189,11 @@ fn integrals_are_used_only_where_they_are_proved() {
     assert_known(&held, "period", 6.743_001_419_250_383, 1e-11);
     let free = pendulum("");
     assert_eq!(free.verdict, Verdict::Undecided, "one of a family: {:?}", free.evidence);
+    // Kept wherever they have a value; the orbit meets x = 0.
+    for kink in ["(p²/2 − cos(x))*√(x²)/√(x²)", "(p²/2 − cos(x))*|x|/x"] {
+        let found = pendulum(&format!("integrals = [\"{kink}\"]"));
+        assert_eq!(found.verdict, Verdict::Undecided, "{kink}: {:?}", found.evidence);
+    }
     let wrong = pendulum("integrals = [\"p²/2 + cos(x)\"]");
     assert_eq!(wrong.verdict, Verdict::Undecided, "no integral: {:?}", wrong.evidence);
     let reason = wrong.evidence.reason.unwrap_or_default();

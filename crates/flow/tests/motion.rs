@@ -166,7 +166,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("periodic-point = [1, 0]\nmodulus = 1\nmultiplier = 2", "complex or real"),
         ("limit-cycle = 4\nstart = [1, 0]\ncrossings = 10", "do not show a cycle"),
         ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is not a count"),
-        ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "no part of the section"),
+        ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "not a part of the section"),
         ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is not a share"),
         ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
     ];

@@ -358,12 +358,9 @@ pub fn abbreviations(model: &Model) -> Vec<(&'static str, &'static str)> {
 /// Lists the numbers of which exponents may be multiples.
 pub fn exponents(model: &Model) -> Vec<Formula> {
     let mut found = vec!["1"];
-    if has(model, "κ", Type::Scalar) {
-        found.push("k*R");
-    } else if model.system.body().is_some_and(|body| body.curvature.is_some())
-        && has(model, "g1", Type::Scalar)
-        && has(model, "R", Type::Scalar)
-    {
+    let is_curved = model.system.is_curved();
+    let profile = is_curved && has(model, "g1", Type::Scalar) && has(model, "R", Type::Scalar);
+    if has(model, "κ", Type::Scalar) || profile {
         found.push("k*R");
     }
     scalars(model, &found)

@@ -27,10 +27,6 @@ fn field(parameters: &str, rates: &[&str]) -> String {
     )
 }
 
-fn has(report: &Report, kind: &str, formula: &str) -> bool {
-    report.formulas(kind).any(|found| found == formula)
-}
-
 fn cofactor<'r>(report: &'r Report, formula: &str) -> Option<&'r str> {
     let own = report
         .found
@@ -62,20 +58,24 @@ fn chaotic_fields_have_no_rational_integral_of_degree_8() {
 
 #[test]
 fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
-    let cases = [
-        ("s = '0.5..2'\nr = '0.5..2'", ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"], "x² − 2*s*z"),
-        ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], "y² + z²"),
-        ("", ["(y - x)/3", "3*x - y - x*z", "x*y"], ""),
+    let parametric = [
+        (
+            "s = '0.5..2'\nr = '0.5..2'",
+            ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"],
+            ("−2*s*z + x²", "−2*s"),
+        ),
+        ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], ("y² + z²", "−2")),
     ];
-    for (parameters, rates, formula) in cases {
+    for (parameters, rates, (formula, own)) in parametric {
         let report = searched(&field(parameters, &rates), &Effort::default());
-        let all: Vec<&str> = report.formulas("darboux-polynomial").collect();
-        match formula {
-            "" => assert!(!all.is_empty(), "{rates:?}"),
-            formula => assert!(all.contains(&formula), "{formula} in {all:?}"),
-        }
+        assert_eq!(cofactor(&report, formula), Some(own), "{:?}", report.found);
         assert!(excluded(&report).is_some(), "no rational integral");
     }
+    // b = 4σ, r = 2σ: one of degree 4, with the cofactor −4.
+    let report = searched(&field("", &["y - x", "2*x - y - x*z", "x*y - 4*z"]), &Effort::default());
+    let formula = "16*z − 8*x² + 8*x*y − 4*y² − 4*x²*z + x^4";
+    assert_eq!(cofactor(&report, formula), Some("−4"), "{:?}", report.found);
+    assert!(excluded(&report).is_some(), "no rational integral");
 }
 
 #[test]
@@ -86,9 +86,7 @@ fn cofactors_give_logarithms_and_densities() {
     assert_eq!(cofactor(&report, "y"), Some("−d + c*x"), "y' = (c x − d) y");
     let integrals: Vec<&str> = report.formulas("integral").collect();
     assert!(integrals.len() == 1 && integrals[0].contains("ln(x)"), "{integrals:?}");
-    assert!(
-        has(&report, "density", "(x)^(−1)*(y)^(−1)") || report.formulas("density").count() == 1
-    );
+    assert_eq!(report.formulas("density").count(), 1, "Π f^α e^g");
     assert!(excluded(&report).is_some_and(|degree| degree >= 8), "no rational integral");
 }
 
@@ -115,7 +113,7 @@ fn rational_integrals_are_written_out() {
 #[test]
 fn integrals_on_a_level_are_found() {
     // Goryachev and Chaplygin: 4 J₃ = J₁ = J₂ on (M,γ) = 0, J₃ = 1, U = γ₁.
-    let text = "title = 'x'\nsystem = 'field'\n[state]\nM = 'vector(-2..2)'\nγ = 'vector(-1..1)'\n\
+    let text = "title = 'x'\nsystem = 'field'\n[state]\nM = 'vector(-2..2)'\n\"γ\" = 'vector(-1..1)'\n\
                 [field]\n\"M'\" = 'M × [M1/4, M2/4, M3] + γ × [1, 0, 0]'\n\"γ'\" = 'γ × [M1/4, M2/4, M3]'\n\
                 [level]\nequations = ['(γ,γ) = 1', '(M,γ) = 0']\n";
     let report = searched(text, &Effort::default());
@@ -147,7 +145,7 @@ fn written(form: [i64; 3]) -> String {
 fn planted_integrals_are_never_excluded() {
     // v = ∇F × w G² keeps F = A/B in coordinates turned at random: ∇(A/B) = (B ∇A − A ∇B)/B².
     let mut numbers = Numbers(17);
-    for plant in 0..60 {
+    for plant in 0..40 {
         let (a, b, c, w) = (numbers.form(), numbers.form(), numbers.form(), numbers.form());
         let shift = numbers.next();
         let (above, below) =
@@ -165,7 +163,7 @@ fn planted_integrals_are_never_excluded() {
             .map(|k| format!("{}*({}) − {}*({})", slope(i[k]), w[j[k]], slope(j[k]), w[i[k]]))
             .collect();
         let rates: Vec<&str> = rates.iter().map(String::as_str).collect();
-        let effort = Effort { halt: Halt::within(Duration::from_secs(20)), ..Effort::default() };
+        let effort = Effort::default();
         let Ok(case) = Case::parse(&field("", &rates), &[]) else { continue };
         let Ok(report) = search(&case, &effort, &mut |_| {}) else { continue };
         assert!(

@@ -24,7 +24,7 @@ fn juxtaposition_is_not_a_product() {
     error("2 ?", "`?` has no meaning in a formula", "?", None);
     error("2(x", missing, "(", Some("write `2*(…`"));
     error("2|mR|", "unknown name `mR`", "mR", Some("write `m*R`?"));
-    let vectors = "there is no operator between two vectors";
+    let vectors = "an operator is missing between two vectors";
     error("γ ω", vectors, "ω", Some("write `(γ,ω)` or `γ × ω`"));
 }
 
@@ -244,7 +244,7 @@ fn forms_with_indices_say_what_is_missing() {
     );
     error(
         "γ x ω",
-        "there is no operator between two vectors",
+        "an operator is missing between two vectors",
         "x",
         Some("a cross product is written `γ × …`"),
     );

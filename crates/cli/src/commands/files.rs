@@ -89,7 +89,9 @@ pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
             Ok(_) => files.push(Ok(path.clone())),
             Err(_) if source::is_standard_input(path) => files.push(Ok(path.clone())),
             Err(_) if !source::inside(path).is_empty() => {
-                files.extend(source::inside(path).iter().map(|(name, _)| Ok(name.into())));
+                for (name, _) in source::inside(path) {
+                    files.push(Ok(name.into()));
+                }
             }
             Err(error) => {
                 let message = format!("cannot read {}: {error}", path.display());

@@ -133,20 +133,34 @@ impl Regenerated {
         serde_json::to_string_pretty(self)
     }
 
-    /// Renders the table as text for a terminal of this width.
+    /// Renders the table as text for a terminal of this width; one with far more columns than rows
+    /// is turned.
     pub fn text(&self, width: u16) -> String {
+        let name = format!("Table {}", self.table);
+        let mut lines = vec![std::iter::once(name).chain(self.numbers()).collect::<Vec<String>>()];
+        lines.extend(self.rows.iter().map(|row| {
+            let cells = row.cells.iter().map(Filled::text);
+            std::iter::once(row.row.to_string()).chain(cells).collect()
+        }));
+        if self.columns.len() > 2 * self.rows.len() {
+            let turned = |k: usize| lines.iter().map(|line| line[k].clone()).collect();
+            lines = (0..=self.columns.len()).map(turned).collect();
+        }
         let mut table = Table::new();
         table.load_style(presets::UTF8_FULL).set_content_arrangement(ContentArrangement::Dynamic);
         table.set_width(width).force_no_tty();
-        let mut header = vec![Cell::new(format!("Table {}", self.table))];
-        header.extend(self.columns.iter().map(|column| Cell::new(column.to_string())));
-        table.set_header(header);
-        for row in &self.rows {
-            let mut cells = vec![Cell::new(row.row)];
-            cells.extend(row.cells.iter().map(|cell| Cell::new(cell.text())));
-            table.add_row(cells);
+        for (k, line) in lines.into_iter().enumerate() {
+            let cells: Vec<Cell> = line.into_iter().map(Cell::new).collect();
+            match k {
+                0 => table.set_header(cells),
+                _ => table.add_row(cells),
+            };
         }
         format!("{}\n", table.trim_fmt())
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = String> {
+        self.columns.iter().map(u32::to_string)
     }
 }
 

@@ -115,7 +115,7 @@ fn sections_tell_classes_and_draw_separatrices() {
     liouville(&["section", &figure("fig-3"), "--out", out, "--separatrices", "1.5,0.02"])
         .assert()
         .code(2)
-        .stderr(contains("no hyperbolic one"));
+        .stderr(contains("not hyperbolic"));
 }
 
 #[test]

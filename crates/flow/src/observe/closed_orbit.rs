@@ -200,30 +200,52 @@ fn name(stability: Stability) -> &'static str {
 fn compare_period(stated: &Stated, period: Enclosure, finding: &mut Finding) {
     let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + stated.value.abs());
     let gap = (period.mid - stated.value).abs();
+    let is_inside = gap + period.rad + rounding <= stated.unit;
     if gap > stated.unit + period.rad + rounding {
         finding.refute(format!("the period is not {}", stated.text));
     } else if stated.unit == 0.0 {
         let reason = "an enclosure does not prove that the period is exactly";
         finding.leave_open(format!("{reason} {}: write a decimal", stated.text));
-    } else if !(gap + period.rad + rounding <= stated.unit) {
+    } else if !is_inside {
         finding.leave_open("the enclosure of the period is wider than the digits".to_string());
     }
 }
 
+/// Prints a bound with one digit, rounded up.
+fn printed_bound(bound: f64) -> String {
+    if bound.is_nan() || bound <= 0.0 {
+        return bound.to_string();
+    }
+    let exponent = libm::floor(libm::log10(bound)) as i32;
+    let digit = libm::ceil(bound / libm::pow(10.0, f64::from(exponent)) * (1.0 + 1e-9));
+    match digit as u32 {
+        10.. => format!("{}e{}", digit as u32 / 10, exponent + 1),
+        digit => format!("{digit}e{exponent}"),
+    }
+}
+
+/// Prints an enclosure; the printed radius covers the digits left out.
+fn printed(x: Enclosure) -> String {
+    let decimals = libm::ceil(-libm::log10(x.rad)).clamp(0.0, 16.0) as usize + 1;
+    let left_out = 0.51 * libm::pow(10.0, -(decimals as f64));
+    format!("{:.decimals$} ± {}", x.mid, printed_bound(x.rad + left_out))
+}
+
+/// Number of decimals of the state in a theorem.
+const DECIMALS: usize = 12;
+
 fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> String {
-    let state: Vec<String> = found.start.iter().map(|x| format!("{:.12}", x.mid)).collect();
+    let state: Vec<String> = found.start.iter().map(|x| format!("{:.DECIMALS$}", x.mid)).collect();
     let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
+    let wide = printed_bound(wide + 0.51 * libm::pow(10.0, -(DECIMALS as f64)));
     let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
+    let (period, volume) = (printed(found.period), printed(found.volume));
+    let contraction = printed_bound(found.contraction);
     let orbit = format!(
-        "a closed orbit goes through ({}) ± {wide:.0e}, with period {:.13} ± {:.0e} and ∮ div v dt \
-         = {:.13} ± {:.0e} ({} segments, ‖1 − CG'‖ ≤ {:.0e}){kind}",
+        "a closed orbit goes through ({}) ± {wide}, with period {period} and ∮ div v dt = {volume} \
+         ({} segments, ‖1 − CG'‖ ≤ {contraction}){kind}",
         state.join(", "),
-        found.period.mid,
-        found.period.rad,
-        found.volume.mid,
-        found.volume.rad,
         found.segments,
-        found.contraction
     );
     if !changes {
         return orbit;
@@ -236,4 +258,22 @@ fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> Strin
         "{orbit}; so no invariant measure has a density that is continuous and positive on it, for \
          these parameters {near}"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn printed_enclosures_are_true() {
+        assert_eq!(printed_bound(3.1e-12), "4e-12");
+        assert_eq!(printed_bound(9.7e-12), "1e-11", "up to the next digit");
+        for (mid, rad) in [(3.197_991_923_280_63, 4e-14), (-0.020_093_772_9, 8.7e-11), (2.5, 0.3)] {
+            let text = printed(Enclosure::about(mid, rad));
+            let (number, bound) = text.split_once(" ± ").expect("both");
+            let [number, bound] = [number, bound].map(|x| x.parse::<f64>().expect("a number"));
+            assert!((number - mid).abs() + rad <= bound, "{text}");
+            assert!(bound <= 2.5 * rad, "{text}: not wider than it has to be");
+        }
+    }
 }

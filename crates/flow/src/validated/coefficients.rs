@@ -1,5 +1,7 @@
 //! Taylor coefficients as balls, over all starts in a box, several boxes at once.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
+
 use liouville::graph::{Work, with_widest_vectors};
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::{Domain, Function, Operation as Binary};

@@ -144,7 +144,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             values[place] = energy.clone();
         }
     }
-    let motion = Motion::new(model, &start.parameters)?;
+    let (energy, integrals) = (request.keeps_energy, request.integrals);
+    let motion = Motion::new(model, &start.parameters, energy, integrals)?;
     let shooting = Shooting { motion, functions, values };
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {
@@ -309,7 +310,7 @@ fn residual(
 
 /// Approximate time of a node.
 fn time(nodes: &Nodes, index: usize) -> f64 {
-    nodes.shares[..index].iter().sum::<f64>() * nodes.period
+    nodes.shares[..index].iter().fold(0.0, |sum, share| sum + share) * nodes.period
 }
 
 /// Results of all segments, or the time of the first that has none.

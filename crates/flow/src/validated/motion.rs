@@ -8,11 +8,14 @@ use super::tail::{self, End};
 use crate::error::FlowError;
 use crate::motion::point;
 use crate::program::Program;
+use liouville::formula::Formula;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::calculus::Jet;
 use liouville::mechanics::{Model, Phase};
 use liouville::number::ball::Balls;
 use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+use num_dual::Dual;
 
 /// Order of the series.
 pub const ORDER: usize = 20;
@@ -34,15 +37,25 @@ pub struct Passage {
 pub struct Motion {
     pub dimension: usize,
     state: Plan,
+    /// Plan with the derivative and ∫ div v, and with ∫ L_vF of the functions F that are kept: no step
+    /// is proved across a point where one of them is not analytic.
     full: Plan,
 }
 
 impl Motion {
-    /// Records the field, its derivative along each axis, and the divergence on the level.
-    pub fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
+    /// Records the field, its derivative along each axis, the divergence on the level, and the rates
+    /// of the functions that are kept: the level's, the energy where asked, and integrals.
+    pub fn new(
+        model: &Model,
+        parameters: &[Rational],
+        energy: bool,
+        integrals: &[&Formula],
+    ) -> Result<Self, FlowError> {
         let n = model.dimension();
         let state = plan(model, parameters, 0, |phase, _| phase.field().to_vec())?;
-        let full = plan(model, parameters, n * n + 1, |phase, more| {
+        let sizes = integrals.iter().map(|formula| formula.value_type().size());
+        let kept = model.level.len() + usize::from(energy) + sizes.sum::<usize>();
+        let full = plan(model, parameters, n * n + 1 + kept, |phase, more| {
             let jet = Jet::new(phase.with(&[], &phase.state()));
             let mut rates = jet.phase.field().to_vec();
             for vector in more[..n * n].chunks(n) {
@@ -50,6 +63,14 @@ impl Motion {
             }
             let level = vec![true; model.level.len()];
             rates.push(jet.divergence() - jet.level_cofactor(&level));
+            let functions = model.level.iter().map(|equation| &equation.function);
+            rates.extend(functions.map(|f| jet.lie_derivative(|at| at.level_function(f))));
+            if energy {
+                let zero = Dual::from_re(Expr::rational(&Rational::from(0)));
+                let of = |at: &Phase<'_, Dual<Expr>>| model.system.energy(at).unwrap_or(zero);
+                rates.push(jet.lie_derivative(of));
+            }
+            rates.extend(integrals.iter().flat_map(|formula| jet.rates(formula)));
             rates
         })?;
         Ok(Self { dimension: n, state, full })
@@ -84,7 +105,8 @@ impl Motion {
         let n = self.dimension;
         let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
         let vectors = (0..n).flat_map(|i| (0..n).map(move |j| Enclosure::exact(unit(i, j))));
-        let vectors: Vec<Enclosure> = vectors.chain([Enclosure::ZERO]).collect();
+        let integrals = std::iter::repeat_n(Enclosure::ZERO, self.full.dimension - n - n * n);
+        let vectors: Vec<Enclosure> = vectors.chain(integrals).collect();
         let starts: Vec<Boxed> =
             starts.iter().map(|state| [state.as_slice(), &vectors].concat()).collect();
         let passage = |end: End| {

@@ -52,7 +52,7 @@ pub fn sum(
     let inverse = Inverse::new(&columns, &(0..size).collect::<Vec<_>>())?;
     let defect = inverse.defects(&columns, &vec![1.0; size]).1;
     let room = 1.0 - raised(defect, 1);
-    if !(room > 0.0) {
+    if room.is_nan() || room <= 0.0 {
         return None;
     }
     let mut trace = Enclosure::ZERO;

@@ -99,11 +99,11 @@ impl Shooting {
             let next = (index + 1) % count;
             for (row, direction) in frames.across[next].iter().enumerate() {
                 let row = n * index + row;
-                for component in 0..n {
+                for (component, along) in direction.iter().enumerate() {
                     let column: Boxed =
                         passage.derivative.iter().map(|row| row[component]).collect();
                     let moved = combined(direction, &column);
-                    let own = Enclosure::exact(-direction[component]);
+                    let own = Enclosure::exact(-along);
                     if count == 1 {
                         columns[component].push((row, moved + own));
                     } else {

@@ -15,6 +15,8 @@
 //! are unique: analytic in |t| < ρ, with the remainder after order N at most
 //! ρ ε_f/(N + 1) (h/ρ)^(N+1).
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
+
 use super::coefficients::{Block, Coefficients, LANES, Lane, add};
 use super::enclosure::{Enclosure, raised};
 use super::plan::{Operation, Sum};
@@ -34,8 +36,6 @@ const ROUNDS: usize = 40;
 /// Growth of tails from round to round, and their first size against the last coefficient.
 const GROWTH: f64 = 1.1;
 const FIRST_SIZE: f64 = 1.5;
-/// Growth of the largest tail of the state after which the radius is given up.
-const HOPELESS: f64 = 1e4;
 /// Factor above the radius found last at which the next search begins.
 const HOPE: f64 = 1.2;
 
@@ -284,16 +284,17 @@ impl<'c, 'p> Tails<'c, 'p> {
         let largest = |tails: &[Lane], lane: usize| {
             tails[..plan.dimension].iter().fold(0.0, |a: f64, tail| a.max(tail[lane]))
         };
-        // A state that is a polynomial has tails that are nothing but underflow.
-        let limit: Lane =
-            std::array::from_fn(|lane| (HOPELESS * largest(&self.tails, lane)).max(1e-40));
+        // A tail above all that is known of the state is useless.
+        let known = &self.norms[..plan.dimension];
+        let limit: Lane = std::array::from_fn(|lane| 1.0 + largest(known, lane));
         let (mut settled, mut hopeless) = ([false; LANES], [false; LANES]);
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
             self.spread(&crosses);
-            let open = |lane: &usize| !settled[*lane] && !hopeless[*lane];
-            let open: Vec<usize> = (0..LANES).filter(open).collect();
-            for lane in open {
+            for lane in 0..LANES {
+                if settled[lane] || hopeless[lane] {
+                    continue;
+                }
                 let is_finite = |(row, operation): &(Row, Operation)| {
                     matches!(operation, Operation::Theta(_)) || self.tails[*row][lane].is_finite()
                 };
@@ -311,7 +312,8 @@ impl<'c, 'p> Tails<'c, 'p> {
                     let old = self.tails[row][lane];
                     self.tails[row][lane] = old.max(above(GROWTH * new));
                 }
-                hopeless[lane] = !(largest(&self.tails, lane) <= limit[lane]);
+                let is_near = largest(&self.tails, lane) <= limit[lane];
+                hopeless[lane] = !is_near;
             }
             if (0..LANES).all(|lane| settled[lane] || hopeless[lane]) {
                 break;

@@ -290,8 +290,8 @@ fn residuals_in_twice_the_digits_hold() {
         let (x, y) = (exact(x), exact(y));
         let truth =
             [plus(&times(&x, &cos), &times(&y, &sin)), minus(&times(&y, &cos), &times(&x, &sin))];
-        for row in 0..2 {
-            let truth = minus(&truth[row], &exact(target[row]));
+        for (row, truth) in truth.iter().enumerate() {
+            let truth = minus(truth, &exact(target[row]));
             let found = gap[0][row] + Enclosure::about(0.0, rest[row]);
             assert_inside(found, &truth, "a gap");
         }

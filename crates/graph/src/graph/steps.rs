@@ -123,8 +123,8 @@ impl Graph {
     ) -> Vec<Option<Expr>> {
         let mut values: Vec<Option<Expr>> = Vec::with_capacity(self.nodes.len());
         let end = reached.iter().rposition(|reached| *reached).map_or(0, |last| last + 1);
-        for place in 0..end {
-            if !reached[place] {
+        for (place, reached) in reached[..end].iter().enumerate() {
+            if !reached {
                 values.push(None);
                 continue;
             }

@@ -69,7 +69,8 @@ impl Refusals {
         let mut evaluator = Evaluator::new(&tape, field.clone());
         let mut chance = Chance::of(digest, Stream::Refusals);
         let mut found = Self { seen: vec![Seen::default(); nested.len()] };
-        let chained = first.len() - bases.len();
+        // A base without even roots has no links.
+        let chained = first.len().saturating_sub(bases.len());
         let roots = chained + chains.iter().map(Vec::len).sum::<usize>();
         let most = (4 * ACCEPTED * PRIMES / LANES) << (roots as u32).min(MOST_NESTED);
         for _ in 0..most {

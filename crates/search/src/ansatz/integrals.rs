@@ -392,9 +392,8 @@ mod tests {
         };
         let excluded = report.excluded.iter().find(fits).expect("the energy fits there");
         assert_eq!((excluded.dimension, excluded.known), (1, 1), "{}", excluded.theorem);
-        let mut small = effort(2, 40);
-        small.ansatz.megabytes = 1;
-        let report = searched(body, &small);
+        let ansatz = Ansatz { megabytes: 1, ..effort(2, 40).ansatz };
+        let report = searched(body, &Effort { ansatz, ..effort(2, 40) });
         assert!(report.remarks.iter().any(|one| one.contains("the bound is 1 MB")), "it is told");
     }
 }

@@ -191,6 +191,12 @@ impl Search<'_, '_> {
         let Some(factor) = Factor::of(self.setting, formula, degree)?.filter(|_| !known) else {
             return Ok(());
         };
+        // A product of known factors tells nothing new.
+        let Some(at) = self.setting.split(0, 0) else { return Ok(()) };
+        let line = Line::draw(self.setting, &at, 0);
+        if line.is_none_or(|line| !line.has_more(&factor, factors)) {
+            return Ok(());
+        }
         let Some(cofactor) = factor.cofactor(self.setting, self.variables, self.degree)? else {
             return Ok(());
         };
@@ -207,8 +213,7 @@ impl Search<'_, '_> {
         Ok(())
     }
 
-    /// Takes up numerators and denominators of rational integrals that are no products of known
-    /// factors.
+    /// Takes up numerators and denominators of rational integrals.
     pub fn parts(
         &self,
         parts: &[(Formula, u32)],
@@ -217,12 +222,7 @@ impl Search<'_, '_> {
     ) -> Result<(), SearchError> {
         for (formula, degree) in parts {
             self.setting.effort.halt.check()?;
-            let Some(at) = self.setting.split(0, 0) else { return Ok(()) };
-            let Some(line) = Line::draw(self.setting, &at, 0) else { return Ok(()) };
-            let Some(own) = Factor::of(self.setting, formula, *degree)? else { continue };
-            if line.has_more(&own, factors) {
-                self.tell(formula, *degree, factors, report)?;
-            }
+            self.tell(formula, *degree, factors, report)?;
         }
         Ok(())
     }

@@ -7,8 +7,6 @@
 use liouville::formula::{Composed, Formula};
 use liouville::graph::Tape;
 
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
 use super::super::terms::{is_one, one, recorded};
@@ -30,7 +28,7 @@ const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
 #[derive(Clone, Debug)]
-enum Column {
+pub enum Column {
     /// Rate of a monomial.
     Monomial(Vec<u32>),
     /// Cofactor of a factor.
@@ -43,10 +41,13 @@ enum Column {
 
 /// The linear system for some factors.
 pub struct Exponents<'s, 'c> {
-    setting: &'s Setting<'c>,
+    /// Case with its points.
+    pub setting: &'s Setting<'c>,
     variables: &'s [usize],
-    factors: &'s [Factor],
-    columns: Vec<Column>,
+    /// Factors with known cofactors.
+    pub factors: &'s [Factor],
+    /// Terms of the logarithmic rate.
+    pub columns: Vec<Column>,
     divergence: Tape,
 }
 
@@ -142,68 +143,6 @@ impl<'s, 'c> Exponents<'s, 'c> {
         let make = |at: &At| self.relations(at, support).ok()?.pop();
         let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
         images::vector(&images, &self.setting.effort.halt)
-    }
-
-    /// The logarithm Σ α ln f + g.
-    fn logarithm(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> Composed {
-        let mut functions = Vec::new();
-        let mut places = Vec::new();
-        for (place, column) in support.iter().enumerate() {
-            let function = match &self.columns[*column] {
-                Column::Monomial(own) => power_product(&self.setting.terms, own)?,
-                Column::Factor(own) if has_moduli => {
-                    Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
-                }
-                Column::Factor(own) => Formula::call("ln", &[&self.factors[*own].formula])?,
-                Column::Constant | Column::Divergence => continue,
-            };
-            functions.push(Ratio::of(function));
-            places.push(place);
-        }
-        let sum = vector.coefficients.sum(&places, &functions)?;
-        Ok(sum.unwrap_or_else(|| Formula::number(0)))
-    }
-
-    /// Π f^α e^g.
-    fn product(&self, support: &[usize], vector: &images::Vector, has_moduli: bool) -> Composed {
-        let mut powers: Vec<Formula> = Vec::new();
-        let mut exponent = (Vec::new(), Vec::new());
-        for (place, column) in support.iter().enumerate() {
-            match &self.columns[*column] {
-                Column::Monomial(own) => {
-                    exponent.0.push(place);
-                    exponent.1.push(Ratio::of(power_product(&self.setting.terms, own)?));
-                }
-                Column::Factor(own) => {
-                    let formula = &self.factors[*own].formula;
-                    let is_whole = vector.is_whole(place);
-                    let base = match has_moduli && !is_whole {
-                        true => formula.modulus()?,
-                        false => formula.bracketed(),
-                    };
-                    let power = vector.fraction(place)?;
-                    powers.push(match is_one(&power) {
-                        true => base,
-                        false => base.power(&power.bracketed())?,
-                    });
-                }
-                Column::Constant | Column::Divergence => {}
-            }
-        }
-        if !exponent.0.is_empty() {
-            let above = vector.coefficients.sum(&exponent.0, &exponent.1)?;
-            let above = above.unwrap_or_else(|| Formula::number(0));
-            let below = vector.below()?;
-            let whole = match is_one(&below) {
-                true => above,
-                false => (above.bracketed() / &below.bracketed())?,
-            };
-            powers.push(Formula::call("exp", &[&whole])?);
-        }
-        match powers.split_first() {
-            None => Ok(one()),
-            Some((first, others)) => others.iter().try_fold(first.clone(), |all, own| all * own),
-        }
     }
 
     fn integral(

@@ -13,7 +13,9 @@ use super::super::terms::{is_one, numeric_exponent};
 use super::setting::Setting;
 
 /// Largest number of choices of the parameters for one vector.
-const MOST: usize = 160;
+const MOST: usize = 96;
+/// Number of choices of the parameters tried until one has the vector.
+const TRIES: u64 = 8;
 
 /// A vector by a function of the parameters; an entry 1 is added at its end.
 pub struct Images<'s, 'c, F> {
@@ -47,9 +49,11 @@ impl<F: Fn(&At) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
     }
 }
 
-/// A vector whose images end with the time of the search, or after a number.
+/// The entries of a vector that are not 0; its images end with the time of the search, or after a
+/// number.
 struct Limited<'v> {
     source: &'v dyn Vectors,
+    support: Vec<usize>,
     halt: &'v Halt,
     left: Cell<usize>,
 }
@@ -60,19 +64,28 @@ impl Vectors for Limited<'_> {
     }
 
     fn width(&self) -> usize {
-        self.source.width()
+        self.support.len()
     }
 
     fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
         self.left.set(self.left.get().checked_sub(1)?);
         self.halt.check().ok()?;
-        self.source.image(prime, index)
+        let (at, vector) = self.source.image(prime, index)?;
+        Some((at, self.support.iter().map(|k| vector[*k]).collect()))
     }
 }
 
 /// Finds the vector for all values of the parameters.
 pub fn coefficients(source: &dyn Vectors, halt: &Halt) -> Option<Coefficients> {
-    Coefficients::through(&Limited { source, halt, left: Cell::new(MOST) })
+    let mut first = (0..TRIES).filter(|_| halt.check().is_ok());
+    let (_, vector) = first.find_map(|index| source.image(0, index))?;
+    let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+    let limited = Limited { source, support: support.clone(), halt, left: Cell::new(MOST) };
+    let mut found = Coefficients::through(&limited)?;
+    let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
+    let next = |k| own.next_if(|(place, _)| *place == k).map(|(_, one)| one).unwrap_or_default();
+    found.polynomials = (0..vector.len()).map(next).collect();
+    Some(found)
 }
 
 /// A vector found for all values of the parameters, over a common denominator.
@@ -96,8 +109,8 @@ impl Vector {
         self.coefficients.formula(self.width)
     }
 
-    /// Entry as a fraction.
-    pub fn fraction(&self, place: usize) -> Composed {
+    /// Entry as an exponent.
+    pub fn exponent(&self, place: usize) -> Composed {
         if let Some(value) = self.number(place) {
             return numeric_exponent(value);
         }
@@ -123,11 +136,13 @@ impl Vector {
         self.number(place).is_some_and(|value| value.parts().1 == 1.into())
     }
 
+    /// The ratio of two multiples of one polynomial.
     fn number(&self, place: usize) -> Option<Rational> {
-        let constant = |k: usize| match self.coefficients.polynomials[k].as_slice() {
-            [(own, value)] if own.iter().all(|power| *power == 0) => value.to_i64(),
-            _ => None,
-        };
-        constant(place).zip(constant(self.width)).map(|(above, below)| Rational::new(above, below))
+        let all = &self.coefficients.polynomials;
+        let (above, below) = (&all[place], &all[self.width]);
+        let ((_, first), (_, last)) = (above.first()?, below.first()?);
+        let same = above.len() == below.len()
+            && above.iter().zip(below).all(|((a, x), (b, y))| a == b && x * last == first * y);
+        same.then(|| Some(Rational::new(first.to_i64()?, last.to_i64()?)))?
     }
 }

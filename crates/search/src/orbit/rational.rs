@@ -6,16 +6,12 @@
 //! function of q has to be known. Elsewhere a coefficient c(q) is interpolated: A(q) − c(q) B(q) = 0
 //! at random q.
 
-use liouville::formula::{Composed, Formula};
 use liouville::proof::reduce;
 
-use super::super::ansatz::coefficients::{Coefficients, Ratio};
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
-use super::super::terms::is_one;
 use super::super::{Report, SearchError};
-use super::claims;
+use super::fraction::Fraction;
 use super::images::{self, Images};
 use super::known::Known;
 use super::monomials::{self, value};
@@ -38,12 +34,6 @@ pub struct Rational<'s, 'c> {
     pub monomials: &'s [Vec<u32>],
     /// Their highest degree.
     pub degree: u32,
-}
-
-/// A fraction P/Q by the monomials of both and its coefficients.
-struct Fraction {
-    above: Vec<Vec<u32>>,
-    below: Vec<Vec<u32>>,
 }
 
 impl Rational<'_, '_> {
@@ -69,7 +59,7 @@ impl Rational<'_, '_> {
                 };
                 // Relations of lower degree, and their multiples, were looked at before.
                 let degree = self.monomials[*own].iter().sum::<u32>();
-                if degree < self.degree || first.free.iter().any(|k| divides(k)) {
+                if degree < self.degree || first.free.iter().any(divides) {
                     continue;
                 }
                 let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -91,9 +81,14 @@ struct Relation<'r, 's, 'c> {
     support: Vec<Vec<u32>>,
 }
 
+/// Coefficients of a relation, and the state of its point.
+type Along = (Vec<u64>, Vec<u64>);
+/// Monomials of a numerator and of a denominator.
+type Supports = (Vec<Vec<u32>>, Vec<Vec<u32>>);
+
 impl Relation<'_, '_, '_> {
     /// The relation along the orbit of a number, 1 at its last monomial, with the point.
-    fn along(&self, at: &At, number: u64) -> Result<Option<(Vec<u64>, Vec<u64>)>, SearchError> {
+    fn along(&self, at: &At, number: u64) -> Result<Option<Along>, SearchError> {
         let Some(all) = self.of.setting.relations(at, number, &self.support)? else {
             return Ok(None);
         };
@@ -168,7 +163,8 @@ impl Relation<'_, '_, '_> {
         let mut found = false;
         for place in (0..last).filter(|k| !constant(k)) {
             setting.effort.halt.check()?;
-            let Some((above, below)) = self.lowest(at, place)? else { continue };
+            // The others have the same degree, or more.
+            let Some((above, below)) = self.lowest(at, place)? else { break };
             let make = |at: &At| self.fraction(at, place, &above, &below).ok().flatten();
             let width = above.len() + below.len();
             let images = Images { setting, width, is_split: false, make };
@@ -180,11 +176,7 @@ impl Relation<'_, '_, '_> {
     }
 
     /// Monomials of numerator and denominator of a coefficient, of the lowest degree.
-    fn lowest(
-        &self,
-        at: &At,
-        place: usize,
-    ) -> Result<Option<(Vec<Vec<u32>>, Vec<Vec<u32>>)>, SearchError> {
+    fn lowest(&self, at: &At, place: usize) -> Result<Option<Supports>, SearchError> {
         let dimension = self.of.setting.dimension();
         for degree in 1.. {
             let all = monomials::up_to(self.of.variables, dimension, degree);
@@ -227,46 +219,5 @@ impl Relation<'_, '_, '_> {
             1 => vectors.pop().filter(is_fraction),
             _ => None,
         })
-    }
-}
-
-impl Rational<'_, '_> {
-    /// Writes a fraction and has it judged.
-    fn tell(
-        &self,
-        fraction: &Fraction,
-        coefficients: Option<Coefficients>,
-        known: &mut Known,
-        report: &mut Report,
-    ) -> Result<bool, SearchError> {
-        self.setting.effort.halt.check()?;
-        let Some(coefficients) = coefficients else { return Ok(false) };
-        let written = |own: &[Vec<u32>], start: usize| -> Composed {
-            let functions: Vec<Ratio> = own
-                .iter()
-                .map(|a| power_product(&self.setting.terms, a).map(Ratio::of))
-                .collect::<Result<_, _>>()?;
-            let places: Vec<usize> = (start..start + own.len()).collect();
-            let sum = coefficients.sum(&places, &functions)?;
-            Ok(sum.unwrap_or_else(|| Formula::number(0)))
-        };
-        let above = written(&fraction.above, 0)?;
-        let below = written(&fraction.below, fraction.above.len())?;
-        if below.constant().is_some_and(|value| value.is_zero()) {
-            return Ok(false);
-        }
-        let formula = match is_one(&below) {
-            true => above.clone(),
-            false => (above.bracketed() / &below.bracketed())?,
-        };
-        let (case, effort) = (self.setting.case, self.setting.effort);
-        let is_new = claims::integral(case, &formula, effort, report)?;
-        if is_new {
-            known.add(formula, None, self.variables);
-            let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
-            let parts = [(above, degree(&fraction.above)), (below, degree(&fraction.below))];
-            known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
-        }
-        Ok(is_new)
     }
 }

@@ -4,7 +4,7 @@ use liouville::case::Case;
 use liouville::claim::Place;
 use liouville::graph::{Evaluator, Tape};
 use liouville::mechanics::Draw;
-use liouville::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::coordinates;
@@ -15,11 +15,14 @@ use super::super::streams::Stream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::monomials::Along;
+use super::primes;
 use super::taylor::Flow;
 use liouville::formula::Formula;
 
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
 pub const SPARE: usize = 8;
+/// Number of primes of each kind.
+const PRIMES: u64 = 8;
 /// Number of points drawn until an orbit has a series.
 const TRIES: u64 = 16;
 /// Number of points drawn until one has a value, roots included.
@@ -46,7 +49,12 @@ pub struct Setting<'c> {
     pub terms: Vec<Formula>,
     points: Points,
     coordinates: Vec<Formula>,
+    primes: Vec<Modulus>,
+    split_primes: Vec<Modulus>,
 }
+
+/// A point with the Taylor coefficients of its orbit, component by component.
+pub type Orbit = (Point, Vec<Vec<u64>>);
 
 /// The map from random numbers to parameters and states.
 struct Points {
@@ -92,7 +100,20 @@ impl<'c> Setting<'c> {
             parameters,
             coordinates: Tape::new(&graph, &values),
         };
-        Ok(Ok(Self { case, effort, flow, terms, points, coordinates: named }))
+        let seed = effort.options.seed;
+        let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
+        let primes = (0..PRIMES).map(prime).collect();
+        let split_primes = primes::split(seed, PRIMES as usize);
+        Ok(Ok(Self {
+            case,
+            effort,
+            flow,
+            terms,
+            points,
+            coordinates: named,
+            primes,
+            split_primes,
+        }))
     }
 
     /// Number of components of the state.
@@ -113,22 +134,13 @@ impl<'c> Setting<'c> {
 
     /// Makes choice `index` of the parameters modulo the prime with number `prime`.
     pub fn at(&self, prime: u64, index: u64) -> Option<At> {
-        let seed = self.effort.options.seed;
-        self.within(Stream::Moduli.numbered(seed, prime).prime(&[3, 5], &[2, 3]), index)
+        self.within(*self.primes.get(prime as usize)?, index)
     }
 
     /// Makes choice `index` of the parameters modulo the prime p = 1 mod 840 with number `prime`, in
     /// whose field the roots of −1, 2, 3, 5 and 7 exist.
     pub fn split(&self, prime: u64, index: u64) -> Option<At> {
-        let seed = self.effort.options.seed ^ prime.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut chance = Stream::OrbitLines.under(seed);
-        let whole = Modulus::new((1 << 61) - 1);
-        loop {
-            let candidate = (chance.element(&whole) | 1 << 60) / 840 * 840 + 1;
-            if candidate >> 60 == 1 && is_prime(candidate) {
-                return self.within(Modulus::new(candidate), index);
-            }
-        }
+        self.within(*self.split_primes.get(prime as usize)?, index)
     }
 
     /// Makes choice `index` of the parameters in a given field.
@@ -174,12 +186,7 @@ impl<'c> Setting<'c> {
     }
 
     /// Expands the orbit through the random point of a number.
-    pub fn orbit(
-        &self,
-        at: &At,
-        number: u64,
-        orders: usize,
-    ) -> Result<Option<(Point, Vec<Vec<u64>>)>, SearchError> {
+    pub fn orbit(&self, at: &At, number: u64, orders: usize) -> Result<Option<Orbit>, SearchError> {
         for attempt in 0..TRIES {
             let Some(point) = self.point(at, number + (attempt << 32)) else { return Ok(None) };
             if let Some(orbit) = self.along(at, &point, orders)? {

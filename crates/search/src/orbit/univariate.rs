@@ -23,9 +23,9 @@ pub fn interpolated(m: &Modulus, values: &[u64]) -> Vec<u64> {
         numbers.iter().map(|x| if *x == 0 { 0 } else { m.inverse(*x) }).collect();
     // Newton's divided differences in place.
     let mut slopes = values.to_vec();
-    for level in 1..count {
+    for (level, inverse) in inverses.iter().enumerate().skip(1) {
         for k in (level..count).rev() {
-            slopes[k] = m.mul(m.sub(slopes[k], slopes[k - 1]), inverses[level]);
+            slopes[k] = m.mul(m.sub(slopes[k], slopes[k - 1]), *inverse);
         }
     }
     let mut f: Vec<u64> = Vec::with_capacity(count);

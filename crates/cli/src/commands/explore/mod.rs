@@ -77,7 +77,7 @@ pub enum Measure {
 #[derive(Debug, Subcommand)]
 pub enum Former {
     #[command(flatten)]
-    Motion(Motion),
+    Motion(Box<Motion>),
     #[command(flatten)]
     Measure(Measure),
 }
@@ -87,7 +87,8 @@ impl Command {
         match self {
             Self::Search(options) => search::run(options),
             Self::Report(options) => report::run(options),
-            Self::Motion { command } | Self::Former(Former::Motion(command)) => command.run(),
+            Self::Motion { command } => command.run(),
+            Self::Former(Former::Motion(command)) => command.run(),
             Self::Measure { command } | Self::Former(Former::Measure(command)) => command.run(),
         }
     }

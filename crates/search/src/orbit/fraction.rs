@@ -1,0 +1,73 @@
+//! Fractions of polynomials as formulas that are judged.
+
+use liouville::formula::{Composed, Formula};
+use num_bigint::BigInt;
+use num_integer::Integer;
+
+use super::super::ansatz::coefficients::{Coefficients, Polynomial, Ratio};
+use super::super::ansatz::monomials::power_product;
+use super::super::terms::is_one;
+use super::super::{Report, SearchError};
+use super::claims;
+use super::known::Known;
+use super::rational::Rational;
+
+/// A fraction P/Q by the monomials of both.
+pub struct Fraction {
+    /// Monomials of P.
+    pub above: Vec<Vec<u32>>,
+    /// Monomials of Q.
+    pub below: Vec<Vec<u32>>,
+}
+
+impl Rational<'_, '_> {
+    /// Writes a fraction and has it judged.
+    pub fn tell(
+        &self,
+        fraction: &Fraction,
+        coefficients: Option<Coefficients>,
+        known: &mut Known,
+        report: &mut Report,
+    ) -> Result<bool, SearchError> {
+        self.setting.effort.halt.check()?;
+        let Some(mut coefficients) = coefficients else { return Ok(false) };
+        let (above, below) = coefficients.polynomials.split_at_mut(fraction.above.len());
+        [above, &mut below[..fraction.below.len()]].into_iter().for_each(reduce_whole);
+        let written = |own: &[Vec<u32>], start: usize| -> Composed {
+            let functions: Vec<Ratio> = own
+                .iter()
+                .map(|a| power_product(&self.setting.terms, a).map(Ratio::of))
+                .collect::<Result<_, _>>()?;
+            let places: Vec<usize> = (start..start + own.len()).collect();
+            let sum = coefficients.sum(&places, &functions)?;
+            Ok(sum.unwrap_or_else(|| Formula::number(0)))
+        };
+        let above = written(&fraction.above, 0)?;
+        let below = written(&fraction.below, fraction.above.len())?;
+        if below.constant().is_some_and(|value| value.is_zero()) {
+            return Ok(false);
+        }
+        let formula = match is_one(&below) {
+            true => above.clone(),
+            false => (above.bracketed() / &below.bracketed())?,
+        };
+        let (case, effort) = (self.setting.case, self.setting.effort);
+        let is_new = claims::integral(case, &formula, effort, report)?;
+        if is_new {
+            known.add(formula, None, self.variables);
+            let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
+            let parts = [(above, degree(&fraction.above)), (below, degree(&fraction.below))];
+            known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
+        }
+        Ok(is_new)
+    }
+}
+
+/// Divides polynomials by the common divisor of all their coefficients.
+fn reduce_whole(polynomials: &mut [Polynomial]) {
+    let all = polynomials.iter().flatten();
+    let common = all.fold(BigInt::ZERO, |gcd, (_, value)| gcd.gcd(value));
+    if common != BigInt::ZERO {
+        polynomials.iter_mut().flatten().for_each(|(_, value)| *value /= &common);
+    }
+}
