@@ -18,8 +18,9 @@ fn claims(folder: &Path) -> Vec<(String, Expect, &'static str)> {
             found.extend(claims(&path));
         } else if path.extension().is_some_and(|extension| extension == "toml") {
             let case = Case::read(&path, &[]).1.unwrap_or_else(|e| panic!("{path:?}: {e}"));
-            let claim =
-                |claim: liouville::case::PlacedClaim| (claim.source, claim.expect, claim.kind.name());
+            let claim = |claim: liouville::case::PlacedClaim| {
+                (claim.source, claim.expect, claim.kind.name())
+            };
             found.extend(case.claims.into_iter().map(claim));
         }
     }

@@ -4,12 +4,11 @@
 //! β div v and a constant λ added, one linear system has densities (β = 1), integrals with powers,
 //! logarithms and exponentials, and functions of constant rate λ as its null vectors.
 
-use liouville::formula::{Composed, Formula};
 use liouville::graph::Tape;
 
 use super::super::ansatz::system::At;
 use super::super::echelon::Echelon;
-use super::super::terms::{is_one, one, recorded};
+use super::super::terms::recorded;
 use super::super::{Report, SearchError};
 use super::claims::{self, Statement};
 use super::factor::Factor;

@@ -38,7 +38,6 @@ mod univariate;
 use serde::Serialize;
 
 use liouville::case::Case;
-use liouville::formula::Formula;
 use liouville::mechanics::System;
 
 use self::known::Known;

@@ -104,16 +104,7 @@ impl<'c> Setting<'c> {
         let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
         let primes = (0..PRIMES).map(prime).collect();
         let split_primes = primes::split(seed, PRIMES as usize);
-        Ok(Ok(Self {
-            case,
-            effort,
-            flow,
-            terms,
-            points,
-            coordinates: named,
-            primes,
-            split_primes,
-        }))
+        Ok(Ok(Self { case, effort, flow, terms, points, coordinates: named, primes, split_primes }))
     }
 
     /// Number of components of the state.
