@@ -229,8 +229,9 @@ impl Dynamics for BallOnSurface {
             (Quantity::Energy, _) => Value::Scalar(self.total_energy(phase)),
             (Quantity::Potential, _) => {
                 let centre = at_centre(at, &self.motion(phase).centre);
-                let value = self.potential.as_ref().map(|potential| potential.value(&centre));
-                Value::Scalar(value.unwrap_or_else(T::zero))
+                // Without a potential there are no forces, and U = 0.
+                let value = |potential: &Potential| potential.value(&centre);
+                Value::Scalar(self.potential.as_ref().map_or_else(T::zero, value))
             }
             (Quantity::AngularVelocity, _) => Value::Vector(self.motion(phase).omega),
             (Quantity::Normal, _) => Value::Vector(self.motion(phase).normal),

@@ -53,7 +53,7 @@ impl RigidBody {
         at: &Configuration<'_, T>,
     ) -> Value<T> {
         let named = |name: &str| at.named(name);
-        let radius = || named("R").map_or_else(T::zero, scalar);
+        let radius = || named("R").map_or_else(T::undefined, scalar);
         let displacement = || named("c").map_or_else(|| Vector3::repeat(T::zero()), vector);
         let mass = || scalar(at.evaluate(&self.mass));
         let ball_inertia = || {

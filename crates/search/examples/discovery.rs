@@ -14,7 +14,7 @@ use liouville_search::{Effort, Halt, Report, search};
 /// Folder that is searched without arguments.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benchmark/pegasus");
 
-/// What was found in one file.
+/// Results for one file.
 struct Row {
     name: String,
     /// Numbers of integrals, Darboux polynomials and densities that are not constant.

@@ -3,7 +3,7 @@
 use std::io::IsTerminal;
 
 use liouville::case::Case;
-use liouville::verdict::{CaseReport, ClaimReport, JudgeError, Options};
+use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
 
@@ -24,15 +24,22 @@ fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError
 }
 
 pub fn run(options: &Check) -> Result<Answer, String> {
+    let is_meant = |name: &str, source: &str| {
+        options.claims.is_empty()
+            || options.claims.iter().any(|wanted| is_meant(name, source, wanted))
+    };
+    // Other claims may matter to those that are meant, but motions take minutes and do not.
+    let prepare = |case: &mut Case| case.motions.retain(|own| is_meant(&own.name, &own.source));
     let mut run = files::judge(
         &options.paths,
         &read_settings(&options.settings)?,
+        &prepare,
         &Options { mutants: options.mutants, ..options.sampling.options() },
         judge(options),
         options.sampling.threads,
     )?;
     if !options.claims.is_empty() {
-        run.retain(|claim| options.claims.iter().any(|wanted| is_meant(claim, wanted)));
+        run.retain(|claim| is_meant(&claim.name, &claim.source));
         if run.claims().next().is_none() && run.summary().errors == 0 {
             let wanted = options.claims.join("` or `");
             return Err(format!("error: no claim has a name or source like `{wanted}`"));
@@ -65,9 +72,9 @@ pub fn run(options: &Check) -> Result<Answer, String> {
 }
 
 /// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.
-fn is_meant(claim: &ClaimReport, wanted: &str) -> bool {
+fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
     let is_pattern = wanted.contains(['*', '?']);
-    [&claim.name, &claim.source].into_iter().any(|text| match is_pattern {
+    [name, source].into_iter().any(|text| match is_pattern {
         true => matches(wanted, text),
         false => text.contains(wanted),
     })

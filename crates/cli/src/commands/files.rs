@@ -18,10 +18,11 @@ const BLINK: Duration = Duration::from_millis(300);
 /// Function that judges a case.
 pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
 
-/// Judges every case under `paths`, with the values of `settings`.
+/// Judges every case under `paths`, with the values of `settings` and the changes of `prepare`.
 pub fn judge(
     paths: &[PathBuf],
     settings: &[Setting],
+    prepare: &(dyn Fn(&mut Case) + Sync),
     options: &Options,
     judge: Judge,
     threads: Option<usize>,
@@ -39,7 +40,7 @@ pub fn judge(
             .par_iter()
             .map(|file| {
                 let outcome = match file {
-                    Ok(path) => judge_file(path, settings, options, judge),
+                    Ok(path) => judge_file(path, settings, prepare, options, judge),
                     Err((path, problem)) => failed(path, vec![problem.clone()]),
                 };
                 advance(&bar, started);
@@ -138,15 +139,22 @@ fn failed(path: &Path, problems: Vec<Failure>) -> Outcome {
     Outcome { path, heading: Heading::default(), result: Err(problems) }
 }
 
-fn judge_file(path: &Path, settings: &[Setting], options: &Options, judge: Judge) -> Outcome {
+fn judge_file(
+    path: &Path,
+    settings: &[Setting],
+    prepare: &dyn Fn(&mut Case),
+    options: &Options,
+    judge: Judge,
+) -> Outcome {
     let shown = path.display().to_string();
     let (text, case) = source::read(path, settings);
-    let case = match case {
+    let mut case = match case {
         Ok(case) => case,
         Err(error) => {
             return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
         }
     };
+    prepare(&mut case);
     let result = judge(&case, options)
         .map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())]);
     let heading = Heading {

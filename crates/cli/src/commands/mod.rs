@@ -66,15 +66,13 @@ Examples:
     Cases(cases::Cases),
 }
 
-/// Commands of version 0.1 that are part of `motion` and `measure` now.
-const FORMER: [&str; 7] = ["orbit", "section", "exponents", "chart", "periodic", "bench", "stress"];
-
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
     pub fn read() -> Self {
         let mut command = Self::command();
-        for name in FORMER {
-            command = command.mut_subcommand(name, |former| former.hide(true));
+        let former = explore::Former::augment_subcommands(clap::Command::new("former"));
+        for one in former.get_subcommands() {
+            command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
         let matches = command.get_matches();
         Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())

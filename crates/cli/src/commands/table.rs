@@ -7,7 +7,8 @@ use super::{Answer, Table, TableFormat, files, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
     let sampling = &options.sampling;
-    let run = files::judge(&options.paths, &[], &sampling.options(), judge, sampling.threads)?;
+    let run =
+        files::judge(&options.paths, &[], &|_| {}, &sampling.options(), judge, sampling.threads)?;
     for outcome in &run.outcomes {
         if let Err(failures) = &outcome.result {
             anstream::eprintln!("{}", diagnostic::rendered(failures));

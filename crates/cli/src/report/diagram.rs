@@ -7,7 +7,7 @@
 mod axes;
 mod labels;
 
-pub(super) use labels::escape;
+pub(super) use super::typeset::mathml::escaped as escape;
 
 use std::fmt::Write;
 

@@ -80,13 +80,15 @@ pub(super) fn details(path: &str, report: &CaseReport) -> String {
 
 /// Writes the command that evaluates the case at a witness, for a shell.
 fn command(path: &str, witness: &Witness) -> String {
-    let mut words = vec!["liouville".to_string(), "eval".to_string(), path.to_string()];
-    for (name, value) in &witness.parameters {
-        words.extend(["--set".to_string(), format!("{name}={value}")]);
-    }
-    words.extend(["--state".to_string(), witness.state.clone()]);
-    let words: Vec<String> = words.iter().map(|word| shell_quoted(word)).collect();
-    words.join(" ")
+    format!("liouville eval {} {}", shell_quoted(path), options(witness))
+}
+
+/// Writes the options of `eval` that name a witness, for a shell.
+pub(super) fn options(witness: &Witness) -> String {
+    let set = witness.parameters.iter();
+    let set =
+        set.map(|(name, value)| format!("--set {} ", shell_quoted(&format!("{name}={value}"))));
+    format!("{}--state {}", set.collect::<String>(), shell_quoted(&witness.state))
 }
 
 /// Quotes a word for a shell where it needs that.

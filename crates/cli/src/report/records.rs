@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use liouville::verdict::{ClaimReport, Verdict};
 
+use super::typeset::mathml;
 use super::{Outcome, RunReport};
 
 /// Renders a header and one line for each claim; files that could not be judged have one line.
@@ -112,15 +113,7 @@ fn test(path: &str, claim: &ClaimReport) -> String {
 
 /// Escapes a text for XML; control characters, which XML 1.0 has no place for, become spaces.
 fn escaped(text: &str) -> String {
-    let one = |c: char| match c {
-        '&' => "&amp;".to_string(),
-        '<' => "&lt;".to_string(),
-        '>' => "&gt;".to_string(),
-        '"' => "&quot;".to_string(),
-        c if c.is_control() => " ".to_string(),
-        c => c.to_string(),
-    };
-    text.chars().map(one).collect()
+    mathml::escaped(&text.replace(char::is_control, " "))
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ const GROWTH: f64 = 1.3;
 /// Least radius of a box, relative to the unknown.
 const LEAST_RADIUS: f64 = 1e-15;
 
-/// What a closed orbit is looked for with.
+/// Request for a closed orbit.
 pub struct Request<'r> {
     /// Model of the case.
     pub model: &'r Model,

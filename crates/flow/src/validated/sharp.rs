@@ -29,7 +29,7 @@ fn enclosure<const N: usize>(block: &Twofolds<N>, lane: usize) -> Enclosure {
 }
 
 /// Encloses Σ x_k h^k, k up to `order`, less the targets, for each start, with h = share · period.
-/// What the polynomial leaves out is not in it.
+/// The remainders of the polynomials are not included.
 pub fn gaps(
     plan: &Plan,
     order: usize,

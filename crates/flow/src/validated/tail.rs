@@ -24,7 +24,7 @@ use crate::form::Row;
 use liouville::graph::{Work, with_widest_vectors};
 use liouville::number::ball::Balls;
 
-/// Factor above the rounding of any bound here: sums of at most 10⁴ terms of either sign of none.
+/// Factor that covers the rounding of any bound here, a sum of at most 10⁴ non-negative terms.
 const ALLOWANCE: f64 = 1.0 + 1e-11;
 /// Ratio of the first radius tried to the step, and of the least.
 pub const FIRST: f64 = 9.0;

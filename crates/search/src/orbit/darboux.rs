@@ -177,8 +177,8 @@ impl Search<'_, '_> {
         Ok(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)?)
     }
 
-    /// Has a polynomial judged together with its cofactor; a factor whose cofactor is 0, an
-    /// integral, is kept but not told.
+    /// Judges a polynomial together with its cofactor. One whose cofactor is 0, an integral, is kept
+    /// but not reported.
     pub fn tell(
         &self,
         formula: &Formula,

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::escape;
+
 /// Upper estimate of the width of a letter in the labels' type.
 const LETTER: f64 = 6.4;
 const HEIGHT: f64 = 13.0;
@@ -107,9 +109,4 @@ pub fn shortened(text: &str) -> String {
         return text.to_string();
     }
     text.chars().take(LONGEST - 1).chain(['…']).collect()
-}
-
-/// Escapes a text for XML.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,5 +1,6 @@
 //! Findings as entries of a report.
 
+use super::super::evidence::options;
 use super::document::{Block, Entry, Mark};
 use liouville::verdict::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
 use liouville_search::survey::Finding;
@@ -115,12 +116,6 @@ pub fn grounds(evidence: &Evidence) -> Vec<String> {
 
 /// State at which a claim fails, in the notation of `eval`.
 pub fn witness(witness: &Witness) -> String {
-    let set = witness.parameters.iter().map(|(name, value)| format!("--set '{name}={value}' "));
-    format!(
-        "witness: {:e} ± {:.1e} at {}--state '{}'",
-        witness.residual,
-        witness.error_bound,
-        set.collect::<String>(),
-        witness.state
-    )
+    let (residual, error) = (witness.residual, witness.error_bound);
+    format!("witness: {residual:e} ± {error:.1e} at {}", options(witness))
 }
