@@ -16,6 +16,8 @@ struct Edit {
     text: String,
     /// Place of the other formula's text in the new piece.
     inside: usize,
+    /// Length of the index written behind it, where a component stood.
+    index: usize,
 }
 
 impl Formula {
@@ -113,7 +115,7 @@ impl Formula {
             let in_brackets = by.bond() < wants || (follows_operator && is_signed(by.written()));
             let (open, close) = if in_brackets { ("(", ")") } else { ("", "") };
             let text = format!("{open}{}{close}{index}", by.written());
-            edits.push(Edit { span, text, inside: open.len() });
+            edits.push(Edit { span, text, inside: open.len(), index: index.len() });
         }
         edits.sort_by_key(|edit| edit.span.start);
         Ok(edits)
@@ -195,11 +197,10 @@ impl Rebuilding<'_> {
     /// Appends the other formula in the place of a symbol.
     fn put(&self, builder: &mut Builder<'_>, old: &Span, span: Span) -> NodeId {
         let inside = |edit: &&Edit| old.start <= edit.span.start && edit.span.end <= old.end;
-        let start = self
-            .edits
-            .iter()
-            .find(inside)
-            .map_or(span.start, |edit| self.moved(edit.span.start, false) + edit.inside);
+        let edit = self.edits.iter().find(inside);
+        let start =
+            edit.map_or(span.start, |edit| self.moved(edit.span.start, false) + edit.inside);
+        let span = span.start..span.end - edit.map_or(0, |edit| edit.index);
         let mut map: Vec<NodeId> = Vec::new();
         for own in &self.by.arena.nodes {
             let moved = |place: usize| (place + start).saturating_sub(self.by.leading());
