@@ -1,6 +1,6 @@
 //! Substitution of a formula for a name.
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, Function, Node, NodeId, Operation};
 use super::binders::is_form;
 use super::bond::{Bond, is_signed};
 use super::compose::Composed;
@@ -59,8 +59,13 @@ impl Formula {
         Ok(Formula { text, arena })
     }
 
-    /// Fails where an index of a form could catch a name.
+    /// Fails where an index of a form could catch a name, and in derivatives.
     fn without_forms(&self) -> Result<(), FormulaError> {
+        let derivative = |node: &&Node| matches!(node.operation, Operation::Partial { .. });
+        if let Some(node) = self.arena.nodes.iter().find(derivative) {
+            let message = "nothing can be put into a derivative";
+            return Err(FormulaError::new(node.span.clone(), message));
+        }
         let tokens = tokens(&self.text)?;
         let calls = tokens.iter().zip(tokens.iter().skip(1));
         let is_call = |kind: Kind, next: Kind| kind == Kind::Name && next == Kind::Open;
