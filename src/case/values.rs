@@ -60,17 +60,13 @@ impl Case {
         values.check_keys()?;
         let kind = Kind::read(claim.key(), &values).unwrap_or_else(|| {
             let remedy = format!("use one of {}", STATEMENTS.join(", "));
-            Err(values.complaint(
-                claim.key(),
-                "there is no such kind of claim".to_string(),
-                &remedy,
-            ))
+            Err(values.complaint(claim.key(), "this kind of claim is unknown".to_string(), &remedy))
         })?;
         let formulas = kind.formulas();
         let rigid = |index: &usize| model.is_rigid(*index, &formulas);
         if let Some(index) = kind.changes().into_iter().find(rigid) {
             let name = &model.parameters[index].name;
-            let message = format!("`{name}` stands in a size or an index, and cannot change");
+            let message = format!("`{name}` is used in a size or an index, and cannot change");
             return Err(values.complaint(kind.name(), message, "change another parameter"));
         }
         if let Some(objection) = kind.objection(model) {
@@ -127,7 +123,11 @@ impl Case {
 /// The error for a formula in the names of another case.
 pub(super) fn stranger(what: &str, name: &str) -> ClaimError {
     let message = format!("`{name}` is not a name of this case with the same meaning");
-    ClaimError::new(what, message, "make formulas from the names of the case that takes them")
+    ClaimError::new(
+        what,
+        message,
+        "build the formula from the names of the case in which it is used",
+    )
 }
 
 /// A claim as a value, read like the table of a file.
@@ -160,7 +160,7 @@ impl Values<'_> {
         if let Some(name) = self.claim.name().map(str::to_string) {
             if is_taken(&name) {
                 let message = format!("two claims are called `{name}`");
-                return Err(self.complaint(kind.name(), message, "give each a name of its own"));
+                return Err(self.complaint(kind.name(), message, "give each a different name"));
             }
             return Ok(name);
         }

@@ -91,7 +91,7 @@ fn brackets(root: &Section<'_>, target: &Model) -> Option<Vec<Poisson>> {
     }
     if named.len() < entries.len() {
         section.mistakes().add(section.complaint(Problem::Other {
-            message: "blocks stand beside brackets with names".to_string(),
+            message: "blocks cannot be mixed with named brackets".to_string(),
             remedy: "give every bracket a name: [poisson.P], [poisson.Q]".to_string(),
         }));
         return None;

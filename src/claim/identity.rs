@@ -130,13 +130,12 @@ impl Statement for Relation {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
         let inverse = jet.phase.scalar(&self.cofactor).recip();
-        let condition = |factor| {
-            Condition {
+        let condition = |factor| Condition {
             need: Need::ValueOnZeros { function, factor, inverse },
-            otherwise: "it is not known that the cofactor has a value where F = 0: cancel what it divides by"
-                .to_string(),
+            otherwise:
+                "it is not known that the cofactor has a value where F = 0: cancel its denominator"
+                    .to_string(),
             is_essential: true,
-        }
         };
         factor.into_iter().map(condition).collect()
     }
@@ -152,7 +151,9 @@ impl Statement for Relation {
         texts.dedup();
         (!texts.is_empty()).then(|| {
             let texts = texts.join("`, `");
-            format!("the cofactor divides by `{texts}`: F = 0 is kept only where that is not 0")
+            format!(
+                "the cofactor divides by `{texts}`: F = 0 is invariant only where that is not 0"
+            )
         })
     }
 

@@ -110,7 +110,7 @@ pub trait Reader {
             Some(found) if found == word => Ok(()),
             Some(found) => Err(self.complaint(
                 key,
-                format!("`{found}` is not what can be claimed here"),
+                format!("`{found}` cannot be claimed here"),
                 &format!("write \"{word}\", and expect = \"fails\" where it does not"),
             )),
             None => Err(self.missing(key)),
@@ -125,6 +125,6 @@ pub trait Reader {
     /// Makes the complaint that two formulas have different types.
     fn unlike(&self, key: &'static str, left: Type, right: Type) -> Self::Error {
         let message = format!("a {left} is compared with a {right}");
-        self.complaint(key, message, "compare what is of one kind")
+        self.complaint(key, message, "compare values of the same type")
     }
 }

@@ -78,10 +78,10 @@ pub enum SearchError {
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
     /// The count did not become stable.
-    #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
+    #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
     /// The system is a map.
-    #[error("the case is a map, and invariants are searched for of flows")]
+    #[error("the case is a map, and a search needs a flow")]
     Discrete,
     /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
@@ -96,10 +96,10 @@ pub enum SearchError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// The candidate is not a valid claim for this case.
-    #[error("a find cannot be claimed of the case: {0}")]
+    #[error("the candidate is not a valid claim for this case: {0}")]
     Unfit(#[from] ClaimError),
     /// A formula cannot be made of others.
-    #[error("a find cannot be written: {0}")]
+    #[error("the formula of a candidate cannot be written: {0}")]
     Unwritten(#[from] FormulaError),
     /// Judging failed.
     #[error(transparent)]

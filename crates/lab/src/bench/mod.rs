@@ -185,7 +185,7 @@ impl BenchError {
     pub fn help(&self) -> &'static str {
         match self {
             BenchError::Fault(_) => "write the formula with operations that hold for every number",
-            BenchError::Unreachable(_) => "let `liouville check` say what is wrong with the case",
+            BenchError::Unreachable(_) => "run `liouville check` to find the mistake in the case",
         }
     }
 }

@@ -110,7 +110,7 @@ impl<'a> Asked<'a> {
     fn look(&self, kind: &Absence) -> Result<Outcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
-            let reason = "a function of the body is arbitrary, and a count is about given ones";
+            let reason = "a function of the body is arbitrary, and a count needs a given one";
             return Ok(Outcome::Open(reason.to_string()));
         }
         let outcome = if Coordinates::of(self.case).is_ok() {

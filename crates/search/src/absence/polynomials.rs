@@ -35,7 +35,7 @@ pub fn look(
     kind: &Absence,
 ) -> Result<Outcome, SearchError> {
     if has_lists(asked.case) {
-        let reason = "a parameter has a list of values: give each a case of its own";
+        let reason = "a parameter has a list of values: write a separate case for each value";
         return Ok(Outcome::Open(reason.to_string()));
     }
     if contains_integrals(asked.case)? {
@@ -300,7 +300,7 @@ impl<'a> Counting<'a> {
                 }
             }
             return Ok(Outcome::Open(format!(
-                "a density P^{root} is counted, and not found in closed form"
+                "the count allows a density P^{root}, but none was found in closed form"
             )));
         }
         // L_vP + s div v = 0, without the constants: ln ρ = P/s.
@@ -329,7 +329,9 @@ impl<'a> Counting<'a> {
     /// Writes exp P, and has it judged.
     fn exponential(&self, found: &[Vec<u64>], columns: &[usize]) -> Result<Outcome, SearchError> {
         let own = found.iter().find(|own| own.last().is_some_and(|last| *last != 0));
-        let open = || Ok(Outcome::Open("a density exp P is counted, and not found".to_string()));
+        let open = || {
+            Ok(Outcome::Open("the count allows a density exp P, but none was found".to_string()))
+        };
         let Some(vector) = own else { return open() };
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();

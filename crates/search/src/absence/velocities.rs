@@ -172,7 +172,7 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
             return Ok(Outcome::Exhibited(shown("density", found)));
         }
     }
-    Ok(Outcome::Open("a density is counted, and not found in closed form".to_string()))
+    Ok(Outcome::Open("the count allows a density, but none was found in closed form".to_string()))
 }
 
 /// Whether a density is of the positions alone, or some P^(1/α) with P of at most this degree.

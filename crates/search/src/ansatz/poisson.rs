@@ -176,7 +176,7 @@ impl<'a> Family<'a> {
         let functions = Functions::new(self.case, &graph, &columns, self.effort.options.seed);
         let relations = match functions.and_then(|mut functions| functions.relations()) {
             Err(error @ (SearchError::NoChart | SearchError::NoPoints)) => {
-                report.remark(format!("no bracket is looked for with {name}: {error}"));
+                report.remark(format!("no search for brackets with {name}: {error}"));
                 return Ok(());
             }
             relations => relations?,
@@ -295,9 +295,8 @@ impl<'a> Family<'a> {
             self.effort.halt.check()?;
             let asked = self.with_bracket(&self.entries(&integers(vector))?)?;
             if !self.is_casimir(&asked, name)? {
-                report.remark(format!(
-                    "no bracket was found with {name}; that there is none is not proved"
-                ));
+                report
+                    .remark(format!("no bracket was found with {name}; its absence is not proved"));
                 return Ok(());
             }
         }

@@ -172,7 +172,7 @@ fn condition(
         if line == BARREN && degree == 0 {
             let (systems, met) = small::conditions(&residual, effort)?;
             let grounds = format!(
-                "no condition of codimension one on {BARREN} random lines; {met} points met by chance modulo 43"
+                "no condition of codimension one on {BARREN} random lines; {met} points found by random sampling modulo 43"
             );
             return told(systems, grounds);
         }

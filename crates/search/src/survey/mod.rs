@@ -118,7 +118,7 @@ pub fn survey(
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
     }
-    progress("what the case claims");
+    progress("claims of the case");
     let own = liouville::verdict::judge(case, options)?;
     let claimed: Vec<Finding> = own
         .claims
@@ -134,7 +134,7 @@ pub fn survey(
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
         .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
-    progress("integrals that nobody typed");
+    progress("further integrals");
     let mut search = Unknown::of(case, options, progress);
     all.append(&mut search.findings);
     progress("what follows");
