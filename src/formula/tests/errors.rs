@@ -211,7 +211,7 @@ fn forms_with_indices_say_what_is_missing() {
     let sum = Some("write `sum(i, 1..n, a[i])`");
     error("sum", "`sum` is written with brackets", "sum", sum);
     error("sum(u)", "an index and its range are missing here", "u", sum);
-    error("sum(i, n, u[i])", "the range of `i` should stand here", "n", sum);
+    error("sum(i, n, u[i])", "the range of `i` is missing here", "n", sum);
     error("sum(i, 1..n)", "`sum` has no body", ")", sum);
     error(
         "sum(i, 1..n, u[i], x)",
@@ -250,7 +250,7 @@ fn forms_with_indices_say_what_is_missing() {
     );
     error(
         "<ω,γ>",
-        "a number, a name or a bracket should stand before `<`",
+        "a number, a name or a bracket is missing before `<`",
         "<",
         Some("a dot product is written `(a,b)`"),
     );
@@ -281,16 +281,16 @@ fn incomplete_formulas_say_so() {
     error("", "the formula is empty", "", None);
     error("  ", "the formula is empty", "  ", None);
     error("x + ", "the formula breaks off after this", "+", None);
-    error("x*/y", "a number, a name or a bracket should stand before `/`", "/", None);
+    error("x*/y", "a number, a name or a bracket is missing before `/`", "/", None);
     error(
         "+x",
-        "a number, a name or a bracket should stand before `+`",
+        "a number, a name or a bracket is missing before `+`",
         "+",
         Some("leave out a leading `+`"),
     );
     error(
         "x**2",
-        "a number, a name or a bracket should stand before `*`",
+        "a number, a name or a bracket is missing before `*`",
         "*",
         Some("a power is written `a^b`"),
     );
@@ -315,7 +315,7 @@ fn nesting_has_a_limit() {
     for open in ["(", "|", "-", "√", "[", "x^", "exp(", "2*(", "γ × (", "[1,2,"] {
         let error = refuse(&open.repeat(100_000));
         assert_eq!(error.message(), "this is nested too deeply", "{open} without end");
-        assert_eq!(error.help(), Some("at most 200 levels are read"), "the limit is told");
+        assert_eq!(error.help(), Some("at most 200 levels are allowed"), "the limit is told");
     }
     assert_eq!(read(&format!("{}x", "-".repeat(200))).value_type(), Type::Scalar, "200 are fine");
 }

@@ -58,7 +58,7 @@ pub fn brackets(
         || is_matrix
     {
         report.remark(format!(
-            "no bracket is looked for: it takes at most {DIMENSION} variables, none a matrix, and no level set"
+            "no search for brackets: it takes at most {DIMENSION} variables, none a matrix, and no level set"
         ));
         return Ok(());
     }
@@ -72,7 +72,7 @@ pub fn brackets(
     };
     if functions.is_empty() {
         report.remark(
-            "no bracket is looked for: no integral is known; give a Hamiltonian with --poisson=H"
+            "no search for brackets: no integral is known; give a Hamiltonian with --poisson=H"
                 .to_string(),
         );
     }
@@ -86,7 +86,7 @@ pub fn brackets(
         // Hamiltonian.
         if family.with_bracket(&[]).and_then(|asked| family.reads(&asked)).is_err() {
             report.remark(format!(
-                "no bracket is looked for with the Hamiltonian {name}: write it in the state and the parameters alone"
+                "no search for brackets with the Hamiltonian {name}: write it in the state and the parameters alone"
             ));
             continue;
         }
