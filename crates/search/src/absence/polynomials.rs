@@ -212,7 +212,7 @@ impl<'a> Counting<'a> {
         let dimension = found.len();
         if dimension < space.dimension {
             return Ok(Outcome::Open(format!(
-                "{dimension} are counted, fewer than the {} that are known",
+                "the count is {dimension}, fewer than the {} known integrals",
                 space.dimension
             )));
         }
@@ -220,7 +220,7 @@ impl<'a> Counting<'a> {
             return Ok(Outcome::Excluded {
                 theorem: self.asked.theorem(&generated(&self.class(), &space.terms)),
                 counted: format!(
-                    "{dimension} independent ones at most, constants included: all known"
+                    "at most {dimension} independent integrals, constants included: all known"
                 ),
             });
         }
@@ -239,8 +239,8 @@ impl<'a> Counting<'a> {
             }
         }
         Ok(Outcome::Open(format!(
-            "at most {dimension} independent ones are counted, constants included, {} are known, and no \
-             further one is found in closed form",
+            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+             other was found in closed form",
             space.dimension
         )))
     }

@@ -76,14 +76,16 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     let known = asked.known.of_degree(case, most, effort)?;
     if known.dimension > dimension {
         return Ok(Outcome::Open(format!(
-            "{dimension} are counted, fewer than the {} that are known",
+            "the count is {dimension}, fewer than the {} known integrals",
             known.dimension
         )));
     }
     if known.dimension == dimension {
         return Ok(Outcome::Excluded {
             theorem: asked.theorem(&generated(&class, &known.formulas)),
-            counted: format!("{dimension} independent ones at most, constants included: all known"),
+            counted: format!(
+                "at most {dimension} independent integrals, constants included: all known"
+            ),
         });
     }
     let mut found = |run: &mut dyn FnMut(&mut Report) -> Result<(), SearchError>| {
@@ -99,8 +101,8 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     };
     Ok(exhibit.map(Outcome::Exhibited).unwrap_or_else(|| {
         Outcome::Open(format!(
-            "at most {dimension} independent ones are counted, constants included, {} are known, and \
-             no further one is found in closed form",
+            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+             other was found in closed form",
             known.dimension
         ))
     }))
