@@ -288,7 +288,7 @@ impl Case {
     }
 
     /// Returns the same case with a bracket of its variables, by blocks for pairs of them; a pair
-    /// and its opposite are given once, and what is not given is 0.
+    /// and its opposite are given once, and entries not given are 0.
     ///
     /// # Errors
     /// The case has no variables, or a block is of the wrong type, given twice, or in other names

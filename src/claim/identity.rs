@@ -23,7 +23,7 @@ pub struct Rate {
     rate: Formula,
 }
 
-/// L_vF = κF, or F∘Φ = κF, so that F = 0 is kept.
+/// L_vF = κF, or F∘Φ = κF, so that F = 0 is invariant.
 #[derive(Clone, Debug)]
 pub struct Relation {
     function: Formula,
@@ -125,7 +125,7 @@ impl Statement for Relation {
         Some(Self { cofactor, ..self.clone() })
     }
 
-    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not keep x = 0.
+    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not leave x = 0 invariant.
     fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();

@@ -1,4 +1,4 @@
-//! Premises of all claims: states are on the level, and the motion stays there.
+//! Premises of all claims: states lie on the level, and the motion stays there.
 
 use super::bench::Bench;
 use super::field::{Field, Query};

@@ -7,7 +7,7 @@
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
-//! absence    a claim that there is no other invariant: proved by counts, refuted by a find
+//! absence    claims that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
 mod absence;

@@ -3,7 +3,7 @@
 //! ```text
 //! line      points on a random line of parameters where the residual vanishes for all states
 //! variety   the equations of least degree at the points found on many lines
-//! small     conditions of codimension two, met by chance in small fields
+//! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
 //! ```
 //!

@@ -4,12 +4,12 @@
 //! ```text
 //! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
 //! family       formulas that make sense under such facts; files of data
-//! question     a family's formulas put to the case, in the names that the case has
+//! question     claims of a family about the case, in the names of the case
 //! involutions  signed permutations of the axes, as symmetries and reversors
 //! sphere       the density, or the criterion, over the sphere of normals
 //! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      further invariants that the search finds and excludes
-//! hierarchy    what follows: integral and measure, integral only, measure only, neither
+//! hierarchy    classification: integral and measure, integral only, measure only, neither
 //! ```
 
 mod axis;
