@@ -125,7 +125,7 @@ impl Statement for Relation {
         Some(Self { cofactor, ..self.clone() })
     }
 
-    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not leave x = 0 invariant.
+    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not preserve x = 0.
     fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();

@@ -56,8 +56,9 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
-    /// Returns the number of `inner` in the table of `key`, which has no other keys, as written in the
-    /// file, a string with its quotes; if there is no such table, the complaint has this `remedy`.
+    /// Returns the number of `inner` in the table of `key`, which has no other keys, as written in
+    /// the file, a string with its quotes; if there is no such table, the complaint has this
+    /// `remedy`.
     fn text_inside(
         &self,
         key: &'static str,

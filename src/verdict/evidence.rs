@@ -254,8 +254,8 @@ pub struct Evidence {
     /// Measured quantities, for claims about motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
-    /// For claims of absence that hold: the excluded functions, and the parameters for which they are
-    /// excluded. For closed orbits: the proved statement.
+    /// For claims of absence that hold: the excluded functions, and the parameters for which they
+    /// are excluded. For closed orbits: the proved statement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
     /// For claims of absence that fail: a proved integral or density that contradicts the claim.

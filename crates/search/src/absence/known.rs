@@ -52,8 +52,8 @@ impl Known {
         self.formulas.iter().filter(|formula| !is_energy(formula)).cloned().collect()
     }
 
-    /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and the
-    /// like, and without ∫, whose constant is open.
+    /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and
+    /// the like, and without ∫, whose constant is open.
     pub fn terms(&self, case: &Case, seed: u64) -> Result<Vec<Formula>, SearchError> {
         let mut own = self.formulas.clone();
         own.retain(|term| {

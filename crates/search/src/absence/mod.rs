@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A count bounds the number of integrals or densities from above; the known ones bound it from
-//! below. If both bounds agree, there are no others. Otherwise one of the others is sought and proved:
-//! a witness that refutes the claim.
+//! below. If both bounds agree, there are no others. Otherwise one of the others is sought and
+//! proved: a witness that refutes the claim.
 
 mod known;
 mod polynomials;

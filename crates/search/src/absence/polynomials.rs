@@ -1,7 +1,7 @@
 //! Absence of polynomials in all variables of a field, with constant coefficients.
 //!
-//! A row is a random state modulo a prime, the parameters the same in all rows; a column is a monomial,
-//! or its derivative along the field. The rank of such a matrix is at most what it is for generic
+//! A row is a random state modulo a prime, with the same parameters in all rows. A column is a
+//! monomial, or its derivative along the field. The rank of such a matrix is at most what it is for generic
 //! parameters, so that the null space is at least as large as the space of integrals.
 
 use super::super::SearchError;
@@ -261,7 +261,8 @@ impl<'a> Counting<'a> {
         Ok((with == Some(space.dimension + 1)).then_some(formula))
     }
 
-    /// Writes Σ c_a x^a for all values of the parameters, if the coefficients are fractions in them.
+    /// Writes Σ c_a x^a for all values of the parameters, if its coefficients are fractions in
+    /// them.
     fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, FormulaError> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let start = self.columns(direction).first().copied();

@@ -177,7 +177,7 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     Ok(Outcome::Open("the count allows a density, but none was found in closed form".to_string()))
 }
 
-/// Whether a density is a function of the positions alone, or P^(1/α) with P of at most this degree.
+/// Whether a density is a function of the positions alone, or P^(1/α) with P up to this degree.
 fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
     for alpha in multipliers::WEIGHTS {
         let power = numeric_exponent(Rational::from(alpha))?;
