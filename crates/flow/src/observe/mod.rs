@@ -4,9 +4,9 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Nothing here is a proof but of closed orbits, which are enclosed. A stated number agrees with a computed one if they differ by no more
-//! than the last stated digit and the error that the computation itself shows: the spread of
-//! blocks, or the difference between f64 and double-double.
+//! Only closed orbits are proved, by enclosures. A stated number agrees with a computed one if they
+//! differ by no more than the last stated digit and the estimated error of the computation: the
+//! spread of blocks, or the difference between f64 and double-double.
 
 mod closed_orbit;
 mod contacts;
