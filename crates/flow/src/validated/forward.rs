@@ -9,11 +9,12 @@
 //! so that the box turns with the flow. Every rounding is counted; that Q is only nearly orthogonal
 //! as well.
 
+use super::coefficients::LANES;
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
 use super::motion::{Boxed, Motion, Passage};
-use super::{KAPPAS, Obstacle};
+use super::{KAPPAS, LEAST_RADIUS, Obstacle};
 use crate::start::Start;
 use liouville::mechanics::Model;
 use liouville::number::pair::Pair;
@@ -21,6 +22,9 @@ use liouville::number::rational::Rational;
 
 /// Limit on the steps of a motion.
 pub const MOST_STEPS: usize = 100_000;
+
+/// Growth of the box expected of a step; boxes that turn out wider are computed again.
+const GROWTH: f64 = 4.0;
 
 /// State after a time, enclosed.
 #[derive(Clone, Debug)]
@@ -61,42 +65,84 @@ fn along(
     start: &[Enclosure],
     time: Enclosure,
 ) -> Result<Reached, Obstacle> {
-    let mut cloud = Cloud::about(start);
-    let mut elapsed = Enclosure::ZERO;
-    for index in 0..nodes.states.len() {
-        let next = nodes.states.get(index + 1);
-        let h = match next {
-            Some(_) => Enclosure::exact(nodes.shares[index] * time.mid),
-            None => time - elapsed,
-        };
-        let problem = || Obstacle::NoStep(elapsed.mid);
-        let mut found = motion.passages(&[cloud.hull()], &[h]);
-        let passage = found.pop().flatten().ok_or_else(problem)?;
-        let end: Vec<f64> = passage.end.iter().map(|x| x.mid).collect();
-        let target = next.unwrap_or(&end);
-        let gap = gap(motion, &cloud.centre, h, target, &passage).ok_or_else(problem)?;
-        cloud = cloud.moved(&passage, &gap, target).ok_or(Obstacle::Wide(elapsed.mid))?;
-        elapsed = elapsed + h;
+    let count = nodes.states.len();
+    let mut steps: Vec<Enclosure> =
+        nodes.shares.iter().map(|share| Enclosure::exact(share * time.mid)).collect();
+    // the steps before the last are numbers in f64, their sum is not
+    let before = &steps[..count.saturating_sub(1)];
+    let elapsed = before.iter().fold(Enclosure::ZERO, |sum, h| sum + *h);
+    if let Some(last) = steps.last_mut() {
+        *last = time - elapsed;
     }
-    Ok(Reached { state: cloud.hull(), steps: nodes.states.len() })
+    let mut cloud = Cloud::about(start);
+    let mut index = 0;
+    while index < count {
+        let group = index..count.min(index + LANES);
+        let starts: Vec<Boxed> =
+            group.clone().map(|k| cloud.foreseen(k - index, nodes, k)).collect();
+        let found = motion.passages(&starts, &steps[group.clone()]);
+        let now = nodes.shares[..index].iter().sum::<f64>() * time.mid;
+        let first = index;
+        let known: Vec<Passage> = found.into_iter().map_while(|passage| passage).collect();
+        let gaps = gaps(motion, nodes, &cloud.centre, first, &steps, &known);
+        for ((passage, gap), start) in known.iter().zip(gaps).zip(&starts) {
+            let Some((target, gap)) = gap else { break };
+            if !is_inside(&cloud.hull(), start) {
+                break;
+            }
+            cloud = cloud.moved(passage, &gap, &target).ok_or(Obstacle::Wide(now))?;
+            index += 1;
+        }
+        if index == first {
+            return Err(Obstacle::NoStep(now));
+        }
+    }
+    Ok(Reached { state: cloud.hull(), steps: count })
 }
 
-/// Encloses φ(h, centre) - target for all h of an enclosure.
-fn gap(
+/// Encloses φ(h, p) - p' for some steps from their nodes p, where p' is the next node, or near the
+/// end of the last step. Returns p' with it.
+fn gaps(
     motion: &Motion,
+    nodes: &Nodes,
     centre: &[f64],
-    h: Enclosure,
-    target: &[f64],
-    passage: &Passage,
-) -> Option<Boxed> {
-    let gaps = motion.gaps(&[centre.to_vec()], &[h.mid], 1.0, &[target]).pop()??;
-    if h.rad == 0.0 {
-        return Some(gaps);
+    first: usize,
+    steps: &[Enclosure],
+    passages: &[Passage],
+) -> Vec<Option<(Vec<f64>, Boxed)>> {
+    let mut centres = nodes.states[first..][..passages.len()].to_vec();
+    if let Some(own) = centres.first_mut() {
+        own.copy_from_slice(centre);
     }
-    // the ends of all these steps lie in the end of the passage
-    let field = motion.field(std::slice::from_ref(&passage.end)).pop()?;
-    let late = Enclosure::about(0.0, h.rad);
-    Some(gaps.iter().zip(field).map(|(gap, rate)| *gap + rate * late).collect())
+    let end = |passage: &Passage| passage.end.iter().map(|x| x.mid).collect::<Vec<f64>>();
+    let targets: Vec<Vec<f64>> = (first + 1..)
+        .zip(passages)
+        .map(|(next, passage)| nodes.states.get(next).cloned().unwrap_or_else(|| end(passage)))
+        .collect();
+    let wanted: Vec<&[f64]> = targets.iter().map(Vec::as_slice).collect();
+    let middles: Vec<f64> = steps[first..][..passages.len()].iter().map(|h| h.mid).collect();
+    let found = motion.gaps(&centres, &middles, 1.0, &wanted);
+    let widened =
+        |(((gap, target), passage), h): (((Option<Boxed>, Vec<f64>), &Passage), &Enclosure)| {
+            let gap = gap?;
+            if h.rad == 0.0 {
+                return Some((target, gap));
+            }
+            // the ends of all these steps lie in the end of the passage
+            let field = motion.field(std::slice::from_ref(&passage.end)).pop()?;
+            let late = Enclosure::about(0.0, h.rad);
+            let gap = gap.iter().zip(field).map(|(gap, rate)| *gap + rate * late).collect();
+            Some((target, gap))
+        };
+    found.into_iter().zip(targets).zip(passages).zip(&steps[first..]).map(widened).collect()
+}
+
+/// Whether a box lies in another.
+fn is_inside(inner: &[Enclosure], outer: &[Enclosure]) -> bool {
+    let holds = |(x, y): (&Enclosure, &Enclosure)| {
+        raised((x.mid - y.mid).abs() + x.rad, 4) <= y.rad || (x.mid == y.mid && x.rad <= y.rad)
+    };
+    inner.iter().zip(outer).all(holds)
 }
 
 /// All points p + Q w with |w| ≤ r, component by component.
@@ -126,6 +172,19 @@ impl Cloud {
             raised(parts.map(|(column, radius)| column[k].abs() * radius).sum(), n)
         };
         self.centre.iter().enumerate().map(|(k, x)| Enclosure::about(*x, reach(k))).collect()
+    }
+
+    /// Box that the points are expected in after some steps, around a node; their own after none.
+    fn foreseen(&self, steps: usize, nodes: &Nodes, node: usize) -> Boxed {
+        let own = self.hull();
+        if steps == 0 {
+            return own;
+        }
+        let wide = own.iter().map(|x| x.rad).fold(0.0, f64::max);
+        let growth = GROWTH.powi(i32::try_from(steps).unwrap_or(i32::MAX));
+        let floor = |x: f64| LEAST_RADIUS * x.abs().max(1.0);
+        let around = |x: &f64| Enclosure::about(*x, growth * (wide + floor(*x)));
+        nodes.states[node].iter().map(around).collect()
     }
 
     /// Points after a step, around a target. `None` where they are too many to be of use.
