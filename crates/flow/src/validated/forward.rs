@@ -122,19 +122,20 @@ fn gaps(
     let wanted: Vec<&[f64]> = targets.iter().map(Vec::as_slice).collect();
     let middles: Vec<f64> = steps[first..][..passages.len()].iter().map(|h| h.mid).collect();
     let found = motion.gaps(&centres, &middles, 1.0, &wanted);
-    let widened =
-        |(((gap, target), passage), h): (((Option<Boxed>, Vec<f64>), &Passage), &Enclosure)| {
-            let gap = gap?;
-            if h.rad == 0.0 {
-                return Some((target, gap));
-            }
-            // the ends of all these steps lie in the end of the passage
-            let field = motion.field(std::slice::from_ref(&passage.end)).pop()?;
-            let late = Enclosure::about(0.0, h.rad);
-            let gap = gap.iter().zip(field).map(|(gap, rate)| *gap + rate * late).collect();
-            Some((target, gap))
+    let late = |index: usize| -> Option<Boxed> {
+        let (passage, h) = (&passages[index], &steps[first + index]);
+        // the ends of all these steps lie in the end of the passage
+        let field = match h.rad == 0.0 {
+            true => return Some(vec![Enclosure::ZERO; centre.len()]),
+            false => motion.field(std::slice::from_ref(&passage.end)).pop()?,
         };
-    found.into_iter().zip(targets).zip(passages).zip(&steps[first..]).map(widened).collect()
+        Some(field.into_iter().map(|rate| rate * Enclosure::about(0.0, h.rad)).collect())
+    };
+    let whole = |(index, gap): (usize, Option<Boxed>)| {
+        let gap = gap?.iter().zip(late(index)?).map(|(gap, late)| *gap + late).collect();
+        Some((targets[index].clone(), gap))
+    };
+    found.into_iter().enumerate().map(whole).collect()
 }
 
 /// Whether a box lies in another.
