@@ -48,7 +48,6 @@ mod compose;
 mod construct;
 mod diagnosis;
 mod elementary;
-mod elementary_slopes;
 mod error;
 mod evaluate;
 mod functions;

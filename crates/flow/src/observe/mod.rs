@@ -4,9 +4,10 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Only closed orbits are proved, by enclosures. A stated number agrees with a computed one if they
-//! differ by no more than the last stated digit and the estimated error of the computation: the
-//! spread of blocks, or the difference between f64 and double-double.
+//! Closed orbits and states at a time of a motion are proved, by enclosures; all other claims are
+//! only observed. There a stated number agrees with a computed one if they differ by no more than
+//! the last stated digit and the estimated error of the computation: the spread of blocks, or the
+//! difference between f64 and double-double.
 
 mod closed_orbit;
 mod contacts;
@@ -15,6 +16,7 @@ mod exponents;
 mod finding;
 mod limit;
 mod periodic;
+mod reaches;
 mod scene;
 mod section;
 
@@ -55,6 +57,7 @@ fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Fin
         Motion::LimitOfMotion(claim) => limit::look(claim, scene),
         Motion::Contacts(claim) => contacts::look(claim, scene),
         Motion::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
+        Motion::Reaches(claim) => reaches::look(claim, scene),
     }
 }
 

@@ -1,10 +1,10 @@
 //! Derivatives of the functions of one scalar, and of the angle.
 
-use super::arena::{Function, NodeId, Operation};
-use super::error::FormulaError;
-use super::kind::Type;
-use super::slopes::{Slope, Slopes};
-use super::typing::Infix;
+use super::super::arena::{Function, NodeId, Operation};
+use super::super::error::FormulaError;
+use super::super::kind::Type;
+use super::super::typing::Infix;
+use super::{Slope, Slopes};
 use crate::number::rational::Rational;
 
 type Made = Result<NodeId, FormulaError>;
