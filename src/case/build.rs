@@ -136,7 +136,7 @@ fn read(
     let (system, mut parts) = reading.read()?;
     if let (Some(section), true) = (root.table("hamiltonian"), system != "field") {
         root.mistakes().add(section.complaint(Problem::Other {
-            message: "[hamiltonian] makes a field of one's own".to_string(),
+            message: "[hamiltonian] gives a vector field".to_string(),
             remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
         }));
     }
@@ -202,7 +202,7 @@ fn one_of_field_and_map(root: &Section<'_>, system: &str) {
             "a map has images, and no rates",
             "remove [field], or write system = \"field\" and remove [map]",
         ),
-        _ => ("map", "[map] makes a map of one's own", "write system = \"map\", or remove [map]"),
+        _ => ("map", "[map] gives a map", "write system = \"map\", or remove [map]"),
     };
     if let Some(section) = root.table(unread) {
         let (message, remedy) = (message.to_string(), remedy.to_string());
@@ -291,7 +291,7 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
         root.mistakes().add(Mistake::at(
             section.span.clone(),
             Problem::Other {
-                message: "the level set of this system is known".to_string(),
+                message: "the level set of this system is fixed".to_string(),
                 remedy: "remove [level]".to_string(),
             },
         ));

@@ -81,8 +81,8 @@ pub fn read(
 fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
     let span = place_of(section, key);
     let message =
-        format!("`{name}` stands in a size, an index or a power of a matrix, and cannot change");
-    let remedy = "use another parameter in the place of the one".to_string();
+        format!("`{name}` is used in a size, an index or a power of a matrix, and cannot change");
+    let remedy = "use a different parameter".to_string();
     Mistake::at(span, Problem::Other { message, remedy })
 }
 
@@ -109,7 +109,7 @@ pub fn read_motion(
         _ => return Err(statements(section, 2)),
     };
     if model.system.is_map() && context.is_whole {
-        let message = format!("`{key}` speaks of a motion in time, and the case is a map");
+        let message = format!("`{key}` is a claim about a motion in time, and the case is a map");
         let remedy = "claim it of a field, or claim an invariant of the map".to_string();
         let span = place_of(section, key);
         return Err(Mistake::at(span, Problem::Sense { message, remedy }));
@@ -240,7 +240,7 @@ pub fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
         found => Err(other(
             &text,
             format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
-            "write what the claim should come out as",
+            "write the expected verdict",
         )),
     }
 }

@@ -229,7 +229,7 @@ impl Mistake {
             | Problem::Incomplete { remedy, .. }
             | Problem::Sense { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
-            Problem::Cycle(..) => Some("write one of them out".to_string()),
+            Problem::Cycle(..) => Some("define one of them without the others".to_string()),
             Problem::BadName { .. } => Some("give it another name".to_string()),
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
@@ -237,7 +237,7 @@ impl Mistake {
                 "give a case file: TOML in UTF-8; docs/writing-a-case.md shows how".to_string(),
             ),
             Problem::WrongType { key, .. } => {
-                Some(format!("docs/writing-a-case.md shows what `{key}` takes"))
+                Some(format!("docs/writing-a-case.md describes `{key}`"))
             }
             Problem::Reach { name, .. } if name == "r" => {
                 Some("the support function h is −(r,γ)".to_string())

@@ -68,7 +68,7 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         Unreadable::Unknown(_) => {
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
-            (format!("`{}` is the rate of no state variable", excerpt(key)), remedy)
+            (format!("`{}` is not the rate of a state variable", excerpt(key)), remedy)
         }
     };
     Problem::Other { message, remedy }

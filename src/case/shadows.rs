@@ -52,7 +52,10 @@ pub fn look_alikes(vocabulary: &Vocabulary) -> Vec<String> {
     for (_, entry) in vocabulary.iter() {
         let first = *seen.entry(skeleton(&entry.name)).or_insert(&entry.name);
         if first != entry.name {
-            warnings.push(format!("`{first}` and `{}` look alike, and are two names", entry.name));
+            warnings.push(format!(
+                "`{first}` and `{}` look alike, but are different names",
+                entry.name
+            ));
         }
     }
     warnings

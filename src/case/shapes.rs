@@ -214,7 +214,7 @@ fn range(low: &str, high: &str) -> Result<Range, String> {
     match range.low < range.high {
         false => Err(format!("the range {}..{} is empty", range.low, range.high)),
         true if width.is_normal() => Ok(range),
-        true => Err("this range is beyond the numbers that f64 can hold".to_string()),
+        true => Err("this range is beyond the range of f64".to_string()),
     }
 }
 

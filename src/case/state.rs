@@ -106,6 +106,6 @@ fn variable(
         Given::Drawn(_) => wrong(format!(
             "`{name}` has components that depend on each other: states are drawn component by component"
         )),
-        _ => wrong(format!("`{name}` needs the range that its states are drawn from")),
+        _ => wrong(format!("`{name}` needs a range from which its states are drawn")),
     })
 }

@@ -145,7 +145,7 @@ impl Values<'_> {
             None => Ok(()),
             Some(key) => {
                 let remedy = match companions {
-                    [] => "it stands alone".to_string(),
+                    [] => "it has no further keys".to_string(),
                     known => format!("its keys are {}", known.join(", ")),
                 };
                 let message = format!("the claim has no `{key}`");

@@ -100,7 +100,7 @@ fn names_that_mislead_are_warned_of() {
         );
     }
     assert_eq!(warnings("e = [0, 0, 1]"), Vec::<String>::new(), "a vector is not taken for e");
-    let alike = "`ω` and `ѡ` look alike, and are two names";
+    let alike = "`ω` and `ѡ` look alike, but are different names";
     assert_eq!(warnings("\"ω\" = 1\n\"ѡ\" = 2"), [alike], "Greek and Cyrillic");
     let twice = error(
         "title = 't'\n[parameters]\n\"é\" = 1\n\"e\u{301}\" = 2\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n",

@@ -80,7 +80,7 @@ impl ModelBuilder {
         match open {
             None => Ok(case),
             Some(text) => {
-                let message = "a level equation has no ∫ in it: its constant is open";
+                let message = "a level equation cannot contain ∫, whose constant is open";
                 Err(ClaimError::new(&text, message, "write the antiderivative out"))
             }
         }

@@ -159,7 +159,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         (
             "tiny-range",
             field("[field]\n").replace("x = '-1..1'", "x = '-1e-400..1e-400'"),
-            "beyond the numbers that f64 can hold",
+            "beyond the range of f64",
             "-2..2",
         ),
         (
