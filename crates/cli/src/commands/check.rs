@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-use liouville::case::Case;
+use liouville::case::{Case, Column, is_labelled, labels, matches};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
@@ -24,12 +24,19 @@ fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError
 }
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let is_meant = |name: &str, source: &str| {
-        options.claims.is_empty()
-            || options.claims.iter().any(|wanted| is_meant(name, source, wanted))
+    let (claims, sources) = (&options.claims, &options.sources);
+    let is_everything = claims.is_empty() && sources.is_empty();
+    let is_meant = |name: &str, source: &str, column: Option<&Column>, cell: Option<&str>| {
+        is_everything
+            || claims.iter().any(|wanted| is_meant(name, source, wanted))
+            || labels(source, column, cell)
+                .iter()
+                .any(|label| sources.iter().any(|wanted| is_labelled(label, wanted)))
     };
     // Other claims may matter to those that are meant, but motions take minutes and do not.
-    let prepare = |case: &mut Case| case.motions.retain(|own| is_meant(&own.name, &own.source));
+    let prepare = |case: &mut Case| {
+        case.motions.retain(|own| is_meant(&own.name, &own.source, None, None));
+    };
     let mut run = files::judge(
         &options.paths,
         &read_settings(&options.settings)?,
@@ -38,10 +45,12 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         judge(options),
         options.sampling.threads,
     )?;
-    if !options.claims.is_empty() {
-        run.retain(|claim| is_meant(&claim.name, &claim.source));
+    if !is_everything {
+        run.retain(|column, claim| {
+            is_meant(&claim.name, &claim.source, column, claim.cell.as_deref())
+        });
         if run.claims().next().is_none() && run.summary().errors == 0 {
-            let wanted = options.claims.join("` or `");
+            let wanted = [claims.as_slice(), sources.as_slice()].concat().join("` or `");
             return Err(format!("error: no claim has a name or source like `{wanted}`"));
         }
     }
@@ -54,7 +63,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
             let detail = match (options.verbose, options.quiet) {
                 (true, _) => Detail::Evidence,
                 (_, true) => Detail::Summary,
-                _ if run.outcomes.len() == 1 || !options.claims.is_empty() => Detail::Claims,
+                _ if run.outcomes.len() == 1 || !is_everything => Detail::Claims,
                 _ => Detail::Cases,
             };
             let colour = colour(std::io::stdout().is_terminal());
@@ -78,48 +87,4 @@ fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
         true => matches(wanted, text),
         false => text.contains(wanted),
     })
-}
-
-/// Whether a text matches a pattern, in which `*` stands for any characters and `?` for one.
-fn matches(pattern: &str, text: &str) -> bool {
-    let (pattern, text): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), text.chars().collect());
-    // The ends of the text that the pattern so far can match.
-    let mut ends = vec![false; text.len() + 1];
-    ends[0] = true;
-    for wanted in pattern {
-        if wanted == '*' {
-            let first = ends.iter().position(|end| *end).unwrap_or(ends.len());
-            ends.iter_mut().skip(first).for_each(|end| *end = true);
-        } else {
-            for end in (1..ends.len()).rev() {
-                ends[end] = ends[end - 1] && (wanted == '?' || wanted == text[end - 1]);
-            }
-            ends[0] = false;
-        }
-    }
-    ends.last() == Some(&true)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::matches;
-
-    #[test]
-    fn patterns_match_as_in_a_shell() {
-        for (pattern, text) in [
-            ("F2*", "F2 with I"),
-            ("*I", "F2 with I"),
-            ("F?", "F2"),
-            ("*", ""),
-            ("a*b*c", "aXbYbc"),
-        ] {
-            assert!(matches(pattern, text), "{pattern} {text}");
-        }
-        for (pattern, text) in
-            [("F2*", "aF2"), ("F?", "F"), ("?", ""), ("a*b", "abc"), ("", "a"), ("F?", "F22")]
-        {
-            assert!(!matches(pattern, text), "{pattern} {text}");
-        }
-    }
 }
