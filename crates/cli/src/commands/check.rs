@@ -26,16 +26,20 @@ fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError
 pub fn run(options: &Check) -> Result<Answer, String> {
     let (claims, sources) = (&options.claims, &options.sources);
     let is_everything = claims.is_empty() && sources.is_empty();
-    let is_meant = |name: &str, source: &str, column: Option<&Column>, cell: Option<&str>| {
-        is_everything
-            || claims.iter().any(|wanted| is_meant(name, source, wanted))
-            || labels(source, column, cell)
-                .iter()
-                .any(|label| sources.iter().any(|wanted| is_labelled(label, wanted)))
+    let is_named = |name: &str, source: &str| {
+        claims.is_empty() || claims.iter().any(|wanted| is_meant(name, source, wanted))
+    };
+    // A label of the case is one of all its claims.
+    let is_from = |own: &str, case: &str, cell: Option<&str>, column: Option<&Column>| {
+        let labels = [labels(own, column, cell), labels(case, None, None)].concat();
+        let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
+        sources.is_empty() || sources.iter().any(is_wanted)
     };
     // Other claims may matter to those that are meant, but motions take minutes and do not.
     let prepare = |case: &mut Case| {
-        case.motions.retain(|own| is_meant(&own.name, &own.source, None, None));
+        case.motions.retain(|own| {
+            is_named(&own.name, &own.source) && is_from(&own.source, &case.source, None, None)
+        });
     };
     let mut run = files::judge(
         &options.paths,
@@ -46,8 +50,10 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         options.sampling.threads,
     )?;
     if !is_everything {
-        run.retain(|column, claim| {
-            is_meant(&claim.name, &claim.source, column, claim.cell.as_deref())
+        run.retain(|heading, claim| {
+            let (cell, column) = (claim.cell.as_deref(), heading.column.as_ref());
+            is_named(&claim.name, &claim.source)
+                && is_from(&claim.source, &heading.source, cell, column)
         });
         if run.claims().next().is_none() && run.summary().errors == 0 {
             let wanted = [claims.as_slice(), sources.as_slice()].concat().join("` or `");

@@ -150,12 +150,12 @@ impl RunReport {
     }
 
     /// Keeps some claims; cases without any are left out.
-    pub fn retain(&mut self, keep: impl Fn(Option<&Column>, &ClaimReport) -> bool) {
+    pub fn retain(&mut self, keep: impl Fn(&Heading, &ClaimReport) -> bool) {
         self.outcomes.retain_mut(|outcome| match &mut outcome.result {
             Err(_) => true,
             Ok(report) => {
-                let column = outcome.heading.column.as_ref();
-                report.claims.retain(|claim| keep(column, claim));
+                let heading = &outcome.heading;
+                report.claims.retain(|claim| keep(heading, claim));
                 !report.claims.is_empty()
             }
         });
