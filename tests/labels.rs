@@ -116,7 +116,8 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
 
 /// Whether a label is a number, theorem, cell, figure or erratum of a paper, and not a section.
 fn is_statement(label: &str) -> bool {
-    let named = ["Theorem ", "Proposition ", "Lemma ", "Conjecture ", "Table ", "fig. ", "erratum "];
+    let named =
+        ["Theorem ", "Proposition ", "Lemma ", "Conjecture ", "Table ", "fig. ", "erratum "];
     let is_number = label.strip_prefix('(').is_some_and(|rest| {
         rest.starts_with(|c: char| c.is_ascii_digit()) || rest.starts_with("A.")
     });
@@ -188,9 +189,8 @@ fn every_erratum_is_explained_and_decided() {
                 page.contains(&format!("| {label} |")) || page.contains(&format!("| {label} † |")),
                 "docs/errata.md does not explain {label}"
             );
-            let expected = |expect| {
-                all.iter().any(|own| own.labels.contains(label) && own.expect == expect)
-            };
+            let expected =
+                |expect| all.iter().any(|own| own.labels.contains(label) && own.expect == expect);
             assert!(expected(Expect::Holds), "{label} has no corrected form");
             assert!(expected(Expect::Fails), "{label} has no printed form");
         }
