@@ -35,11 +35,22 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
         sources.is_empty() || sources.iter().any(is_wanted)
     };
-    // Other claims may matter to those that are meant, but motions take minutes and do not.
+    // Other claims of a case may matter to those that are meant, but motions take minutes and do not.
     let prepare = |case: &mut Case| {
-        case.motions.retain(|own| {
-            is_named(&own.name, &own.source) && is_from(&own.source, &case.source, None, None)
-        });
+        let (whole, column) = (case.source.clone(), case.column.clone());
+        let is_own = |name: &str, source: &str, cell: Option<&str>| {
+            is_named(name, source) && is_from(source, &whole, cell, column.as_ref())
+        };
+        case.motions.retain(|own| is_own(&own.name, &own.source, None));
+        let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let mut absences = case.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let is_meant = |(name, source, cell): (&String, &String, &Option<String>)| {
+            is_own(name, source, cell.as_deref())
+        };
+        if !claims.any(is_meant) && !absences.any(is_meant) {
+            case.claims.clear();
+            case.absences.clear();
+        }
     };
     let mut run = files::judge(
         &options.paths,
