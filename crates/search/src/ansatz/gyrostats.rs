@@ -113,7 +113,7 @@ impl Rotors<'_> {
         let highest = self.effort.ansatz.positions;
         let then = match (dimension, told) {
             (0, _) => String::new(),
-            (n, told) if n == told => ": those told here".to_string(),
+            (n, told) if n == told => ": those listed here".to_string(),
             (_, told) => format!("; the terms of second order leave {told} of them"),
         };
         report.excluded.push(Excluded {
@@ -194,7 +194,7 @@ impl Rotors<'_> {
             dimension += 1;
             let Some(coefficients) = Coefficients::of(system, &support) else {
                 report.remark(format!(
-                    "a rotor with {} terms has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                    "a rotor with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
                     support.len()
                 ));
                 continue;

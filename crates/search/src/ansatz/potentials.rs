@@ -129,7 +129,7 @@ impl Family<'_> {
             }
             let Some(coefficients) = Coefficients::of(&system, &support) else {
                 report.remark(format!(
-                    "a potential with {} terms has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                    "a potential with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
                     support.len()
                 ));
                 continue;
@@ -160,7 +160,7 @@ impl Family<'_> {
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent potentials of this form, \
                  constants aside, allow an integral {} + G(γ) with G = Σ p/d, p of degree at most {GAIN}{}.",
                 self.integral,
-                if told == dimension && told > 0 { ": those told here" } else { "" }
+                if told == dimension && told > 0 { ": those listed here" } else { "" }
             ),
         });
         Ok(())
