@@ -40,6 +40,7 @@ pub enum Command {
 Examples:
   liouville check body.toml -v
   liouville check cases/plane --claim F2
+  liouville check --source '(3.19)' --source 'Table 1, row 4'
   liouville check - < body.toml")]
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
@@ -129,6 +130,10 @@ pub struct Check {
     /// `?`
     #[arg(long = "claim", value_name = "TEXT")]
     pub claims: Vec<String>,
+    /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a
+    /// table, or a pattern with `*` or `?`
+    #[arg(long = "source", value_name = "LABEL")]
+    pub sources: Vec<String>,
     /// Output format
     #[arg(long, value_enum, default_value_t = CheckFormat::Text, conflicts_with = "json")]
     pub format: CheckFormat,
