@@ -7,6 +7,9 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::{Draw, Range};
+use super::streams::{NUMBERS, Streams, WIDTH};
+use crate::graph::{Work, with_widest_vectors};
+use crate::number::ball::{Balls, about};
 use crate::number::rational::Rational;
 
 /// Number of states with short decimals.
@@ -85,6 +88,13 @@ impl Draws {
         self.picked(seed, index, attempt, Source::nearest)
     }
 
+    /// Encloses the numbers of the states from `start` on, one block of lanes for each number:
+    /// those of [`Draws::nearest`].
+    pub fn fill<const N: usize>(&self, seed: u64, start: u64, columns: &mut [Balls<N>]) {
+        let streams = Streams::new(seed);
+        with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
+    }
+
     fn picked<T>(
         &self,
         seed: u64,
@@ -103,7 +113,59 @@ impl Draws {
     }
 }
 
+/// The numbers of a block of states.
+struct Fill<'f, const N: usize> {
+    sources: &'f [Source],
+    streams: Streams,
+    start: u64,
+    columns: &'f mut [Balls<N>],
+}
+
+impl<const N: usize> Work for Fill<'_, N> {
+    #[inline(always)]
+    fn run(self) {
+        for first in (0..N).step_by(WIDTH) {
+            let index = self.start + first as u64;
+            for (block, sources) in self.sources.chunks(NUMBERS).enumerate() {
+                let numbers = self.streams.numbers(index, block as u64);
+                let columns = self.columns[block * NUMBERS..].iter_mut();
+                for ((source, bits), column) in sources.iter().zip(&numbers).zip(columns) {
+                    let lanes = first..N.min(first + WIDTH);
+                    source.enclose(
+                        index,
+                        bits,
+                        &mut column.mid[lanes.clone()],
+                        &mut column.rad[lanes],
+                    );
+                }
+            }
+        }
+    }
+}
+
 impl Source {
+    /// Encloses the numbers of the states from `index` on, made of these bits.
+    #[inline(always)]
+    fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
+        if let (Source::Range { ends: [low, high], .. }, true) = (self, index >= SHORT) {
+            let mut values = [0.0; WIDTH];
+            let mut inside = true;
+            for (value, bits) in values.iter_mut().zip(bits) {
+                *value = at_share([*low, *high], *bits);
+                inside &= (*low < *value) & (*value < *high) & (*value != 0.0);
+            }
+            if inside {
+                mid.copy_from_slice(&values[..mid.len()]);
+                rad.fill(0.0);
+                return;
+            }
+        }
+        for (lane, (mid, rad)) in mid.iter_mut().zip(rad).enumerate() {
+            let is_short = index + (lane as u64) < SHORT;
+            (*mid, *rad) = about(self.nearest(bits[lane], is_short));
+        }
+    }
+
     fn new(draw: &Draw) -> Self {
         match draw {
             Draw::OneOf(values) => Source::List(values.clone()),
@@ -190,10 +252,18 @@ fn sign(bits: u64) -> i64 {
 
 /// Draws a number strictly between two ends and not 0, if f64 has one.
 fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
-    // 53 bits, and a half so that neither end is attained.
-    let share = ((bits >> 11) as f64 + 0.5) * (-53f64).exp2();
-    let value = low + (high - low) * share;
+    let value = at_share([low, high], bits);
     (low < value && value < high && value != 0.0).then_some(value)
+}
+
+/// Computes the number at a random share of the way between two ends.
+#[inline(always)]
+fn at_share([low, high]: [f64; 2], bits: u64) -> f64 {
+    /// The factor 2⁻⁵³.
+    const UNIT: f64 = f64::EPSILON / 2.0;
+    // 53 bits, and a half so that neither end is attained.
+    let share = ((bits >> 11) as f64 + 0.5) * UNIT;
+    low + (high - low) * share
 }
 
 impl Grid {
@@ -289,6 +359,17 @@ mod tests {
         for index in 0..2000 {
             let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
             assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
+        }
+        for start in [0, 40, 64, 1 << 33] {
+            let mut columns = vec![Balls::<64>::about(|_| (f64::NAN, true)); draws.len()];
+            draws.fill(5, start, &mut columns);
+            for lane in 0..64 {
+                let expected = draws.nearest(5, start + lane as u64, 0);
+                for (column, expected) in columns.iter().zip(expected) {
+                    let found = (column.mid[lane], column.rad[lane]);
+                    assert_eq!(found, about(expected), "state {start} + {lane}");
+                }
+            }
         }
     }
 

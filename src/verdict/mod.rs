@@ -21,6 +21,7 @@ mod ladder;
 mod mutants;
 mod newton;
 mod novelty;
+mod pass;
 mod physics;
 mod point;
 mod recorded;
@@ -36,7 +37,7 @@ mod witness;
 pub use evidence::{
     ClaimReport, Evidence, Independence, Measurement, Method, Proof, Rung, Sign, Verdict, Witness,
 };
-pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
+pub use judge::{CaseReport, JudgeError, Options, RecordedSize, Trust, judge, recorded_size};
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};

@@ -7,6 +7,7 @@
 //! [`record`] runs a closure over [`Expr`] inputs and keeps every operation as a node. Equal nodes
 //! are one node, and exact simplifications are made on the way (see `simplify`).
 
+mod derive;
 mod dispatch;
 mod dual_num;
 mod evaluate;
@@ -97,6 +98,7 @@ pub struct Graph {
     inputs: u32,
     antiderivatives: FxHashMap<(NodeId, NodeId), u32>,
     fault: Option<Fault>,
+    sweeps: derive::Sweeps,
 }
 
 impl Graph {
@@ -113,6 +115,7 @@ impl Graph {
             inputs: 0,
             antiderivatives: FxHashMap::default(),
             fault: None,
+            sweeps: derive::Sweeps::default(),
         };
         for value in [0, 1] {
             graph.constant(Rational::from(value));
