@@ -49,14 +49,16 @@ impl Streams {
             start[15][lane] = (stream >> 32) as u32;
         }
         let mut words = start;
+        // Written out, so that the words stay in registers.
         for _ in 0..4 {
-            for column in 0..4 {
-                quarter(&mut words, column, column + 4, column + 8, column + 12);
-            }
-            for column in 0..4 {
-                let [b, c, d] = [1, 2, 3].map(|shift| (column + shift) % 4);
-                quarter(&mut words, column, b + 4, c + 8, d + 12);
-            }
+            quarter::<0, 4, 8, 12>(&mut words);
+            quarter::<1, 5, 9, 13>(&mut words);
+            quarter::<2, 6, 10, 14>(&mut words);
+            quarter::<3, 7, 11, 15>(&mut words);
+            quarter::<0, 5, 10, 15>(&mut words);
+            quarter::<1, 6, 11, 12>(&mut words);
+            quarter::<2, 7, 8, 13>(&mut words);
+            quarter::<3, 4, 9, 14>(&mut words);
         }
         let mut numbers = [[0; WIDTH]; NUMBERS];
         for (k, number) in numbers.iter_mut().enumerate() {
@@ -71,12 +73,25 @@ impl Streams {
 
 /// Mixes four words of each state (Bernstein, ChaCha, 2008).
 #[inline(always)]
-fn quarter(words: &mut Words, a: usize, b: usize, c: usize, d: usize) {
-    for (x, y, z, turn) in [(a, b, d, 16), (c, d, b, 12), (a, b, d, 8), (c, d, b, 7)] {
-        for lane in 0..WIDTH {
-            words[x][lane] = words[x][lane].wrapping_add(words[y][lane]);
-            words[z][lane] = (words[z][lane] ^ words[x][lane]).rotate_left(turn);
-        }
+fn quarter<const A: usize, const B: usize, const C: usize, const D: usize>(words: &mut Words) {
+    let [mut a, mut b, mut c, mut d] = [words[A], words[B], words[C], words[D]];
+    half::<16, 12>(&mut a, &mut b, &mut c, &mut d);
+    half::<8, 7>(&mut a, &mut b, &mut c, &mut d);
+    [words[A], words[B], words[C], words[D]] = [a, b, c, d];
+}
+
+#[inline(always)]
+fn half<const FIRST: u32, const SECOND: u32>(
+    a: &mut [u32; WIDTH],
+    b: &mut [u32; WIDTH],
+    c: &mut [u32; WIDTH],
+    d: &mut [u32; WIDTH],
+) {
+    for lane in 0..WIDTH {
+        a[lane] = a[lane].wrapping_add(b[lane]);
+        d[lane] = (d[lane] ^ a[lane]).rotate_left(FIRST);
+        c[lane] = c[lane].wrapping_add(d[lane]);
+        b[lane] = (b[lane] ^ c[lane]).rotate_left(SECOND);
     }
 }
 

@@ -75,19 +75,23 @@ impl Work for Pass<'_, '_> {
             let mut traces = common;
             trace_all(&mut traces, evaluator, span.requirement.clone());
             trace_all(&mut traces, evaluator, span.residual.clone());
-            found.states = traces.iter().filter(|trace| !trace.is_nan()).count();
-            let (mut largest, mut scaled) = ([0.0; LANES], [0.0; LANES]);
+            found.states = traces.iter().map(|trace| usize::from(!trace.is_nan())).sum();
+            let mut largest = [0.0; LANES];
+            let (mut scaled, mut outside) = (largest, largest);
             for index in span.residual.clone() {
-                let block = evaluator.output(index);
+                let Balls { mid, rad } = evaluator.output(index);
                 for lane in 0..LANES {
                     // NaN where the state does not count, which no maximum takes.
-                    let mid = block.mid[lane].abs() + traces[lane];
-                    let ratio = if mid == 0.0 { 0.0 } else { mid / block.rad[lane] };
+                    let mid = mid[lane].abs() + traces[lane];
+                    let ratio = mid / rad[lane];
+                    let ratio = if mid == 0.0 { 0.0 } else { ratio };
+                    let beyond = mid - rad[lane];
                     largest[lane] = if mid > largest[lane] { mid } else { largest[lane] };
                     scaled[lane] = if ratio > scaled[lane] { ratio } else { scaled[lane] };
-                    found.excludes_zero |= mid > block.rad[lane];
+                    outside[lane] = if beyond > outside[lane] { beyond } else { outside[lane] };
                 }
             }
+            found.excludes_zero = outside.iter().any(|beyond| *beyond > 0.0);
             found.largest = largest.into_iter().fold(0.0, f64::max);
             found.scaled = scaled.into_iter().fold(0.0, f64::max);
         }

@@ -7,39 +7,74 @@ pub struct Echelon {
     modulus: Modulus,
     /// Row by pivot column, with 1 at its pivot and 0 before it.
     rows: Vec<Option<Vec<u64>>>,
+    /// Columns behind the pivot in which the row is not 0, by pivot column; rows stay sparse for
+    /// long.
+    others: Vec<Box<[u32]>>,
+    /// Number of entries looked at so far.
+    steps: u64,
+    /// Number of rows kept.
+    rank: usize,
 }
 
 impl Echelon {
     /// Makes an echelon form without rows.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
-        Self { modulus, rows: vec![None; columns] }
+        Self {
+            modulus,
+            rows: vec![None; columns],
+            others: vec![Box::default(); columns],
+            steps: 0,
+            rank: 0,
+        }
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
     pub fn push(&mut self, mut row: Vec<u64>) -> bool {
         let m = self.modulus;
+        self.steps += row.len() as u64;
         for column in 0..row.len() {
             if row[column] == 0 {
                 continue;
             }
+            let others = &self.others[column];
+            self.steps += others.len() as u64 + 1;
             match &self.rows[column] {
                 Some(pivot) => {
                     let factor = m.sub(0, row[column]);
-                    for (entry, pivot) in row[column..].iter_mut().zip(&pivot[column..]) {
-                        if *pivot != 0 {
-                            *entry = m.add(*entry, m.mul(factor, *pivot));
-                        }
+                    row[column] = 0;
+                    for other in others {
+                        let other = *other as usize;
+                        row[other] = m.add(row[other], m.mul(factor, pivot[other]));
                     }
                 }
                 None => {
                     let inverse = m.inverse(row[column]);
-                    row[column..].iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
+                    let mut others = Vec::new();
+                    for (other, entry) in row.iter_mut().enumerate().skip(column) {
+                        if *entry != 0 {
+                            *entry = m.mul(*entry, inverse);
+                            others.push(other as u32);
+                        }
+                    }
+                    self.others[column] = others.split_off(1).into();
                     self.rows[column] = Some(row);
+                    self.rank += 1;
                     return true;
                 }
             }
         }
         false
+    }
+
+    /// Number of entries that were looked at while rows were added: the work of the elimination,
+    /// the same on every machine.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Number of bytes that the rows take.
+    pub fn bytes(&self) -> u64 {
+        (self.rank * self.rows.len() * (size_of::<u64>() + size_of::<u32>())) as u64
     }
 
     /// Iterates over the independent rows, reduced by those before them.

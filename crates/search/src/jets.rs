@@ -11,11 +11,12 @@
 use crate::streams::Stream;
 use rustc_hash::FxHashMap;
 
+use super::budget::Budget;
 use super::echelon::Echelon;
 use super::expansion::{Expansion, Taylor};
 use super::local::Local;
 use super::series::exponents;
-use super::{Effort, Halt, SearchError};
+use super::{Effort, SearchError};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 
@@ -83,7 +84,7 @@ fn count_to_order(
         let positions = taylor.positions(&mut chance);
         if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
             let system = Equations::of(&expansion, &taylor, asked, weight);
-            let dimension = system.dimension(&system.solved(&effort.halt)?.0);
+            let dimension = system.dimension(&system.solved(&Budget::of(effort))?.0);
             let size = (system.columns.len(), system.rows.len());
             return Ok(Count { dimension, size });
         }
@@ -115,11 +116,11 @@ impl Equations {
     }
 
     /// Brings all equations into echelon form; returns it with the keys of the independent rows.
-    pub fn solved(&self, halt: &Halt) -> Result<(Echelon, Vec<RowKey>), SearchError> {
+    pub fn solved(&self, budget: &Budget<'_>) -> Result<(Echelon, Vec<RowKey>), SearchError> {
         let mut echelon = Echelon::new(self.columns.len(), self.modulus);
         let mut keys = Vec::new();
         for (key, row) in self.rows() {
-            halt.check()?;
+            budget.check(&echelon)?;
             if echelon.push(row) {
                 keys.push(key.clone());
             }

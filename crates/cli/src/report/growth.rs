@@ -40,6 +40,9 @@ pub fn text(families: &[Growth]) -> String {
                 seconds(point.judge),
             );
         }
+        if let Some(problem) = &growth.problem {
+            _ = writeln!(out, "{problem}");
+        }
         let exponents = growth.exponents;
         let of = |exponent: Option<f64>| exponent.map_or("–".to_string(), |e| format!("{e:.2}"));
         _ = writeln!(

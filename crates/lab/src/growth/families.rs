@@ -119,10 +119,10 @@ density = "1/product(i, 1..n−1, a[i])"
 n = {n}
 g = "1..2"
 [state]
-q = "vector(n, -9..9)"
+q = "vector(n, 0..1)"
 p = "vector(n, -1..1)"
 [hamiltonian]
-function = "sum(i, 1..n, p[i]²)/2 + g²*sum(i, 1..n−1, sum(j, i+1..n, 1/(q[i] − q[j])²))"
+function = "sum(i, 1..n, p[i]²)/2 + g²*sum(i, 1..n−1, sum(j, i+1..n, 1/(q[i] − q[j] + 2*(i − j))²))"
 pairs = [["q", "p"]]
 [[claim]]
 integral = "energy"
@@ -137,7 +137,7 @@ density = "1"
         name: "lotka-volterra",
         size: "species",
         first: 10,
-        last: 1000,
+        last: 100,
         counts_states: false,
         text: r#"title = "Dense system of Lotka and Volterra"
 [parameters]
@@ -213,7 +213,7 @@ y = "-1..1"
 "x'" = "k*y"
 "y'" = "−k*x"
 [[claim]]
-integral = "sum(i, 1..n, (x² + y² + i)²/i)"
+integral = "sum(i, 1..n, (x² + y² + i)²)"
 "#,
         repeated: "",
     },

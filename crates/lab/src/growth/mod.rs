@@ -26,6 +26,8 @@ pub struct Growth {
     pub points: Vec<Point>,
     /// Exponents fitted to them.
     pub exponents: Exponents,
+    /// Reason why the next size was not measured, unless it was the limit of time.
+    pub problem: Option<String>,
 }
 
 /// Measurements at one size.
@@ -79,14 +81,21 @@ pub enum GrowthError {
 }
 
 /// Measures a family at sizes that double, until the next is expected to end after `within`.
-pub fn measure(family: &Family, within: Duration) -> Result<Growth, GrowthError> {
+pub fn measure(family: &Family, within: Duration) -> Growth {
     let started = Instant::now();
     let mut points: Vec<Point> = Vec::new();
     let mut size = family.first;
     let mut last = Duration::ZERO;
+    let mut problem = None;
     while size <= family.last {
         let begun = Instant::now();
-        points.push(at_size(family, size)?);
+        match at_size(family, size) {
+            Ok(point) => points.push(point),
+            Err(error) => {
+                problem = Some(format!("size {size}: {error}"));
+                break;
+            }
+        }
         let (before, taken) = (last, begun.elapsed());
         last = taken;
         // A doubling costs at least what it did the last time, and not less than twice as much.
@@ -99,12 +108,13 @@ pub fn measure(family: &Family, within: Duration) -> Result<Growth, GrowthError>
         }
         size *= 2;
     }
-    Ok(Growth {
+    Growth {
         family: family.name,
         counts: family.size,
         exponents: exponents(&points, family.counts_states),
         points,
-    })
+        problem,
+    }
 }
 
 /// Measures one member of a family.

@@ -56,19 +56,14 @@ pub fn run(options: &Growth) -> Result<Answer, String> {
         options.families.is_empty() || options.families.iter().any(|name| name == family.name)
     };
     let within = Duration::from_secs_f64(options.within);
-    let mut measured: Vec<Measured> = Vec::new();
-    for family in FAMILIES.iter().filter(is_meant) {
-        let growth = pool
-            .install(|| measure(family, within))
-            .map_err(|error| format!("error: {}: {error}", family.name))?;
-        measured.push(growth);
-    }
+    let meant = FAMILIES.iter().filter(is_meant);
+    let measured: Vec<Measured> =
+        meant.map(|family| pool.install(|| measure(family, within))).collect();
     let text = match options.format {
         Format::Text => growth::text(&measured),
         Format::Json => growth::json(&measured).map_err(|error| format!("error: {error}"))? + "\n",
         Format::Csv => growth::csv(&measured),
     };
-    let lost = measured.iter().flat_map(|growth| &growth.points);
-    let lost = lost.filter(|point| point.holding < point.claims).count();
-    Ok(Answer { text, code: u8::from(lost > 0) })
+    let has_problem = measured.iter().any(|growth| growth.problem.is_some());
+    Ok(Answer { text, code: u8::from(has_problem) })
 }

@@ -113,9 +113,24 @@ impl Modulus {
         result
     }
 
-    /// Computes 1/x for x ≠ 0.
+    /// Computes 1/x for x ≠ 0, by Euclid's algorithm, which takes some forty steps; 0 for 0.
     pub fn inverse(&self, x: u64) -> u64 {
-        self.power(x, self.prime - 2)
+        let (mut above, mut below) = (self.prime, x % self.prime);
+        // The signs of the factors of x alternate, so that magnitudes are enough.
+        let (mut before, mut factor) = (0u64, 1u64);
+        let mut is_negative = false;
+        while below > 1 {
+            let quotient = above / below;
+            (above, below) = (below, above - quotient * below);
+            (before, factor) = (factor, before + quotient * factor);
+            is_negative = !is_negative;
+        }
+        if below == 0 {
+            return 0;
+        }
+        let inverse = if is_negative { self.prime - factor } else { factor };
+        // Of x 2^64 this is the inverse; twice 2^64 brings it to the form of residues.
+        self.mul(self.mul(inverse, self.square), self.square)
     }
 
     /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined
