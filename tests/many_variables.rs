@@ -54,7 +54,7 @@ q = "vector(n, -1..1)"
 "q'" = "vector(n, -1..1)"
 [lagrangian]
 kinetic = "sum(i, 1..n, (1 + q[i]²)*q'[i]²)/2"
-potential = "sum(i, 1..n−1, (q[i+1] − q[i])⁴)/4"
+potential = "sum(i, 1..n−1, (q[i+1] − q[i])^4)/4"
 constraints = ["q'[1] − q[2]*q'[3] = 0", "q'[4]*cos(q[5]) − q'[6] = 0"]
 [[claim]]
 integral = "energy"

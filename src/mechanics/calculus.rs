@@ -308,10 +308,17 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
         let (above, below) = a.split_at_mut(k + 1);
         let (pivot_row, pivot_value) = (&above[k], b[k]);
         let present: Vec<usize> = (k..b.len()).filter(|j| !pivot_row[*j].is_absent()).collect();
+        // A value that is defined nowhere makes all that it touches undefined, zeros too.
+        let vanishes = |x: T| (x * T::zero()).is_absent();
+        let is_plain = vanishes(pivot_row[k].recip())
+            && vanishes(pivot_value)
+            && present.iter().all(|j| vanishes(pivot_row[*j]));
         for (row, value) in below.iter_mut().zip(&mut b[k + 1..]) {
+            if is_plain && row[k].is_absent() {
+                continue;
+            }
             let factor = row[k] / pivot_row[k];
-            // A factor without value makes all that it touches undefined, zeros too.
-            match (factor * T::zero()).is_absent() {
+            match vanishes(factor) {
                 true => present.iter().for_each(|j| row[*j] -= factor * pivot_row[*j]),
                 false => {
                     for (entry, pivot) in row.iter_mut().zip(pivot_row).skip(k) {
@@ -322,9 +329,17 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
             *value -= factor * pivot_value;
         }
     }
+    let mut are_plain = true;
     for k in (0..b.len()).rev() {
-        let known = dot(&a[k][k + 1..], &b[k + 1..]);
+        let known: T = match are_plain {
+            true => {
+                let terms = a[k][k + 1..].iter().zip(&b[k + 1..]);
+                terms.filter(|(entry, _)| !entry.is_absent()).map(|(a, b)| *a * *b).sum()
+            }
+            false => dot(&a[k][k + 1..], &b[k + 1..]),
+        };
         b[k] = (b[k] - known) / a[k][k];
+        are_plain = are_plain && (b[k] * T::zero()).is_absent();
     }
     b
 }

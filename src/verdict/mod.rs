@@ -15,6 +15,7 @@ mod examine;
 mod existence;
 mod field;
 mod finding;
+mod further;
 mod ground;
 mod judge;
 mod ladder;

@@ -10,6 +10,9 @@ use super::{Effort, Halt, SearchError};
 /// Lower bound on the elementary steps of an elimination per second.
 pub const STEPS: f64 = 1e9;
 
+/// Bytes that an entry of an equation takes: a column, a value, and room to grow.
+const ENTRY: f64 = 24.0;
+
 /// A limit on the steps and the memory of eliminations.
 pub struct Budget<'e> {
     halt: &'e Halt,
@@ -29,15 +32,34 @@ impl<'e> Budget<'e> {
         Self { halt, steps: f64::INFINITY, bytes: f64::INFINITY }
     }
 
+    /// Fails where so many entries of equations are too many to make or to keep.
+    pub fn admits(&self, unknowns: usize, entries: f64) -> Result<(), SearchError> {
+        if entries > self.steps {
+            return Err(self.long(unknowns));
+        }
+        if entries * ENTRY > self.bytes {
+            return Err(self.large(unknowns));
+        }
+        Ok(())
+    }
+
+    fn long(&self, unknowns: usize) -> SearchError {
+        SearchError::Long { unknowns, seconds: self.steps / STEPS }
+    }
+
+    fn large(&self, unknowns: usize) -> SearchError {
+        SearchError::Large { unknowns, megabytes: (self.bytes / 1e6) as u64 }
+    }
+
     /// Fails once the search is to stop, or the elimination has done or kept more than the limit.
     pub fn check(&self, echelon: &Echelon) -> Result<(), SearchError> {
         self.halt.check()?;
         let unknowns = echelon.columns();
         if echelon.steps() as f64 > self.steps {
-            return Err(SearchError::Long { unknowns, seconds: self.steps / STEPS });
+            return Err(self.long(unknowns));
         }
         if echelon.bytes() as f64 > self.bytes {
-            return Err(SearchError::Large { unknowns, megabytes: (self.bytes / 1e6) as u64 });
+            return Err(self.large(unknowns));
         }
         Ok(())
     }
@@ -67,6 +89,13 @@ mod tests {
         assert!(matches!(found, Err(SearchError::Long { unknowns: 100, .. })), "{found:?}");
         let found = Budget::of(&budget(1.0, 0)).check(&echelon);
         assert!(matches!(found, Err(SearchError::Large { unknowns: 100, .. })), "{found:?}");
+        let limit = Budget::of(&effort);
+        assert!(limit.admits(10, 1e6).is_ok(), "a million entries are made in no time");
+        assert!(matches!(limit.admits(10, 1e8), Err(SearchError::Large { .. })), "2.4 GB");
+        assert!(
+            matches!(limit.admits(10, 1e12), Err(SearchError::Long { .. })),
+            "a thousand seconds"
+        );
         assert!(Budget::unlimited(&effort.halt).check(&echelon).is_ok(), "no limit");
     }
 }

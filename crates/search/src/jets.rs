@@ -83,13 +83,37 @@ fn count_to_order(
         let parameters = local.parameters(&modulus, &mut chance);
         let positions = taylor.positions(&mut chance);
         if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
+            let budget = Budget::of(effort);
+            let (unknowns, entries) = extent(&expansion, &taylor, asked);
+            budget.admits(unknowns, entries)?;
             let system = Equations::of(&expansion, &taylor, asked, weight);
-            let dimension = system.dimension(&system.solved(&Budget::of(effort))?.0);
+            let dimension = system.dimension(&system.solved(&budget)?.0);
             let size = (system.columns.len(), system.rows.len());
             return Ok(Count { dimension, size });
         }
     }
     Err(SearchError::NoSeries)
+}
+
+/// Number of unknowns of the equations, and a bound on the number of their entries, by the degrees
+/// of the terms that are not 0.
+fn extent(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked) -> (usize, f64) {
+    let order = taylor.order as usize;
+    let monomials = taylor.series.monomials();
+    let degrees: Vec<usize> = monomials.iter().map(|m| m.iter().sum::<u32>() as usize).collect();
+    // Terms of the rates by degree: one may lower the degree of what it is multiplied by.
+    let mut terms = vec![0.0; order + 1];
+    let rates = expansion.positions.iter().chain(&expansion.velocities).flatten();
+    for (_, coefficients) in rates {
+        let present = degrees.iter().zip(coefficients).filter(|(_, value)| **value != 0);
+        present.for_each(|(degree, _)| terms[(*degree).min(order)] += 1.0);
+    }
+    let met = |degree: usize| terms.iter().take((order + 1).saturating_sub(degree)).sum::<f64>();
+    let velocities = taylor.local.coordinates.velocities;
+    let lowest = if asked.mixed { 0 } else { asked.degree };
+    let powers: usize = (lowest..=asked.degree).map(|n| exponents(velocities, n).len()).sum();
+    let entries: f64 = degrees.iter().map(|degree| met(*degree)).sum();
+    (powers * monomials.len(), powers as f64 * entries)
 }
 
 /// Linear equations for the Taylor coefficients of the C_a.

@@ -31,7 +31,7 @@ pub struct Growth {
 }
 
 /// Measurements at one size.
-#[derive(Clone, Copy, Debug, serde::Serialize)]
+#[derive(Clone, Copy, Debug, serde::Deserialize, serde::Serialize)]
 pub struct Point {
     /// Size n.
     pub size: u64,
@@ -80,8 +80,16 @@ pub enum GrowthError {
     Judge(#[from] JudgeError),
 }
 
-/// Measures a family at sizes that double, until the next is expected to end after `within`.
-pub fn measure(family: &Family, within: Duration) -> Growth {
+/// Measures a family at sizes that double, until the next is expected to end after `within`;
+/// `at_size` measures one size, or gives the reason why it cannot.
+///
+/// Memory that was freed stays with a process, so that the peak of each size is known only where
+/// each has a process to itself.
+pub fn measure(
+    family: &Family,
+    within: Duration,
+    at_size: impl Fn(&Family, u64) -> Result<Point, String>,
+) -> Growth {
     let started = Instant::now();
     let mut points: Vec<Point> = Vec::new();
     let mut size = family.first;
@@ -115,6 +123,13 @@ pub fn measure(family: &Family, within: Duration) -> Growth {
         points,
         problem,
     }
+}
+
+/// Measures one size of a family alone.
+pub fn measure_one(family: &Family, size: u64) -> Growth {
+    let only = Family { first: size, last: size, ..*family };
+    let own = |family: &Family, size| at_size(family, size).map_err(|error| error.to_string());
+    measure(&only, Duration::ZERO, own)
 }
 
 /// Measures one member of a family.
