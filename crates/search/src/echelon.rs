@@ -29,34 +29,51 @@ impl Echelon {
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
+    ///
+    /// Entries are sums of products that are reduced when they are needed, or when a further product
+    /// might not fit: that takes one multiplication a product instead of three.
     pub fn push(&mut self, mut row: Vec<u64>) -> bool {
         let m = self.modulus;
+        let mut wide: Vec<u128> = row.iter().map(|entry| m.widened(*entry)).collect();
+        let (mut pending, most) = (0, m.most_products());
         self.steps += row.len() as u64;
         for column in 0..row.len() {
-            if row[column] == 0 {
+            if wide[column] == 0 {
+                continue;
+            }
+            let entry = m.reduced(wide[column]);
+            if entry == 0 {
                 continue;
             }
             let others = &self.others[column];
             self.steps += others.len() as u64 + 1;
             match &self.rows[column] {
                 Some(pivot) => {
-                    let factor = m.sub(0, row[column]);
-                    row[column] = 0;
+                    if pending == most {
+                        let behind = wide[column..].iter_mut().filter(|entry| **entry != 0);
+                        behind.for_each(|entry| *entry = m.widened(m.reduced(*entry)));
+                        pending = 0;
+                    }
+                    pending += 1;
+                    let factor = u128::from(m.sub(0, entry));
                     for other in others {
                         let other = *other as usize;
-                        row[other] = m.add(row[other], m.mul(factor, pivot[other]));
+                        let product = factor.wrapping_mul(u128::from(pivot[other]));
+                        wide[other] = wide[other].wrapping_add(product);
                     }
                 }
                 None => {
-                    let inverse = m.inverse(row[column]);
+                    let inverse = m.inverse(entry);
                     let mut others = Vec::new();
-                    for (other, entry) in row.iter_mut().enumerate().skip(column) {
-                        if *entry != 0 {
-                            *entry = m.mul(*entry, inverse);
+                    row[..column].fill(0);
+                    for (other, (entry, wide)) in row.iter_mut().zip(&wide).enumerate().skip(column)
+                    {
+                        *entry = m.mul(m.reduced(*wide), inverse);
+                        if *entry != 0 && other > column {
                             others.push(other as u32);
                         }
                     }
-                    self.others[column] = others.split_off(1).into();
+                    self.others[column] = others.into();
                     self.rows[column] = Some(row);
                     self.rank += 1;
                     return true;

@@ -95,7 +95,7 @@ fn count_to_order(
     Err(SearchError::NoSeries)
 }
 
-/// Number of unknowns of the equations, and a bound on the number of their entries, by the degrees
+/// Number of unknowns of the equations, and an estimate of the number of their entries, by the degrees
 /// of the terms that are not 0.
 fn extent(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked) -> (usize, f64) {
     let order = taylor.order as usize;

@@ -101,6 +101,29 @@ impl Modulus {
         sum.min(sum.wrapping_sub(self.prime))
     }
 
+    /// Returns the number of products of residues that may be added to a widened residue before it
+    /// is reduced: so many that the sum stays below 2^127. It is 24 or more for primes below 2^61.
+    pub fn most_products(&self) -> u64 {
+        let prime = u128::from(self.prime);
+        let room = (1u128 << 127) - (prime << 64);
+        u64::try_from(room / (prime * prime)).unwrap_or(u64::MAX)
+    }
+
+    /// Returns x as a sum of products, to which others x y may be added as they are.
+    #[inline(always)]
+    pub fn widened(&self, x: u64) -> u128 {
+        u128::from(x) << 64
+    }
+
+    /// Returns the residue of a sum of products.
+    #[inline(always)]
+    pub fn reduced(&self, sum: u128) -> u64 {
+        let factor = (sum as u64).wrapping_mul(self.negative_inverse);
+        // The sum is below 2^127, and the other term below 2^126.
+        let whole = sum.wrapping_add(u128::from(factor).wrapping_mul(u128::from(self.prime)));
+        (whole >> 64) as u64 % self.prime
+    }
+
     /// Computes x^n.
     pub fn power(&self, x: u64, n: u64) -> u64 {
         let mut result = self.one;
