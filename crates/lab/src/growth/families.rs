@@ -14,9 +14,9 @@ pub struct Family {
     /// Whether n is the number of states of a judgement without proofs, instead of a part of the
     /// text.
     pub counts_states: bool,
-    text: &'static str,
+    pub(super) text: &'static str,
     /// Claim that stands in the text once for each i from 1 to n.
-    repeated: &'static str,
+    pub(super) repeated: &'static str,
 }
 
 impl Family {

@@ -1,4 +1,4 @@
-use num_dual::{Dual, DualNum};
+use num_dual::Dual;
 
 use crate::graph::{Evaluator, Expr, Graph, Tape, record};
 use crate::number::float::Float;
