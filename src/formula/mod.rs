@@ -181,6 +181,19 @@ impl Formula {
         logarithm::logarithmic_derivative(&self.arena, lookup)
     }
 
+    /// Partial derivatives of `ln|f|` that are not 0, each with the place of its variable, from
+    /// those that `gradients` finds for the factors; `None` where it finds none.
+    ///
+    /// # Panics
+    /// As [`evaluate`](Formula::evaluate).
+    pub(crate) fn logarithmic_gradient<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+        gradients: logarithm::Gradients<'_, T>,
+    ) -> Option<Vec<(usize, T)>> {
+        logarithm::logarithmic_gradient(&self.arena, lookup, gradients)
+    }
+
     /// Returns A and `false` if the whole formula is √A or, as A = (v,v), the norm of a vector; x
     /// and `true` if it is |x|.
     pub fn radicand(&self) -> Option<(Formula, bool)> {

@@ -6,6 +6,7 @@ pub mod diagnostic;
 pub mod diagram;
 mod evidence;
 pub mod exponents;
+pub mod growth;
 pub mod json;
 pub mod orbit;
 pub mod picture;
