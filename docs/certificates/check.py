@@ -16,7 +16,8 @@ from fractions import Fraction
 PRIMES, POINTS, DRAWS, TARGET = 4, 2, 64, -100
 POOL = 53  # log2 of a lower bound on the number of primes p = 3 mod 4 between 2^60 and 2^61
 ARITY = {"constant": 1, "input": 1, "negative": 1, "reciprocal": 1, "sum": 2, "difference": 2,
-         "product": 2, "power": 2}
+         "product": 2, "power": 2, "root": 1}
+SPARE = 24  # points beyond those that the independence of roots takes
 
 
 class Refused(Exception):
@@ -94,38 +95,96 @@ def read_program(program):
     return steps, zero
 
 
-def evaluate(steps, point, p):
-    """Values modulo p; None if a denominator is 0."""
+def times(x, y, p):
+    """Product in F_p(i), i² = -1."""
+    return (x[0] * y[0] - x[1] * y[1]) % p, (x[0] * y[1] + x[1] * y[0]) % p
+
+
+def evaluate(steps, point, p, signs):
+    """Values in F_p(i) as pairs; None if a denominator or a radicand is 0."""
     v = []
     for name, a, *b in steps:
         if name == "constant":
             if a.denominator % p == 0:
                 return None
-            v.append(a.numerator * pow(a.denominator, -1, p) % p)
+            v.append((a.numerator * pow(a.denominator, -1, p) % p, 0))
         elif name == "input":
-            v.append(point[a])
+            v.append((point[a], 0))
         elif name == "negative":
-            v.append(-v[a] % p)
+            v.append((-v[a][0] % p, -v[a][1] % p))
         elif name == "sum":
-            v.append((v[a] + v[b[0]]) % p)
+            v.append(((v[a][0] + v[b[0]][0]) % p, (v[a][1] + v[b[0]][1]) % p))
         elif name == "difference":
-            v.append((v[a] - v[b[0]]) % p)
+            v.append(((v[a][0] - v[b[0]][0]) % p, (v[a][1] - v[b[0]][1]) % p))
         elif name == "product":
-            v.append(v[a] * v[b[0]] % p)
-        else:
-            exponent = -1 if name == "reciprocal" else b[0]
-            if exponent < 0 and v[a] == 0:
+            v.append(times(v[a], v[b[0]], p))
+        elif name == "root":
+            radicand = v[a][0]  # without roots in it, so that the other half is 0
+            if radicand == 0:
                 return None
-            v.append(pow(v[a], exponent, p))
+            is_square = pow(radicand, (p - 1) // 2, p) == 1
+            root = pow(radicand if is_square else -radicand, (p + 1) // 4, p)
+            root = -root % p if next(signs) % 2 else root
+            v.append((root, 0) if is_square else (0, root))
+        else:
+            exponent, base = -1 if name == "reciprocal" else b[0], v[a]
+            if exponent < 0:
+                norm = (base[0] * base[0] + base[1] * base[1]) % p
+                if norm == 0:
+                    return None
+                inverse = pow(norm, -1, p)
+                base = base[0] * inverse % p, -base[1] * inverse % p
+            value = (1, 0)
+            for bit in bin(abs(exponent))[2:]:
+                value = times(value, value, p)
+                value = times(value, base, p) if bit == "1" else value
+            v.append(value)
     return v
+
+
+def check_roots(steps, inputs, primes, numbers):
+    """Requires that the radicands contain no roots, and that the roots are independent modulo p.
+
+    At a point each radicand is a square or none. If the vectors of these bits over some points, and
+    the vector of -1, which is no square anywhere, are linearly independent over two elements, no
+    product of radicands is a square, and the roots are independent (Kummer).
+    """
+    has_root = []
+    for name, a, *b in steps:
+        used = [] if name in ("constant", "input") else [a] if name == "power" else [a, *b]
+        require(name != "root" or not has_root[a], "a root contains another")
+        has_root.append(name == "root" or any(has_root[place] for place in used))
+    radicands = [step[1] for step in steps if step[0] == "root"]
+    if not radicands:
+        return
+    plain = [step if not has else ("constant", Fraction(0)) for step, has in zip(steps, has_root)]
+    for p in primes:
+        rows, count = [0] * len(radicands), 0
+        for _ in range(DRAWS + 2 * len(radicands)):
+            point = [next(numbers) % p for _ in range(inputs)]
+            values = evaluate(plain[:max(radicands) + 1], point, p, iter(()))
+            found = [values[place][0] for place in radicands] if values else [0]
+            if 0 in found:
+                continue
+            for k, value in enumerate(found):
+                rows[k] |= (pow(value, (p - 1) // 2, p) != 1) << count
+            count += 1
+            if count == len(radicands) + SPARE:
+                break
+        basis = []
+        for row in rows + [(1 << count) - 1]:
+            for other in basis:
+                row = min(row, row ^ other)
+            require(row, "the roots are not seen to be independent")
+            basis.append(row)
 
 
 def bounds(steps, zero):
     """Bounds on degree and height (bits of the coefficients) of the numerators that must vanish.
 
     A value is a numerator (degree, height) times powers of factors, each with degree and height: a
-    reciprocal or a power makes the numerator of its argument a factor; a product adds exponents; a
-    sum takes the least exponent of each factor, and moves the rest into the numerators.
+    reciprocal, a power or a root makes the numerator of its argument a factor; a product adds
+    exponents; a sum takes the least exponent of each factor, and moves the rest into the numerators.
     """
     factors, own, all_bounds = [], {}, []
 
@@ -143,8 +202,8 @@ def bounds(steps, zero):
             bound = (1, 0, {})
         elif name == "negative":
             bound = all_bounds[a]
-        elif name in ("reciprocal", "power"):
-            exponent = -1 if name == "reciprocal" else b[0]
+        elif name in ("reciprocal", "power", "root"):
+            exponent = {"reciprocal": -1, "root": Fraction(1, 2)}.get(name) or b[0]
             degree, height, powers = all_bounds[a]
             if a not in own:
                 own[a] = len(factors)
@@ -170,7 +229,7 @@ def bounds(steps, zero):
         # A factor with a positive exponent belongs to the numerator.
         more = weight({f: e for f, e in powers.items() if e > 0})
         degree, height = max(degree, d + more[0]), max(height, h + more[1])
-    return degree, height
+    return math.ceil(degree), math.ceil(height)
 
 
 def error_log2(degree, height):
@@ -187,9 +246,10 @@ def vanishes(steps, zero, inputs, primes, numbers):
         left = POINTS
         for _ in range(DRAWS):
             point = [next(numbers) % p for _ in range(inputs)]
-            values = evaluate(steps, point, p)
+            values = evaluate(steps, point, p, numbers)
             if values is not None:
-                require(all(values[place] == 0 for place in zero), "a value is not 0 at a point")
+                is_zero = all(values[place] == (0, 0) for place in zero)
+                require(is_zero, "a value is not 0 at a point")
                 left -= 1
                 accepted += 1
             if left == 0:
@@ -209,7 +269,10 @@ def evidence_of(statement):
         degrees.append(degree)
         heights.append(height)
         errors.append(error_log2(degree, height))
-        points += vanishes(steps, zero, program["inputs"], primes, stream(digest, f"points {number}"))
+        characters = stream(digest, f"characters {number}")
+        check_roots(steps, program["inputs"], primes, characters)
+        numbers = stream(digest, f"points {number}")
+        points += vanishes(steps, zero, program["inputs"], primes, numbers)
     error = max(errors) + math.ceil(math.log2(len(errors)))
     require(error <= TARGET, f"the error is bounded by 2^{error} only")
     return {"digest": digest, "primes": primes, "points": points, "degrees": degrees,
@@ -229,7 +292,7 @@ def check(certificate):
         require(evidence.get("digest") == digest_of(statement), "the statement has another digest")
         require(evidence == evidence_of(statement), "the evidence is not that of the statement")
         return from_text(statement)
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         raise Refused(f"the certificate is malformed: {error!r}") from error
 
 
@@ -346,8 +409,29 @@ class Reader:
         raise Unread("a formula is beyond this reader")
 
 
+# Forms in which the certificate states claims, without spaces.
+STATED = {"integral": "{}", "density": "{}", "identity": "{}={}", "rate": "({})'={}",
+          "invariant-relation": "{}=0"}
+
+
+def parts(kind, entry):
+    """Two formulas of a claim in a case; 0 where it has one."""
+    if kind == "identity":
+        left, equals, right = entry[kind].partition("=")
+        return left, right if equals else "0"
+    second = {"rate": "equals", "invariant-relation": "cofactor"}.get(kind)
+    return entry[kind], entry.get(second, "0") if second else "0"
+
+
+def stated(kind, entry):
+    texts = parts(kind, entry) if isinstance(entry.get(kind), str) else ()
+    if not texts or not all(isinstance(text, str) for text in texts):
+        return None
+    return "".join(STATED[kind].format(*texts).split())
+
+
 def derived(statement):
-    """A program for L_vF or div(ρv) of the case's own text: rational scalar fields without a level."""
+    """A program for the residual from the text of the case, for rational scalar fields everywhere."""
     try:
         import tomllib
     except ImportError:
@@ -356,17 +440,21 @@ def derived(statement):
     if statement["settings"] or "field" not in case or case.get("system", "field") != "field":
         raise Unread("the case is no field, or is changed by --set")
     if set(case) - {"title", "source", "system", "note", "notes", "parameters", "state", "field",
-                    "claim", "variables", "poisson", "let", "table"}:
-        raise Unread("the case has a level, or tables beyond this reader")
-    kind, formula = claim["kind"], claim["formula"]
-    if kind not in ("integral", "density") or not isinstance(formula, str):
-        raise Unread("the claim is neither a scalar integral nor a density")
+                    "claim", "variables", "poisson", "let", "table", "level", "one-sided",
+                    "check-weights"}:
+        raise Unread("the case has tables beyond this reader")
+    if "level" in case and claim["where"] != "everywhere":
+        raise Unread("the claim is made on a level")
+    kind = claim["kind"]
+    if kind not in STATED:
+        raise Unread("the kind of the claim is beyond this reader")
     named = [one for one in case["claim"] if one.get("name", claim["name"]) == claim["name"]]
-    own = [one for one in named if one.get(kind) == formula]
-    require(own or not named, "the case has no such claim")
+    own = [one for one in named if stated(kind, one) == "".join(claim["formula"].split())]
+    require(own or not any(kind in one for one in named), "the case has no such claim")
     if not own:
         raise Unread("the claim is not found by its name")
     require(own[0].get("expect", "holds") == claim["expect"], "the case expects something else")
+    first, second = parts(kind, own[0])
     program = {}
 
     def step(*one):
@@ -417,13 +505,19 @@ def derived(statement):
         return Reader(text, number, value_of).whole()
 
     velocity = {name: read(field[name], {}).value for name in state}
-    value = read(formula, velocity)
+    value, other = read(first, velocity), read(second, velocity)
     residual = value.rate
-    if kind == "density":
+    if kind == "identity":
+        residual = step("difference", value.value, other.value)
+    elif kind == "density":
         one = step("constant", Fraction(1))
         for name in state:
             slope = step("product", value.value, read(field[name], {name: one}).rate)
             residual = step("sum", residual, slope)
+    elif kind == "rate":
+        residual = step("difference", residual, other.value)
+    elif kind == "invariant-relation":
+        residual = step("difference", residual, (value * other).value)
     return list(program), residual, len(inputs)
 
 

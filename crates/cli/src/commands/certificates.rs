@@ -80,7 +80,7 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
         .iter()
         .zip(&found)
         .map(|((_, claim), statement)| {
-            let made = certificate(&case, &origin, claim, statement);
+            let made = certificate(&case, &origin, claim, statement, options.sampling.seed);
             (claim.name.clone(), made.map(|json| format!("{json:#}\n")))
         })
         .collect())
@@ -109,7 +109,7 @@ fn fresh(taken: &mut HashSet<String>, path: &str, claim: &str) -> String {
 fn summary(folder: &Path, written: usize, missing: &[Missing]) -> String {
     let count = |reason: Missing| missing.iter().filter(|own| **own == reason).count();
     let reasons = [
-        (Missing::NotRational, "with roots, moduli or functions such as exp"),
+        (Missing::NotPlain, "with dependent roots, moduli or functions such as exp"),
         (Missing::NoProgram, "at states that no formula makes, or with too many listed values"),
         (Missing::NoBound, "whose bound is too weak, or without value for some listed values"),
     ];

@@ -4,7 +4,7 @@ use liouville::case::{Case, Expect};
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::prime::is_prime;
 use liouville::number::{Function, Operation};
-use liouville::proof::rational_bounds;
+use liouville::proof::plain_bounds;
 use liouville::verdict::{ClaimReport, Composed, Statement};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -35,8 +35,8 @@ pub struct Origin<'o> {
 /// The reason why there is no certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Missing {
-    /// The residual contains roots, moduli or transcendental functions.
-    NotRational,
+    /// The residual contains dependent or nested roots, moduli or transcendental functions.
+    NotPlain,
     /// The states are not made by a formula, or there are too many listed values.
     NoProgram,
     /// The bounds are too weak, or the residual has no value for some listed values.
@@ -49,6 +49,7 @@ pub fn certificate(
     origin: &Origin<'_>,
     report: &ClaimReport,
     statement: &Statement,
+    seed: u64,
 ) -> Result<Value, Missing> {
     let mut programs: Vec<Value> = Vec::new();
     let mut bounds: Vec<(f64, f64)> = Vec::new();
@@ -60,7 +61,7 @@ pub fn certificate(
         if zero.iter().any(|value| composed.graph.is_nowhere_defined(*value)) {
             return Err(Missing::NoBound);
         }
-        let bound = rational_bounds(&composed.graph, &zero).ok_or(Missing::NotRational)?;
+        let bound = plain_bounds(&composed.graph, &zero, seed).ok_or(Missing::NotPlain)?;
         bounds.push(bound);
         programs.push(program(composed));
     }
@@ -100,7 +101,15 @@ fn made(composed: &Composed) -> Vec<Expr> {
 
 /// Whether parameters and state are rational functions of the draws.
 fn is_made_rationally(composed: &Composed) -> bool {
-    rational_bounds(&composed.graph, &made(composed)).is_some()
+    let graph = &composed.graph;
+    let reached = graph.reached(made(composed));
+    let is_rational = |step: Step<'_>| match step {
+        Step::Constant(_) | Step::Input(_) => true,
+        Step::Unary(function, _) => matches!(function, Function::Neg | Function::Recip),
+        Step::Binary(operation, ..) => operation != Operation::Pow,
+        Step::Power(_, exponent) => exponent.to_integer().is_some(),
+    };
+    graph.steps().zip(reached).all(|(step, reached)| !reached || is_rational(step))
 }
 
 fn program(composed: &Composed) -> Value {
@@ -148,6 +157,7 @@ fn step(graph: &Graph, place: usize, places: &[usize]) -> Value {
         }
         Step::Input(input) => json!(["input", input]),
         Step::Unary(Function::Neg, a) => json!(["negative", places[a]]),
+        Step::Unary(Function::Sqrt, a) => json!(["root", places[a]]),
         Step::Unary(_, a) => json!(["reciprocal", places[a]]),
         Step::Binary(Operation::Add, a, b) => json!(["sum", places[a], places[b]]),
         Step::Binary(Operation::Sub, a, b) => json!(["difference", places[a], places[b]]),
@@ -165,6 +175,8 @@ fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
     if !bounds.iter().all(is_small) {
         return None;
     }
+    // Roots count half.
+    let bounds: Vec<(f64, f64)> = bounds.iter().map(|(d, h)| (d.ceil(), h.ceil())).collect();
     let error = |(degree, height): &(f64, f64)| {
         let prime = (height.max(1.0) + 1.0) / 60.0 / 2f64.powi(POOL);
         let points = (DRAWS * degree / 2f64.powi(60)).powi(POINTS as i32);
@@ -228,8 +240,9 @@ mod tests {
     #[test]
     fn the_digest_does_not_depend_on_the_order_of_keys() {
         let (a, b) = (json!({ "b": [1, "γ\n"], "a": null }), json!({ "a": null, "b": [1, "γ\n"] }));
-        assert_eq!(canonical(&a), "{\"a\":null,\"b\":[1,\"γ\\n\"]}");
-        assert_eq!(canonical(&a), canonical(&b));
+        let written = "{\"a\":null,\"b\":[1,\"γ\\n\"]}";
+        assert_eq!(canonical(&a), written, "sorted, without spaces");
+        assert_eq!(canonical(&b), written, "in another order");
     }
 
     #[test]

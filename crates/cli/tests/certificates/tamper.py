@@ -45,7 +45,9 @@ def sealed(statement):
 
 
 def is_false(steps, zero, inputs):
-    """Whether some value is not 0 at a rational point, in exact arithmetic."""
+    """Whether some value is not 0 at a rational point, in exact arithmetic without roots."""
+    if any(name == "root" for name, *_ in steps):
+        return False
     for _ in range(3):
         point = [Fraction(random.randint(-9, 9), random.randint(1, 5)) for _ in range(inputs)]
         values = []
@@ -154,10 +156,11 @@ def made_anew(certificate):
             case["sha256"] = hashlib.sha256(case["text"].encode()).hexdigest()
             statement["claim"]["formula"] = new
 
-        changed = other(another_claim)
-        derived, residual, inputs = checker.derived(changed["statement"])
-        known = is_false(derived, [residual], inputs)
-        yield "formula of the case and the claim", changed, known
+        if certificate["statement"]["claim"]["kind"] in ("integral", "density"):
+            changed = other(another_claim)
+            derived, residual, inputs = checker.derived(changed["statement"])
+            known = is_false(derived, [residual], inputs)
+            yield "formula of the case and the claim", changed, known
         yield "formula", other(lambda s: s["claim"].update(formula="1 + 1 + 1")), True
 
 

@@ -52,6 +52,8 @@ fn code_is_printed_as_before() {
     {
         let (code, text, problem) = export(&["all.toml", "--to", language]);
         assert_eq!(code, Some(0), "{language}: {problem}");
+        let version = concat!("liouville ", env!("CARGO_PKG_VERSION"));
+        let text = text.replace(version, "liouville VERSION");
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/export/printed");
         let path = PathBuf::from(path).join(format!("{language}.txt"));
         if std::env::var_os("LIOUVILLE_ACCEPT").is_some() {
@@ -69,7 +71,9 @@ fn names_differ_and_are_not_reserved() {
     let (_, text, _) = export(&["all.toml", "--to", "maple"]);
     assert!(text.contains("gamma_2 := parameters[2]"), "gamma is a constant: {text}");
     let (_, text, _) = export(&["all.toml", "--to", "python"]);
-    assert!(text.contains("def residual_ln_E_1st(") && text.contains("def residual_ln_E_1st_2("));
+    for name in ["def residual_ln_E_1st(", "def residual_ln_E_1st_2("] {
+        assert!(text.contains(name), "two claims of one spelling: {text}");
+    }
     assert!(!text.contains('∫') && text.contains("math.pow("), "no complex powers: {text}");
 }
 

@@ -59,7 +59,7 @@ pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::Fact;
-pub use plain::rational_bounds;
+pub use plain::plain_bounds;
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use trial::Certificate;

@@ -88,12 +88,11 @@ impl Target for Mathematica {
         for body in bodies {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "(* ", " *)"));
-            let own = |is_state| {
-                export.used(body, is_state).into_iter().map(|(index, place)| (index, place))
-            };
-            let used = own(false).chain(own(true)).map(|(_, place)| names.inputs[place].as_str());
+            let own = |is_state| export.used(body, is_state);
+            let used = own(false).into_iter().chain(own(true));
+            let used: Vec<&str> = used.map(|(_, place)| names.inputs[place].as_str()).collect();
             let lines = body.lines.iter().map(|(name, _)| name.as_str());
-            let locals: Vec<&str> = used.chain(lines).collect();
+            let locals: Vec<&str> = used.into_iter().chain(lines).collect();
             text.push_str(&format!(
                 "{}[state_List, parameters_List] := Module[{{{}}},\n",
                 body.name,
