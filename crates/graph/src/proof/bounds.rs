@@ -68,8 +68,8 @@ impl Bounds {
         self.bounds[place].as_ref()
     }
 
-    /// Bounds degree and height of the whole numerator of the value at a place: with the factors
-    /// that have positive exponents, as b in 1/(a/b).
+    /// Bounds degree and height of the numerator of the value at a place, with the factors that have
+    /// positive exponents, as b in 1/(a/b), although a value without b is undefined.
     pub fn numerator(&self, place: usize) -> Option<(f64, f64)> {
         let bound = self.at(place)?;
         let above = bound.factors.iter().filter(|(_, exponent)| *exponent > 0.0);

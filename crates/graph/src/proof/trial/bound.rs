@@ -18,9 +18,8 @@ impl Trial<'_> {
         let algebraic = self.algebraic;
         let (mut degree, mut height) = (0f64, 0f64);
         for output in outputs {
-            let (own_degree, own_height) =
-                self.bounds().numerator(algebraic.graph.place(*output))?;
-            (degree, height) = (degree.max(own_degree), height.max(own_height));
+            let bound = self.bounds().at(algebraic.graph.place(*output))?;
+            (degree, height) = (degree.max(bound.degree), height.max(bound.height));
         }
         let reached = algebraic.graph.reached(outputs.iter().copied());
         let odd = algebraic.odd.iter().filter(|(base, _)| reached[algebraic.graph.place(*base)]);
