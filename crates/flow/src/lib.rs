@@ -55,5 +55,5 @@ pub use section::{
 };
 pub use separatrix::{Separatrices, separatrices};
 pub use start::{Start, fixed_parameters};
-pub use validated::{Enclosure, Obstacle, ProvedOrbit, Request, prove};
+pub use validated::{Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove};
 pub use variational::Variational;
