@@ -92,7 +92,7 @@ pub use functions::names as function_names;
 pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
-pub use names::canonical_name;
+pub use names::{ascii_name, canonical_name};
 pub(crate) use names::{names_in, skeleton};
 pub use scope::{Origin, Scope, Symbol};
 pub use spelling::nearest;

@@ -31,6 +31,7 @@ mod sampler;
 mod second_opinion;
 mod signs;
 mod state;
+mod statement;
 mod values;
 mod wider;
 mod witness;
@@ -44,6 +45,7 @@ pub(crate) use point::named;
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
 pub use sampler::{LANES, Sampler};
 pub use state::{StateError, read_state};
+pub use statement::{Composed, Statement, statements};
 pub use values::ClaimsError;
 
 use crate::number::rational::Rational;

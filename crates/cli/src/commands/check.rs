@@ -9,7 +9,7 @@ use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
 use super::files::Judge;
-use super::{Answer, Check, CheckFormat, colour, files, width};
+use super::{Answer, Check, CheckFormat, certificates, colour, files, width};
 
 /// Judge of cases, including the claims of absence, and those about motion where requested.
 fn judge(options: &Check) -> Judge {
@@ -71,6 +71,10 @@ pub fn run(options: &Check) -> Result<Answer, String> {
             return Err(format!("error: no claim has a name or source like `{wanted}`"));
         }
     }
+    if let Some(folder) = &options.certificate {
+        let told = certificates::write_all(folder, &run, options)?;
+        anstream::eprintln!("{told}");
+    }
     let format = if options.json { CheckFormat::Json } else { options.format };
     let text = match format {
         CheckFormat::Json => json::render(&run).map_err(|error| format!("error: {error}"))? + "\n",
@@ -98,7 +102,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
 }
 
 /// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.
-fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
+pub(super) fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
     let is_pattern = wanted.contains(['*', '?']);
     [name, source].into_iter().any(|text| match is_pattern {
         true => matches(wanted, text),

@@ -1,11 +1,13 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
 pub mod bench;
+pub mod certificate;
 pub mod chart;
 pub mod diagnostic;
 pub mod diagram;
 mod evidence;
 pub mod exponents;
+pub mod export;
 pub mod growth;
 pub mod json;
 pub mod orbit;

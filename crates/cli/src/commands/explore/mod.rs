@@ -13,11 +13,9 @@ mod search;
 mod section;
 mod stress;
 
-use std::path::Path;
-
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, source, width};
+use super::{Answer, Sampling, colour, eval, files, source, width, write};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -118,14 +116,4 @@ impl Measure {
             Self::Growth(options) => growth::run(options),
         }
     }
-}
-
-/// Writes a file requested by an option.
-fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
-            path.display()
-        )
-    })
 }
