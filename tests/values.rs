@@ -156,7 +156,7 @@ fn claims_that_do_not_fit_are_refused() {
     let found = refusal(&case, Claim::integral(&x).with("weight", 1));
     assert!(found.contains("no `weight`"), "{found}");
     let found = refusal(&case, Claim::of("integrals", &x));
-    assert!(found.contains("no such kind"), "{found}");
+    assert!(found.contains("kind of claim is unknown"), "{found}");
     let found = refusal(&case, Claim::hamiltonian(&x));
     assert!(found.contains("new variables"), "{found}");
     let found = refusal(&case, Claim::symmetry_field(vec![("y".to_string(), x.clone())]));

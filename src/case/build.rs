@@ -194,7 +194,7 @@ fn read(
     })
 }
 
-/// Refuses a table of rates beside a map, and a table of images beside a field.
+/// Rejects a table of rates in a map, and a table of images in a field.
 fn one_of_field_and_map(root: &Section<'_>, system: &str) {
     let (unread, message, remedy) = match system {
         "map" => (

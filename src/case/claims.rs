@@ -177,7 +177,7 @@ pub fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<Str
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
-            return Err(other(&text, message, "give each claim a name of its own"));
+            return Err(other(&text, message, "give each claim a different name"));
         }
         return Ok(text.value);
     }

@@ -92,7 +92,7 @@ pub enum Problem {
         remedy: String,
     },
     /// Names are defined in terms of each other.
-    #[error("`{0}` is defined by itself: {1}")]
+    #[error("`{0}` is defined in terms of itself: {1}")]
     Cycle(String, String),
     /// The value has the wrong type.
     #[error("`{key}` should be {expected}")]

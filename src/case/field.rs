@@ -1,4 +1,4 @@
-//! The tables `[field]` and `[level]`: rates, and the equations that they keep.
+//! The tables `[field]` and `[level]`: rates, and the equations that the motion preserves.
 
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
@@ -148,7 +148,7 @@ pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<L
     Some(read.map(equation).collect())
 }
 
-/// Reads both sides of an equation, each a formula of its own.
+/// Reads the two sides of an equation, each as a formula.
 pub fn both_sides(text: &str, vocabulary: &Vocabulary) -> Option<(Formula, Formula)> {
     let (left, right, _) = sides(text)?;
     let read = |side| Formula::parse(side, vocabulary).ok();

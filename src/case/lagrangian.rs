@@ -70,7 +70,7 @@ fn counted(
         return Ok(());
     }
     let message =
-        format!("{} multipliers stand beside {constraints} constraints", multipliers.len());
+        format!("{} multipliers are given for {constraints} constraints", multipliers.len());
     let remedy = match vakonomic {
         true => "name a state variable for each constraint: multipliers = [\"λ\"]",
         false => "a nonholonomic system has none: their values are the names μ1, μ2, …",

@@ -105,7 +105,7 @@ pub struct Case {
     pub one_sided: Option<OneSided>,
     /// Notes of the author on the verdicts.
     pub notes: Vec<String>,
-    /// Warnings about what the file may say unintentionally.
+    /// Warnings about statements that may be unintended.
     pub warnings: Vec<String>,
 }
 
@@ -173,7 +173,7 @@ pub struct MotionClaim {
     pub note: Option<String>,
 }
 
-/// A claim of absence with what is expected of it.
+/// A claim of absence with the expected verdict.
 #[derive(Clone, Debug)]
 pub struct AbsenceClaim {
     /// Its name; unique in the case.

@@ -42,7 +42,7 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
 
 /// Warning about a hidden name.
 pub fn warning(name: &str) -> String {
-    format!("`{name}` has a meaning of its own here, and this file gives it another")
+    format!("`{name}` already has a meaning here, and this file gives it another")
 }
 
 /// Warnings about names that look alike.

@@ -71,7 +71,7 @@ pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, R
                     let kind = sized(Type::Matrix(rows.len(), width))?;
                     Ok(Given::Fixed(kind, read_all(&rows.concat())?))
                 }
-                None => Err("a matrix is a list of rows, each with as many numbers".to_string())?,
+                None => Err("a matrix is a list of rows of equal length".to_string())?,
             }
         }
         DeValue::String(text) => described(text, scope),

@@ -44,7 +44,7 @@ impl Transformation {
         let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
         let images = from.table(key)?;
         if images.is_empty() {
-            let message = format!("`{key}` names nothing that is moved");
+            let message = format!("`{key}` names no variable to transform");
             return Err(from.complaint(key, message, "give an image: { \"γ\" = \"−γ\" }"));
         }
         for (name, image) in images {
@@ -263,7 +263,7 @@ impl Statement for Map {
         for (name, rate) in given.ok_or_else(|| from.missing("field"))? {
             let plain = name.strip_suffix('\'').unwrap_or(&name);
             let Some(index) = names.iter().position(|known| known == plain) else {
-                let message = format!("`{name}` is the rate of no new variable");
+                let message = format!("`{name}` is not the rate of a new variable");
                 return Err(from.complaint("field", message, "name the variables of `map`"));
             };
             if rate.value_type() != images[index].value_type() {

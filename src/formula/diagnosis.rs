@@ -41,7 +41,7 @@ impl Parser<'_> {
             _ if after.contains('|') => error,
             // `|(a|`: the end of the bracket is missing, not that of the bar
             Some(bracket) if before.contains('|') => self.unclosed_before(&bracket, bar),
-            _ => FormulaError::new(bar.clone(), "this `|` has no partner"),
+            _ => FormulaError::new(bar.clone(), "this `|` is not matched"),
         }
     }
 
@@ -58,8 +58,7 @@ impl Parser<'_> {
             }
             _ => {
                 let found = self.text(&span);
-                let message =
-                    format!("a number, a name or a bracket should stand before `{found}`");
+                let message = format!("a number, a name or a bracket is missing before `{found}`");
                 FormulaError::new(span.clone(), message)
             }
         };
@@ -104,8 +103,8 @@ impl Parser<'_> {
                     .with_help(NO_EQUATION)
             }
             Kind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
-                .with_help("a range stands in `sum(i, 1..n, …)` and the like"),
-            Kind::Comma => FormulaError::new(span, "a comma stands between brackets only")
+                .with_help("a range is written in `sum(i, 1..n, …)` and similar forms"),
+            Kind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
         }

@@ -166,7 +166,7 @@ fn stray(c: char, span: Span, before: &str) -> FormulaError {
         '⁻' | '⁺' => error.with_help("digits follow the sign, as in ⁻¹"),
         ';' => error.with_help("separate with `,`"),
         '\\' => error.with_help("formulas are not LaTeX: write `a/b`, `√a`, `γ`, `a*b`"),
-        '&' => error.with_help("write conditions one after the other, parted by commas"),
+        '&' => error.with_help("write conditions one after the other, separated by commas"),
         '!' => error.with_help("write n! as `product(k, 1..n, k)`"),
         '%' => error.with_help("write `k mod n`, in an index"),
         _ => error,

@@ -117,7 +117,7 @@ impl<'t> Parser<'t> {
     fn nested(&mut self, span: &Span, read: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == MAX_DEPTH {
             let error = FormulaError::new(span.clone(), "this is nested too deeply");
-            return Err(error.with_help(format!("at most {MAX_DEPTH} levels are read")));
+            return Err(error.with_help(format!("at most {MAX_DEPTH} levels are allowed")));
         }
         self.depth += 1;
         let result = read(self);

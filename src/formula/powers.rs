@@ -50,7 +50,7 @@ impl Builder<'_> {
                 Ok(self.push(Operation::Dot(base.node, base.node), Type::Scalar, span))
             }
             (Type::Vector(_), _) => {
-                let error = FormulaError::new(exponent, "a vector has no power but its square");
+                let error = FormulaError::new(exponent, "a vector has no power except its square");
                 Err(error
                     .with_help(format!("write a power of the norm, `|{}|`", self.written(base))))
             }

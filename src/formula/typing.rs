@@ -234,10 +234,8 @@ impl Builder<'_> {
             return Err(FormulaError::new(wrong.span.clone(), message));
         }
         let sign = if infix == Infix::Outer { "⊗" } else { "×" };
-        let message = format!(
-            "`{sign}` stands between two vectors, not a {} and a {}",
-            a.value_type, b.value_type
-        );
+        let message =
+            format!("`{sign}` takes two vectors, not a {} and a {}", a.value_type, b.value_type);
         let help = format!("write `{}*{}`", self.written(a), self.written(b));
         let error = FormulaError::new(span, message);
         Err(match types {

@@ -92,7 +92,7 @@ pub enum JudgeError {
     #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
-    #[error("an ∫ in `{0}` has an integrand of more than its variable")]
+    #[error("an ∫ in `{0}` has an integrand that depends on more than its variable")]
     Quadrature(String),
     /// The inertia tensor is not symmetric.
     #[error("the inertia tensor is not symmetric")]
@@ -104,7 +104,7 @@ pub enum JudgeError {
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
     /// A report on a map.
-    #[error("the case is a map, and reports are made on flows")]
+    #[error("the case is a map, and a report needs a flow")]
     Discrete,
     /// The level set is left by a map.
     #[error("the level set is not invariant: at the image of a state `{equation}` is off by {by}")]
@@ -129,7 +129,7 @@ impl JudgeError {
     pub fn help(&self) -> &'static str {
         match self {
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
-            JudgeError::Overflow(_) => "look at the ranges of [parameters] and [state]",
+            JudgeError::Overflow(_) => "check the ranges of [parameters] and [state]",
             JudgeError::OffLevel { .. } => "correct the formulas of [level.chart]",
             JudgeError::PartialChart { .. } => {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"

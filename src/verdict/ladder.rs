@@ -183,7 +183,7 @@ impl Bench<'_> {
             let answer = match (&ground, answer) {
                 (Some(Answer::Zero(ground)), Answer::Zero(own)) => Answer::Zero(ground.and(own)),
                 (_, Answer::Zero(_)) => Answer::Silent(
-                    "it is not proved that states are on the level, and stay".to_string(),
+                    "it is not proved that the states lie on the level and stay there".to_string(),
                 ),
                 (_, answer) => answer,
             };
@@ -216,7 +216,8 @@ impl Bench<'_> {
                     finding.partial = Some(reason);
                 }
                 Answer::Void => {
-                    let reason = "there is no state at which all that is written has a value";
+                    let reason =
+                        "there is no state at which all formulas of the claim have a value";
                     finding.rung(Method::PrimeField, reason.to_string());
                     finding.evidence.silence = Some(reason.to_string());
                 }

@@ -192,7 +192,7 @@ fn names_that_a_file_takes_from_the_system_are_told() {
         let path = folder("hidden", &[("case.toml", &text)]);
         let output =
             liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
-        let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
+        let told = String::from_utf8_lossy(&output.stdout).contains("already has a meaning here");
         assert_eq!(told, warned, "{taken}");
     }
 }

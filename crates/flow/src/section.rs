@@ -208,7 +208,7 @@ impl<'w, T: Number<One = f64>> Worker<'w, T> {
         }
     }
 
-    /// Puts the next orbit into a lane; orbits without a start are finished at once.
+    /// Puts the next orbit into a lane; orbits without a start end immediately.
     fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
         loop {
             let Some(index) = self.queue.take() else { return };

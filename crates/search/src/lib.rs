@@ -7,7 +7,7 @@
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
-//! absence    a claim that there is no other invariant: proved by counts, refuted by a find
+//! absence    claims that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
 mod absence;
@@ -79,7 +79,7 @@ pub enum SearchError {
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
     /// The count did not become stable.
-    #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
+    #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
     /// The elimination takes more steps than the effort allows.
     #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
@@ -98,7 +98,7 @@ pub enum SearchError {
         megabytes: u64,
     },
     /// The system is a map.
-    #[error("the case is a map, and invariants are searched for of flows")]
+    #[error("the case is a map, and a search needs a flow")]
     Discrete,
     /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
@@ -113,10 +113,10 @@ pub enum SearchError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// The candidate is not a valid claim for this case.
-    #[error("a find cannot be claimed of the case: {0}")]
+    #[error("the candidate is not a valid claim for this case: {0}")]
     Unfit(#[from] ClaimError),
     /// A formula cannot be made of others.
-    #[error("a find cannot be written: {0}")]
+    #[error("the formula of a candidate cannot be written: {0}")]
     Unwritten(#[from] FormulaError),
     /// Judging failed.
     #[error(transparent)]

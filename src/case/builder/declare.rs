@@ -138,7 +138,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Reads a formula in the names so far, and checks its type and what it depends on.
+    /// Reads a formula in the names declared so far, and checks its type and dependence.
     pub(super) fn read(
         &self,
         what: &str,

@@ -83,7 +83,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "`moment` depends on `ω`",
             "state a density instead",
         ),
-        ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
+        ("added", exists(moved, "analytic"), "does not cover variables added by [state]", "without them"),
         ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
         ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
         (
@@ -123,7 +123,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "each side may depend on the state and parameters only, not on `μ`",
             "",
         ),
-        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names nothing that is moved", "image"),
+        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names no variable to transform", "image"),
         ("no-map", turning("[[claim]]\nmap = {}\nfield = {}"), "names no new variable", "give one"),
         (
             "no-time",

@@ -4,9 +4,10 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Closed orbits and states reached are enclosed, and so proved; all else is observed. There a
-//! stated number agrees with a computed one if they differ by no more than the last stated digit and the error that the computation itself shows: the spread of
-//! blocks, or the difference between f64 and double-double.
+//! Closed orbits and states at a time of a motion are proved, by enclosures; all other claims are
+//! only observed. There a stated number agrees with a computed one if they differ by no more than
+//! the last stated digit and the estimated error of the computation: the spread of blocks, or the
+//! difference between f64 and double-double.
 
 mod closed_orbit;
 mod contacts;

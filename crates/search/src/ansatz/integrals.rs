@@ -208,7 +208,7 @@ impl Search<'_> {
         Ok(true)
     }
 
-    /// Writes a null vector as a formula and has it judged.
+    /// Writes a null vector as a formula and judges it.
     fn tell(
         &mut self,
         system: &System,

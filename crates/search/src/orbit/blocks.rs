@@ -1,5 +1,5 @@
-//! Sets of variables whose rates depend on each other only: a field that falls apart is searched part
-//! by part, where fewer monomials reach a higher degree.
+//! Closed subsystems: sets of variables whose rates depend on the set only. A field is searched
+//! subsystem by subsystem first, as fewer monomials allow a higher degree.
 
 use liouville::case::Case;
 use liouville::graph::Expr;

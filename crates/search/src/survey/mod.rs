@@ -4,12 +4,12 @@
 //! ```text
 //! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
 //! family       formulas that make sense under such facts; files of data
-//! question     a family's formulas put to the case, in the names that the case has
+//! question     claims of a family about the case, in the names of the case
 //! involutions  signed permutations of the axes, as symmetries and reversors
 //! sphere       the density, or the criterion, over the sphere of normals
 //! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      further invariants that the search finds and excludes
-//! hierarchy    what follows: integral and measure, integral only, measure only, neither
+//! hierarchy    classification: integral and measure, integral only, measure only, neither
 //! ```
 
 mod axis;
@@ -118,7 +118,7 @@ pub fn survey(
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
     }
-    progress("what the case claims");
+    progress("claims of the case");
     let own = liouville::verdict::judge(case, options)?;
     let claimed: Vec<Finding> = own
         .claims
@@ -134,7 +134,7 @@ pub fn survey(
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
         .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
-    progress("integrals that nobody typed");
+    progress("further integrals");
     let mut search = Unknown::of(case, options, progress);
     all.append(&mut search.findings);
     progress("what follows");

@@ -181,7 +181,7 @@ impl Finding {
 }
 
 impl Question {
-    /// Makes the question of a family, with names for what the case names differently.
+    /// Makes the question of a family, with names for quantities that the case names differently.
     pub fn of(family: &Family, bindings: &[Definition]) -> Self {
         let own = family
             .definitions
