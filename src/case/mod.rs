@@ -20,6 +20,7 @@ mod formulas;
 mod hamiltonian;
 mod homogeneous;
 mod kinds;
+mod labels;
 mod lagrangian;
 mod lines;
 mod lists;
@@ -53,12 +54,23 @@ use crate::mechanics::{Chart, Draw, Model};
 pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
 pub use error::{CaseError, Mistake, Problem};
+pub use labels::{is_labelled, labels, matches};
 pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
 pub use value::{FormulaSource, ValueSpec};
 pub use values::ClaimError;
+
+/// Name of the list of papers in a folder of cases, which is not a case itself.
+const PAPERS: &str = "papers.toml";
+
+/// Whether a file of a folder is a case: its name ends in `.toml`, and is not `papers.toml`, the
+/// list of statements of papers with the claims that state them.
+pub fn is_case_file(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml")
+        && path.file_name().is_some_and(|name| name != PAPERS)
+}
 
 /// Limit on the size of a case file, above that of any real one.
 const MAX_BYTES: u64 = 4 << 20;

@@ -7,7 +7,7 @@ use super::error::{Mistake, Problem};
 use super::section::Section;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
-use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
+use crate::mechanics::{Algebra, Lagrangian, Model, Phase, Role, System};
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
@@ -45,6 +45,10 @@ impl Nonlinear {
     /// Finds the nonlinear formulas: f is linear in w when no ∂f/∂w_i contains a velocity as it is
     /// recorded.
     fn of(lagrangian: &Lagrangian, model: &Model) -> Self {
+        let is_carried = |role: &Role| matches!(role, Role::Carried(_));
+        if lagrangian.constraints.is_empty() && !lagrangian.roles.iter().any(is_carried) {
+            return Self::default();
+        }
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let velocities = lagrangian.velocities(&model.state);
         let recorded = record(parameters + dimension, |inputs| {
@@ -63,9 +67,10 @@ impl Nonlinear {
             (slopes, lagrangian.lagrangian(&at, lagrangian.vakonomic))
         });
         let Ok((graph, (slopes, function))) = recorded else { return Self::default() };
-        let bends = |slope: Expr| {
-            velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity))
-        };
+        let mut is_velocity = vec![false; parameters + dimension];
+        velocities.iter().for_each(|velocity| is_velocity[parameters + velocity] = true);
+        let is_velocity = |input: &usize| is_velocity.get(*input) == Some(&true);
+        let bends = |slope: Expr| graph.inputs_of(slope).iter().any(is_velocity);
         // A variable that is only carried along, and that L does not contain, may have any rate.
         let counts = |component: usize| {
             lagrangian.algebra == Algebra::Frame

@@ -10,7 +10,7 @@ use super::recorded::{Common, Recorded};
 use super::sampler::LANES;
 use crate::case::Case;
 use crate::claim::Place;
-use crate::graph::{Fault, record};
+use crate::graph::{Fault, Graph, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
 
@@ -165,18 +165,40 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case except those about motion and those of absence, which need to follow
-/// motions and to count invariants.
-pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+/// Size of what a judgement records before any state is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordedSize {
+    /// Number of operations of the residuals of all claims together.
+    pub operations: usize,
+    /// Number of nodes of the graph.
+    pub nodes: usize,
+}
+
+/// Records a case as [`judge`] does, and returns the size of the recording.
+pub fn recorded_size(case: &Case) -> Result<RecordedSize, Fault> {
+    let (graph, (recorded, _)) = recording(case)?;
+    let residuals: Vec<_> = recorded.iter().flat_map(|item| item.residual.clone()).collect();
+    Ok(RecordedSize { operations: graph.operations(&residuals), nodes: graph.len() })
+}
+
+/// Records all claims of a case, and what every case needs.
+fn recording(case: &Case) -> Result<(Graph, (Vec<Recorded<'_>>, Common)), Fault> {
     let model = &case.model;
-    let inputs = model.free_components() + model.dimension();
-    let (graph, (recorded, common)) = record(inputs, |inputs| {
+    record(model.free_components() + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = Jet::new(Phase::new(model, parameters, state));
         let recorded: Vec<Recorded<'_>> =
             case.claims.iter().map(|claim| Recorded::new(claim, &jet)).collect();
         (recorded, Common::of(&jet))
-    })?;
+    })
+}
+
+/// Judges all claims of a case except those about motion and those of absence, which need to follow
+/// motions and to count invariants.
+pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    let model = &case.model;
+    let inputs = model.free_components() + model.dimension();
+    let (graph, (recorded, common)) = recording(case)?;
     let bench = Bench::new(case, &common, options, &graph, inputs);
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();

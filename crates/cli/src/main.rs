@@ -12,6 +12,7 @@ fn main() -> ExitCode {
         commands::Command::Table(options) => commands::table::run(&options),
         commands::Command::Explore(command) => command.run(),
         commands::Command::New(options) => commands::new::run(&options),
+        commands::Command::Export(options) => commands::export::run(&options),
         commands::Command::Names(options) => commands::names::run(&options),
         commands::Command::Explain(options) => commands::explain::run(&options),
         commands::Command::Cases(options) => commands::cases::run(&options),

@@ -223,6 +223,30 @@ fn the_tables_come_out_of_the_catalogue() {
 }
 
 #[test]
+fn claims_are_selected_by_what_they_state() {
+    let text = GOOD
+        .replace("title", "source = \"BMB 2013, §3.4\"\ntitle")
+        .replace("integral =", "source = \"(3.18), Theorem 2.2\"\nintegral =");
+    let path = folder("labels", &[("good.toml", &text)]);
+    let path = path.to_str().expect("UTF-8");
+    let found = |labels: &[&str]| {
+        let options: Vec<&str> = labels.iter().flat_map(|label| ["--source", label]).collect();
+        let report = json(&[&["check", "--json", path], options.as_slice()].concat(), 0);
+        report["summary"]["claims"].as_u64()
+    };
+    assert_eq!(found(&["§3.4"]), Some(2), "a label of the case is one of its claims");
+    assert_eq!(found(&["(3.18)"]), Some(1), "an equation");
+    assert_eq!(found(&["Theorem ?.2"]), Some(1), "a pattern");
+    assert_eq!(found(&["(9.9)", "Theorem 2.2"]), Some(1), "one of several");
+    for label in ["(3.1", "Theorem 2"] {
+        liouville(&["check", path, "--source", label])
+            .assert()
+            .code(2)
+            .stderr(contains(format!("no claim has a name or source like `{label}`")));
+    }
+}
+
+#[test]
 fn trust_says_what_is_insisted_on() {
     let near = GOOD.replace("|J*ω × γ|²", "|J*ω × γ|² + 1e-16*(J*ω,J*ω)");
     let path = folder("trust", &[("good.toml", GOOD), ("near.toml", &near)]);

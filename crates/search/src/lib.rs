@@ -14,6 +14,7 @@ mod absence;
 mod ansatz;
 mod ask;
 mod branches;
+mod budget;
 mod conditions;
 mod counts;
 mod densities;
@@ -80,6 +81,22 @@ pub enum SearchError {
     /// The count did not become stable.
     #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
+    /// The elimination takes more steps than the effort allows.
+    #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
+    Long {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// Limit that was reached.
+        seconds: f64,
+    },
+    /// The elimination takes more memory than the effort allows.
+    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
+    Large {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// Limit that was reached.
+        megabytes: u64,
+    },
     /// The system is a map.
     #[error("the case is a map, and a search needs a flow")]
     Discrete,
@@ -109,8 +126,10 @@ pub enum SearchError {
 impl SearchError {
     /// Whether the error concerns counts only, and not the rest of a search.
     fn is_of_count(&self) -> bool {
-        use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
-        matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+        use SearchError::{Large, Long, NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        let is_costly = matches!(self, Long { .. } | Large { .. });
+        is_costly
+            || matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
     }
 
     /// Suggests a remedy.

@@ -2,14 +2,14 @@
 
 use std::io::IsTerminal;
 
-use liouville::case::Case;
+use liouville::case::{Case, Column, is_labelled, labels, matches};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
 use super::files::Judge;
-use super::{Answer, Check, CheckFormat, colour, files, width};
+use super::{Answer, Check, CheckFormat, certificates, colour, files, width};
 
 /// Judge of cases, including the claims of absence, and those about motion where requested.
 fn judge(options: &Check) -> Judge {
@@ -24,12 +24,34 @@ fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError
 }
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let is_meant = |name: &str, source: &str| {
-        options.claims.is_empty()
-            || options.claims.iter().any(|wanted| is_meant(name, source, wanted))
+    let (claims, sources) = (&options.claims, &options.sources);
+    let is_everything = claims.is_empty() && sources.is_empty();
+    let is_named = |name: &str, source: &str| {
+        claims.is_empty() || claims.iter().any(|wanted| is_meant(name, source, wanted))
     };
-    // Other claims may matter to those that are meant, but motions take minutes and do not.
-    let prepare = |case: &mut Case| case.motions.retain(|own| is_meant(&own.name, &own.source));
+    // A label of the case is one of all its claims.
+    let is_from = |own: &str, case: &str, cell: Option<&str>, column: Option<&Column>| {
+        let labels = [labels(own, column, cell), labels(case, None, None)].concat();
+        let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
+        sources.is_empty() || sources.iter().any(is_wanted)
+    };
+    // Other claims of a case may matter to those that are meant, but motions take minutes and do not.
+    let prepare = |case: &mut Case| {
+        let (whole, column) = (case.source.clone(), case.column.clone());
+        let is_own = |name: &str, source: &str, cell: Option<&str>| {
+            is_named(name, source) && is_from(source, &whole, cell, column.as_ref())
+        };
+        case.motions.retain(|own| is_own(&own.name, &own.source, None));
+        let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let mut absences = case.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let is_meant = |(name, source, cell): (&String, &String, &Option<String>)| {
+            is_own(name, source, cell.as_deref())
+        };
+        if !claims.any(is_meant) && !absences.any(is_meant) {
+            case.claims.clear();
+            case.absences.clear();
+        }
+    };
     let mut run = files::judge(
         &options.paths,
         &read_settings(&options.settings)?,
@@ -38,12 +60,20 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         judge(options),
         options.sampling.threads,
     )?;
-    if !options.claims.is_empty() {
-        run.retain(|claim| is_meant(&claim.name, &claim.source));
+    if !is_everything {
+        run.retain(|heading, claim| {
+            let (cell, column) = (claim.cell.as_deref(), heading.column.as_ref());
+            is_named(&claim.name, &claim.source)
+                && is_from(&claim.source, &heading.source, cell, column)
+        });
         if run.claims().next().is_none() && run.summary().errors == 0 {
-            let wanted = options.claims.join("` or `");
+            let wanted = [claims.as_slice(), sources.as_slice()].concat().join("` or `");
             return Err(format!("error: no claim has a name or source like `{wanted}`"));
         }
+    }
+    if let Some(folder) = &options.certificate {
+        let told = certificates::write_all(folder, &run, options)?;
+        anstream::eprintln!("{told}");
     }
     let format = if options.json { CheckFormat::Json } else { options.format };
     let text = match format {
@@ -54,7 +84,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
             let detail = match (options.verbose, options.quiet) {
                 (true, _) => Detail::Evidence,
                 (_, true) => Detail::Summary,
-                _ if run.outcomes.len() == 1 || !options.claims.is_empty() => Detail::Claims,
+                _ if run.outcomes.len() == 1 || !is_everything => Detail::Claims,
                 _ => Detail::Cases,
             };
             let colour = colour(std::io::stdout().is_terminal());
@@ -72,54 +102,10 @@ pub fn run(options: &Check) -> Result<Answer, String> {
 }
 
 /// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.
-fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
+pub(super) fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
     let is_pattern = wanted.contains(['*', '?']);
     [name, source].into_iter().any(|text| match is_pattern {
         true => matches(wanted, text),
         false => text.contains(wanted),
     })
-}
-
-/// Whether a text matches a pattern, in which `*` stands for any characters and `?` for one.
-fn matches(pattern: &str, text: &str) -> bool {
-    let (pattern, text): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), text.chars().collect());
-    // The ends of the text that the pattern so far can match.
-    let mut ends = vec![false; text.len() + 1];
-    ends[0] = true;
-    for wanted in pattern {
-        if wanted == '*' {
-            let first = ends.iter().position(|end| *end).unwrap_or(ends.len());
-            ends.iter_mut().skip(first).for_each(|end| *end = true);
-        } else {
-            for end in (1..ends.len()).rev() {
-                ends[end] = ends[end - 1] && (wanted == '?' || wanted == text[end - 1]);
-            }
-            ends[0] = false;
-        }
-    }
-    ends.last() == Some(&true)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::matches;
-
-    #[test]
-    fn patterns_match_as_in_a_shell() {
-        for (pattern, text) in [
-            ("F2*", "F2 with I"),
-            ("*I", "F2 with I"),
-            ("F?", "F2"),
-            ("*", ""),
-            ("a*b*c", "aXbYbc"),
-        ] {
-            assert!(matches(pattern, text), "{pattern} {text}");
-        }
-        for (pattern, text) in
-            [("F2*", "aF2"), ("F?", "F"), ("?", ""), ("a*b", "abc"), ("", "a"), ("F?", "F22")]
-        {
-            assert!(!matches(pattern, text), "{pattern} {text}");
-        }
-    }
 }

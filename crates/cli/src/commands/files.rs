@@ -120,7 +120,7 @@ fn folder(path: &Path, files: &mut Vec<Found>) {
         let kind = std::fs::symlink_metadata(&entry).map(|metadata| metadata.file_type());
         if kind.as_ref().is_ok_and(|kind| kind.is_dir()) {
             folder(&entry, files);
-        } else if entry.extension().is_some_and(|extension| extension == "toml") {
+        } else if liouville::case::is_case_file(&entry) {
             files.push(Ok(entry));
         }
     }

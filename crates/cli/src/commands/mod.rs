@@ -1,10 +1,12 @@
 //! Commands and their options.
 
 pub mod cases;
+mod certificates;
 pub mod check;
 pub mod eval;
 pub mod explain;
 pub mod explore;
+pub mod export;
 mod files;
 pub mod names;
 pub mod new;
@@ -40,7 +42,9 @@ pub enum Command {
 Examples:
   liouville check body.toml -v
   liouville check cases/plane --claim F2
-  liouville check - < body.toml")]
+  liouville check --source '(3.19)' --source 'Table 1, row 4'
+  liouville check - < body.toml
+  liouville check body.toml --certificate proofs; python3 docs/certificates/check.py proofs/*")]
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     #[command(
@@ -55,6 +59,12 @@ Examples:
     /// Write a commented case to start from
     #[command(after_help = "Example:\n  liouville new field system.toml")]
     New(new::New),
+    /// Write the field, the level equations and the claims of a case as code in another language
+    #[command(after_help = "\
+Examples:
+  liouville export plane/balanced-ball --to python --claim F2 --out ball.py
+  liouville export system.toml --to sympy")]
+    Export(export::Export),
     /// List the names that formulas of a case may use
     #[command(after_help = "Example:\n  liouville names plane/balanced-ball")]
     Names(names::Names),
@@ -129,6 +139,10 @@ pub struct Check {
     /// `?`
     #[arg(long = "claim", value_name = "TEXT")]
     pub claims: Vec<String>,
+    /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a
+    /// table, or a pattern with `*` or `?`
+    #[arg(long = "source", value_name = "LABEL")]
+    pub sources: Vec<String>,
     /// Output format
     #[arg(long, value_enum, default_value_t = CheckFormat::Text, conflicts_with = "json")]
     pub format: CheckFormat,
@@ -138,6 +152,10 @@ pub struct Check {
     /// Perturb every true formula, and refute each mutant that is not equivalent
     #[arg(long)]
     pub mutants: bool,
+    /// Write a certificate of each proof by points of prime fields to this folder, for the checker
+    /// in docs/certificates
+    #[arg(long, value_name = "FOLDER")]
+    pub certificate: Option<PathBuf>,
     /// Also check claims about motion (slow: minutes for cases/figures)
     #[arg(long)]
     pub motion: bool,
@@ -250,6 +268,16 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Writes a file that an option names.
+fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    std::fs::write(path, bytes).map_err(|error| {
+        format!(
+            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
+            path.display()
+        )
+    })
 }
 
 /// Writes a file that must not exist yet.

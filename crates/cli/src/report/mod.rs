@@ -1,11 +1,14 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
 pub mod bench;
+pub mod certificate;
 pub mod chart;
 pub mod diagnostic;
 pub mod diagram;
 mod evidence;
 pub mod exponents;
+pub mod export;
+pub mod growth;
 pub mod json;
 pub mod orbit;
 pub mod picture;
@@ -23,6 +26,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use liouville::case::Column;
 use liouville::verdict::{CaseReport, ClaimReport, MutationReport, Verdict};
 
 /// Outcome for one file of a run.
@@ -65,7 +69,7 @@ pub struct Heading {
     /// Kind of the system.
     pub system: String,
     /// Table and column that the case belongs to.
-    pub column: Option<liouville::case::Column>,
+    pub column: Option<Column>,
     /// Notes of the author.
     pub notes: Vec<String>,
 }
@@ -149,11 +153,12 @@ impl RunReport {
     }
 
     /// Keeps some claims; cases without any are left out.
-    pub fn retain(&mut self, keep: impl Fn(&ClaimReport) -> bool) {
+    pub fn retain(&mut self, keep: impl Fn(&Heading, &ClaimReport) -> bool) {
         self.outcomes.retain_mut(|outcome| match &mut outcome.result {
             Err(_) => true,
             Ok(report) => {
-                report.claims.retain(&keep);
+                let heading = &outcome.heading;
+                report.claims.retain(|claim| keep(heading, claim));
                 !report.claims.is_empty()
             }
         });

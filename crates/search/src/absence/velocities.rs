@@ -142,7 +142,7 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     let seconds = seconds * multipliers::WEIGHTS.len() as f64;
     if seconds > effort.seconds {
         return Ok(Outcome::Open(format!(
-            "degree {most} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
+            "degree {most} has {unknowns} unknowns, and takes {seconds:.0} s and more: ask for a lower one"
         )));
     }
     let mut report = Report::default();
@@ -191,7 +191,7 @@ fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, 
 
 fn reasons(report: &Report, otherwise: &str) -> String {
     // `check` has no such options.
-    let remark = |text: &String| match text.split_once("; raise --seconds") {
+    let remark = |text: &String| match text.split_once("; raise --") {
         Some((reason, _)) => format!("{reason}: ask for a lower degree"),
         None => text.trim_end_matches("; give values with --set").to_string(),
     };

@@ -3,6 +3,7 @@
 mod bench;
 mod chart;
 mod exponents;
+mod growth;
 mod motion;
 mod orbit;
 mod periodic;
@@ -12,11 +13,9 @@ mod search;
 mod section;
 mod stress;
 
-use std::path::Path;
-
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, source, width};
+use super::{Answer, Sampling, colour, eval, files, source, width, write};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -31,7 +30,7 @@ pub enum Command {
         #[command(subcommand)]
         command: Motion,
     },
-    /// Measure the program: run time against error, numerical stability
+    /// Measure the program: run time against error, numerical stability, growth
     Measure {
         #[command(subcommand)]
         command: Measure,
@@ -71,6 +70,9 @@ pub enum Measure {
     /// Sweep numerically hard cases: digits lost, and verdicts that must stay right
     #[command(after_help = "Example:\n  liouville measure stress --svg stress.svg")]
     Stress(stress::Stress),
+    /// Judge families of cases of growing size: time, memory, and the exponents of growth
+    #[command(after_help = "Example:\n  liouville measure growth chain toda --within 10")]
+    Growth(growth::Growth),
 }
 
 /// The same commands under their names of version 0.1.
@@ -111,16 +113,7 @@ impl Measure {
         match self {
             Self::Bench(options) => bench::run(options),
             Self::Stress(options) => stress::run(options),
+            Self::Growth(options) => growth::run(options),
         }
     }
-}
-
-/// Writes a file requested by an option.
-fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
-            path.display()
-        )
-    })
 }

@@ -56,10 +56,11 @@ pub struct Search {
     /// or for a given one: --poisson, --poisson=H
     #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub poisson: Option<String>,
-    /// Skip an ansatz whose matrix needs more memory than this, in megabytes
+    /// End a count that needs more memory than this, in megabytes, and skip an ansatz that may
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,
-    /// Skip a count or an ansatz that may take longer than this, in seconds
+    /// End a count that takes longer than this, in seconds of an average machine, and skip an ansatz
+    /// that may
     #[arg(long, default_value_t = 60.0)]
     pub seconds: f64,
     /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own
@@ -109,7 +110,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     };
     if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
         let liouville_search::Plan { unknowns, seconds, megabytes } = plan;
-        eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
+        eprintln!("up to {unknowns} unknowns: at least {seconds:.0} s, and at most {megabytes} MB");
     }
     // A second Ctrl-C exits immediately.
     let switch = effort.halt.switch();
