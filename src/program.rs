@@ -1,5 +1,5 @@
 //! Straight-line programs of a case: the field, the level equations and the claims over named
-//! inputs, for use outside of the verifier.
+//! inputs, for use outside the verifier.
 
 use crate::case::Case;
 use crate::formula::{Formula, Type};
@@ -15,7 +15,7 @@ pub struct Program {
     pub inputs: Vec<Input>,
     /// Functions of the inputs.
     pub functions: Vec<Function>,
-    /// Named values that the functions may pass through, component by component.
+    /// Named intermediate values of the functions, component by component.
     pub named: Vec<Named>,
 }
 
@@ -127,8 +127,8 @@ impl Program {
     }
 }
 
-/// Records the parameters that are formulas, and the abbreviations and quantities that some formulas
-/// name.
+/// Records the parameters that are formulas, and the abbreviations and quantities named in some
+/// formulas.
 fn named<'f>(
     phase: &Phase<'_, Expr>,
     formulas: impl IntoIterator<Item = &'f Formula>,

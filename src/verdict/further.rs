@@ -1,5 +1,5 @@
-//! Further states, for claims on which nothing else has decided: blocks of them are passed, and only
-//! one that seems to refute a claim is looked at closely.
+//! Further states, for claims that are still undecided: blocks of states are evaluated, and only a
+//! block that seems to refute a claim is examined closely.
 
 use std::ops::Range;
 
@@ -49,8 +49,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Adds what blocks of states show to the evidence; where a claim seems to be refuted its block
-    /// is looked at closely.
+    /// Adds the results of blocks of states to the evidence; a block that seems to refute a claim is
+    /// examined closely.
     fn weigh_passed(
         &self,
         sampler: &Sampler,

@@ -1,5 +1,5 @@
-//! What a block of states shows of claims that hold there: no values are kept, and no allocation is
-//! made for a state.
+//! Results of a claim at a block of states, without values of single states and without allocation
+//! for each state.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
@@ -24,7 +24,7 @@ pub struct Passed {
     pub excludes_zero: bool,
 }
 
-/// What some blocks show together.
+/// Combined results of several blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Total {
     /// Sum over the blocks.
@@ -43,7 +43,7 @@ impl Total {
     }
 }
 
-/// Looks at the values of all claims at one block of states.
+/// Examines the values of all claims at one block of states.
 pub fn passed(
     states: &[&Balls<LANES>],
     evaluator: &Evaluator<'_, Doubles>,
@@ -61,7 +61,7 @@ struct Pass<'p, 't> {
     found: &'p mut [Passed],
 }
 
-/// By lane 0 where all values so far are finite, and NaN elsewhere.
+/// For each lane, 0 if all values so far are finite, and NaN otherwise.
 type Traces = [f64; LANES];
 
 impl Work for Pass<'_, '_> {
@@ -81,7 +81,7 @@ impl Work for Pass<'_, '_> {
             for index in span.residual.clone() {
                 let Balls { mid, rad } = evaluator.output(index);
                 for lane in 0..LANES {
-                    // NaN where the state does not count, which no maximum takes.
+                    // NaN if the state does not count; maxima ignore it.
                     let mid = mid[lane].abs() + traces[lane];
                     let ratio = mid / rad[lane];
                     let ratio = if mid == 0.0 { 0.0 } else { ratio };

@@ -1,5 +1,5 @@
 //! Statements behind proofs in prime fields, as programs over the draws of states: for certificates
-//! that are checked outside of the tool.
+//! that are checked outside the program.
 
 use super::JudgeError;
 use super::field::combinations;
@@ -34,7 +34,7 @@ pub struct Composed {
     pub residual: Vec<Expr>,
     /// Values that vanish if each ∫ of the claim is a function of its variable.
     pub quadratures: Vec<Expr>,
-    /// Level functions at the place of the claim.
+    /// Level functions on the domain of the claim.
     pub level: Vec<Expr>,
     /// Rates of the level functions along the motion, or their values at the image of a map.
     pub level_rates: Vec<Expr>,
