@@ -137,7 +137,7 @@ pub fn survey(
     progress("further integrals");
     let mut search = Unknown::of(case, options, progress);
     all.append(&mut search.findings);
-    progress("what follows");
+    progress("classification");
     let mut sorted = Sorted::of(all);
     let candidates: Vec<&Finding> = sorted.integrals.iter().collect();
     let independent =
