@@ -98,7 +98,7 @@ pub struct Graph {
     inputs: u32,
     antiderivatives: FxHashMap<(NodeId, NodeId), u32>,
     fault: Option<Fault>,
-    sweeps: derive::Sweeps,
+    sweeps: Box<derive::Sweeps>,
 }
 
 impl Graph {
@@ -115,7 +115,7 @@ impl Graph {
             inputs: 0,
             antiderivatives: FxHashMap::default(),
             fault: None,
-            sweeps: derive::Sweeps::default(),
+            sweeps: Box::default(),
         };
         for value in [0, 1] {
             graph.constant(Rational::from(value));
