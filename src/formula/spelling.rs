@@ -5,16 +5,16 @@ const LONGEST: usize = 40;
 
 /// Known name nearest to `name` by edit distance; `None` when nothing is near.
 ///
-/// Near means one edit for up to five letters, two beyond, and for a single letter only the
-/// other case, since any two letters are one edit apart.
+/// Near means one edit for up to five letters, two beyond, and for one or two letters only the
+/// other case, since any two letters are one edit apart. Primes are no letters.
 pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() > LONGEST {
         return None;
     }
-    let allowed = match letters.len() {
-        0 | 1 => 0,
-        2..=5 => 1,
+    let allowed = match name.trim_end_matches('\'').chars().count() {
+        0..=2 => 0,
+        3..=5 => 1,
         _ => 2,
     };
     among
