@@ -3,46 +3,40 @@
 use std::io::IsTerminal;
 
 use liouville::case::Case;
-use liouville::verdict::{CaseReport, JudgeError, Options};
+use liouville::verdict::Options;
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
-use super::files::Judge;
-use super::{Answer, Check, CheckFormat, colour, files, width};
-
-/// Judge of cases, including the claims of absence, and those about motion where requested.
-fn judge(options: &Check) -> Judge {
-    if options.motion { with_motions } else { liouville_search::judge }
-}
-
-fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
-    let mut report = liouville_search::judge(case, options)?;
-    report.claims.extend(liouville_flow::observe::observe(case, options));
-    report.motions_left = 0;
-    Ok(report)
-}
+use super::judging::{Work, judge};
+use super::{Answer, Check, CheckFormat, colour, width};
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let is_meant = |name: &str, source: &str| {
-        options.claims.is_empty()
-            || options.claims.iter().any(|wanted| is_meant(name, source, wanted))
+    let wanted = options.claims.clone();
+    let is_wanted = move |name: &str, source: &str| {
+        wanted.is_empty() || wanted.iter().any(|wanted| is_meant(name, source, wanted))
     };
     // Other claims may matter to those that are meant, but motions take minutes and do not.
-    let prepare = |case: &mut Case| case.motions.retain(|own| is_meant(&own.name, &own.source));
-    let mut run = files::judge(
-        &options.paths,
-        &read_settings(&options.settings)?,
-        &prepare,
-        &Options { mutants: options.mutants, ..options.sampling.options() },
-        judge(options),
-        options.sampling.threads,
-    )?;
+    let of_motion = is_wanted.clone();
+    let prepare =
+        move |case: &mut Case| case.motions.retain(|own| of_motion(&own.name, &own.source));
+    let mut run = judge(Work {
+        paths: options.paths.clone(),
+        settings: read_settings(&options.settings)?,
+        prepare: Box::new(prepare),
+        options: Options { mutants: options.mutants, ..options.sampling.options() },
+        motions: options.motion,
+        threads: options.sampling.threads,
+        limits: options.limits,
+    })?;
     if !options.claims.is_empty() {
-        run.retain(|claim| is_meant(&claim.name, &claim.source));
+        run.retain(|claim| is_wanted(&claim.name, &claim.source));
         if run.claims().next().is_none() && run.summary().errors == 0 {
             let wanted = options.claims.join("` or `");
-            return Err(format!("error: no claim has a name or source like `{wanted}`"));
+            return Err(format!(
+                "error: no claim has a name or source like `{wanted}`\n\
+                 help: `liouville check -v` shows the names"
+            ));
         }
     }
     let format = if options.json { CheckFormat::Json } else { options.format };

@@ -66,10 +66,11 @@ fn case(outcome: &Outcome, style: Style) -> String {
         out.push_str(&format!(" — {}", heading.source));
     }
     out.push('\n');
-    for warning in &report.warnings {
-        out.push_str(&format!("  warning: {warning}\n"));
-    }
+    out.push_str(&remarks(report));
     if style.detail == Detail::Evidence {
+        if let Some(digest) = &heading.digest {
+            out.push_str(&format!("  digest: {digest}\n"));
+        }
         for note in &heading.notes {
             out.push_str(&format!("  note: {note}\n"));
         }
@@ -83,6 +84,28 @@ fn case(outcome: &Outcome, style: Style) -> String {
         out.push_str(&theorems(report));
     }
     out
+}
+
+/// Prints warnings and remarks.
+fn remarks(report: &CaseReport) -> String {
+    let warnings = report.warnings.iter().map(|text| format!("  warning: {text}\n"));
+    let remarks = report.remarks.iter().map(|text| format!("  remark: {text}\n"));
+    warnings.chain(remarks).collect()
+}
+
+/// Longest name of a claim in a table; the middle of a longer one is left out.
+const LONGEST_NAME: usize = 400;
+
+/// Name of a claim, short enough for a table.
+fn short(name: &str) -> String {
+    match name.chars().count() {
+        count if count > LONGEST_NAME => {
+            let start: String = name.chars().take(LONGEST_NAME / 2).collect();
+            let end: String = name.chars().skip(count - LONGEST_NAME / 4).collect();
+            format!("{start} … {end}")
+        }
+        _ => name.to_string(),
+    }
 }
 
 /// Prints the theorems of claims of absence, for which no table has room.
@@ -118,9 +141,7 @@ fn line(outcome: &Outcome, style: Style) -> String {
         out.push_str(&format!("{}: {counts}\n", outcome.path));
     }
     if style.detail != Detail::Summary {
-        for warning in &report.warnings {
-            out.push_str(&format!("  warning: {warning}\n"));
-        }
+        out.push_str(&remarks(report));
     }
     if !shown.is_empty() {
         out.push_str(&claims(&shown, style));
@@ -130,7 +151,7 @@ fn line(outcome: &Outcome, style: Style) -> String {
 }
 
 /// Remark on a case without claims.
-const NO_CLAIMS: &str = "no claims; `liouville report` lists the invariants of a system";
+const NO_CLAIMS: &str = "no claims";
 
 fn claims(claims: &[&ClaimReport], style: Style) -> String {
     if claims.is_empty() {
@@ -164,7 +185,7 @@ fn claims(claims: &[&ClaimReport], style: Style) -> String {
             verdict,
             Cell::new(expected),
             Cell::new(claim.kind),
-            Cell::new(&claim.name),
+            Cell::new(short(&claim.name)),
             Cell::new(remark(claim)),
             Cell::new(&claim.source),
         ]);
@@ -278,6 +299,9 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if summary.unreached > 0 {
+        line.push_str(&format!("; {} not reached", count(summary.unreached, "claim")));
     }
     if summary.motions_left > 0 {
         let left = count(summary.motions_left, "claim");

@@ -12,11 +12,10 @@ mod search;
 mod section;
 mod stress;
 
-use std::path::Path;
-
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, source, width};
+use super::out::{self, write};
+use super::{Answer, Limits, Sampling, colour, eval, files, source, width};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -94,7 +93,31 @@ impl Command {
     }
 }
 
+impl Command {
+    /// Limits of a command that has nothing to show before its end; a search has its own.
+    pub fn limits(&self) -> Limits {
+        match self {
+            Self::Report(options) => options.limits,
+            Self::Motion { command } => command.limits(),
+            Self::Former(Former::Motion(command)) => command.limits(),
+            Self::Search(_) | Self::Measure { .. } | Self::Former(Former::Measure(_)) => {
+                Limits::default()
+            }
+        }
+    }
+}
+
 impl Motion {
+    fn limits(&self) -> Limits {
+        match self {
+            Self::Orbit(options) => options.subject.limits,
+            Self::Section(options) => options.subject.limits,
+            Self::Exponents(options) => options.subject.limits,
+            Self::Chart(options) => options.subject.limits,
+            Self::Periodic(options) => options.subject.limits,
+        }
+    }
+
     fn run(&self) -> Result<Answer, String> {
         match self {
             Self::Orbit(options) => orbit::run(options),
@@ -113,14 +136,4 @@ impl Measure {
             Self::Stress(options) => stress::run(options),
         }
     }
-}
-
-/// Writes a file requested by an option.
-fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
-            path.display()
-        )
-    })
 }
