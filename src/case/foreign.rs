@@ -58,7 +58,7 @@ mod tests {
             assert_eq!(written(text).as_deref(), Some("write \"1..3\""), "{text}");
         }
         assert_eq!(written("1...3").as_deref(), Some("write \"1..3\""));
-        assert_eq!(written("1 ± 1/2").as_deref(), Some("write \"1/2..3/2\""));
+        assert_eq!(written("1 ± 1/2").as_deref(), Some("write \"0.5..1.5\""));
         assert_eq!(written("0,5..2").as_deref(), Some("write \"0.5..2\""));
         assert_eq!(written("0,5").as_deref(), Some("write 0.5, or a list [0, 5]"));
         assert_eq!(written("1..").as_deref(), Some("write \"0.5..2\""));

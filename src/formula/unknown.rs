@@ -100,11 +100,7 @@ impl Parser<'_> {
         let guess = [name, &canonical].into_iter().find_map(|name| nearest(name, all()));
         let guess = guess.map(str::to_string).or_else(|| greek(name).filter(|name| known(name)));
         if let Some(guess) = guess {
-            let others = match canonical.chars().count() {
-                1 => listed(names).map_or(String::new(), |names| format!(" {}", begun(&names))),
-                _ => String::new(),
-            };
-            return Some(format!("did you mean `{guess}`?{others}"));
+            return Some(format!("did you mean `{guess}`?"));
         }
         if let ("e1" | "e2" | "e3", false) = (name, called) {
             let axis =
@@ -134,13 +130,6 @@ fn listed(names: Vec<String>) -> Option<String> {
 
 /// How names are added.
 const OWN: &str = "others are declared in [parameters] or [let]";
-
-/// A sentence with a capital.
-fn begun(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().collect::<String>());
-    first.unwrap_or_default() + letters.as_str()
-}
 
 /// Greek letter whose English name is misspelled at the start of a name, with what follows it.
 fn greek(name: &str) -> Option<String> {

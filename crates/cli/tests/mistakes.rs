@@ -118,7 +118,15 @@ fn compare(name: &str) {
     fs::write(folder.join("flow.toml"), base("plane")).expect("a scratch file");
     let found: Vec<String> = group(name).iter().map(|input| printed(input, &folder)).collect();
     for text in found.iter().filter(|text| text.contains("\n[2]\n")) {
-        let helps = ["help: ", "tip: ", "Usage: ", "possible values: ", " is not in ", ": write "];
+        let helps = [
+            "help: ",
+            "tip: ",
+            "Usage: ",
+            "possible values: ",
+            " is not in ",
+            ": write ",
+            "is required",
+        ];
         assert!(helps.iter().any(|help| text.contains(help)), "no remedy:\n{text}");
     }
     let found = found.join("\n");

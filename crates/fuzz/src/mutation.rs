@@ -157,7 +157,8 @@ impl Corpus {
         let keys = ["integral", "density", "identity", "rate", "lyapunov", "independent"];
         let key = random.of(&keys).copied().unwrap_or("integral");
         let quoted = formula.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', " ");
-        format!("{head}[[claim]]\n{key} = \"{quoted}\"\nequals = \"0\"\n")
+        let equals = if matches!(key, "rate" | "lyapunov") { "equals = \"0\"\n" } else { "" };
+        format!("{head}[[claim]]\n{key} = \"{quoted}\"\n{equals}")
     }
 
     fn mutated(&self, mut text: String, random: &mut Random) -> String {

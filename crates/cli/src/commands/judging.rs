@@ -168,15 +168,21 @@ fn read(slot: &Mutex<Slot>, work: &Work) {
         return;
     }
     let shown = path.display().to_string();
-    let found = catch_unwind(AssertUnwindSafe(|| source::read(&path, &work.settings)));
+    let prepared = |mut case: Case| {
+        (work.prepare)(&mut case);
+        case
+    };
+    let found = catch_unwind(AssertUnwindSafe(|| {
+        let (text, case) = source::read(&path, &work.settings);
+        (text, case.map(prepared))
+    }));
     let mut slot = locked(slot);
     match found {
         Err(panic) => slot.result = Some(Err(vec![fault(&path, panic.as_ref())])),
         Ok((text, Err(error))) => {
             slot.result = Some(Err(diagnostic::of_case(&shown, &text, &error, coloured())));
         }
-        Ok((text, Ok(mut case))) => {
-            (work.prepare)(&mut case);
+        Ok((text, Ok(case))) => {
             slot.heading = Heading {
                 title: case.title.clone(),
                 source: case.source.clone(),
@@ -275,4 +281,29 @@ fn fault(path: &Path, panic: &(dyn Any + Send)) -> Failure {
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
     let message = format!("the program failed on this file: {text}");
     plain(path, &message, "this is a fault of the program: please report it with the file")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_on_one_file_leaves_the_others() {
+        let work = Work {
+            paths: vec!["plane/balanced-ball".into(), "plane/disk".into()],
+            settings: Vec::new(),
+            prepare: Box::new(|case| assert!(!case.title.contains("Disk"), "a fault")),
+            options: Options::default(),
+            motions: false,
+            threads: Some(2),
+            limits: Limits::default(),
+        };
+        let run = judge(work).expect("a report");
+        let failed = |outcome: &&Outcome| outcome.result.is_err();
+        let faults: Vec<&Outcome> = run.outcomes.iter().filter(failed).collect();
+        assert_eq!((run.outcomes.len(), faults.len()), (2, 1));
+        let failures = faults[0].result.as_ref().expect_err("a failure");
+        assert!(failures[0].message.contains("the program failed on this file: a fault"));
+        assert_eq!(run.exit_code(), 2);
+    }
 }

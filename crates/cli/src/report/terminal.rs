@@ -76,7 +76,7 @@ fn case(outcome: &Outcome, style: Style) -> String {
         }
     }
     let all: Vec<&ClaimReport> = report.claims.iter().collect();
-    out.push_str(&claims(&all, style));
+    out.push_str(&claims(&all, &outcome.unreached, style));
     out.push('\n');
     if style.detail == Detail::Evidence {
         out.push_str(&details(&outcome.path, report));
@@ -144,7 +144,7 @@ fn line(outcome: &Outcome, style: Style) -> String {
         out.push_str(&remarks(report));
     }
     if !shown.is_empty() {
-        out.push_str(&claims(&shown, style));
+        out.push_str(&claims(&shown, &outcome.unreached, style));
         out.push('\n');
     }
     out
@@ -153,7 +153,7 @@ fn line(outcome: &Outcome, style: Style) -> String {
 /// Remark on a case without claims.
 const NO_CLAIMS: &str = "no claims";
 
-fn claims(claims: &[&ClaimReport], style: Style) -> String {
+fn claims(claims: &[&ClaimReport], unreached: &[String], style: Style) -> String {
     if claims.is_empty() {
         return format!("      {NO_CLAIMS}");
     }
@@ -167,17 +167,19 @@ fn claims(claims: &[&ClaimReport], style: Style) -> String {
         table.force_no_tty();
     }
     for claim in claims {
-        let mark = if claim.agrees { " " } else { "✗" };
+        let is_reached = !unreached.contains(&claim.name);
+        let agrees = claim.agrees || !is_reached;
+        let mark = if agrees { " " } else { "✗" };
         let mut verdict = Cell::new(format!("{mark} {}", claim.verdict.word()));
         if style.colour {
-            verdict = verdict.fg(match (claim.agrees, claim.verdict) {
+            verdict = verdict.fg(match (agrees, claim.verdict) {
                 (false, _) => Color::Red,
                 (true, Verdict::Undecided) => Color::Yellow,
                 (true, _) => Color::Green,
             });
         }
         let expected = match claim.expect {
-            expect if expect == Expect::Open || claim.agrees => expect.word().to_string(),
+            expect if expect == Expect::Open || agrees => expect.word().to_string(),
             expect => format!("expected: {}", expect.word()),
         };
         table.add_row(vec![

@@ -139,3 +139,25 @@ fn remarks_are_told_in_text_and_in_json() {
     let report = json(&["check", "--json", path], 0);
     assert_eq!(report["cases"][0]["remarks"][0], remark);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_there_is() {
+    use std::process::{Command, Stdio};
+    let path = folder("interrupt", &[("a-good.toml", GOOD), ("b-long.toml", LONG)]);
+    for signal in ["-INT", "-TERM"] {
+        let child = Command::new(env!("CARGO_BIN_EXE_liouville"))
+            .args(["check", path.to_str().expect("UTF-8"), "-v"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("it runs");
+        std::thread::sleep(Duration::from_secs(2));
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(sent.is_ok_and(|status| status.success()), "the signal is sent");
+        let output = child.wait_with_output().expect("it ends");
+        let told = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{told}");
+        assert!(told.contains("not reached: stopped by a signal"), "{told}");
+        assert!(told.contains("proved   holds     integral  F2"), "{told}");
+    }
+}

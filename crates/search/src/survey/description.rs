@@ -187,9 +187,9 @@ mod tests {
                     potential = 'm*a_g*h'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.functions, ["h(γ) = R*|γ| + (c,γ)", "U(γ) = m*a_g*h"]);
-        assert_eq!(own.parameters[0], "m in 1/2..2");
+        assert_eq!(own.parameters[0], "m in 0.5..2");
         assert!(own.parameters.contains(&"a_g in one of 1, 2".to_string()), "{own:?}");
-        assert!(own.parameters.contains(&"I in inertia(1/2..5)".to_string()), "{own:?}");
+        assert!(own.parameters.contains(&"I in inertia(0.5..5)".to_string()), "{own:?}");
         assert_eq!(own.equations[0], "Ĩω' = Ĩω×ω − m r×(ω×r') + M_P + λγ");
         assert!(own.equations.contains(&"level: |γ| = 1".to_string()), "{own:?}");
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
