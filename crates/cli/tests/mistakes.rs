@@ -126,6 +126,7 @@ fn compare(name: &str) {
             " is not in ",
             ": write ",
             "is required",
+            ", such as ",
         ];
         assert!(helps.iter().any(|help| text.contains(help)), "no remedy:\n{text}");
     }

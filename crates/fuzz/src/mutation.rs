@@ -162,6 +162,12 @@ impl Corpus {
     }
 
     fn mutated(&self, mut text: String, random: &mut Random) -> String {
+        if random.below(2) == 0 {
+            for _ in 0..=random.below(3) {
+                text = gentle(&text, random);
+            }
+            return text;
+        }
         for _ in 0..=random.below(6) {
             let at = boundary(&text, random.below(text.len() + 1));
             match random.below(8) {
@@ -201,6 +207,24 @@ impl Corpus {
         }
         text
     }
+}
+
+/// Words that may take the place of each other without the loss of all sense.
+const WORDS: [&str; 22] = [
+    "x", "y", "M", "M1", "γ", "γ3", "ω", "ω1", "m", "R", "I", "J", "A", "k", "energy", "0", "1",
+    "2", "7", "1000000", "n", "t",
+];
+
+/// Replaces a name or a number by another.
+fn gentle(text: &str, random: &mut Random) -> String {
+    let at = boundary(text, random.below(text.len() + 1));
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let Some(start) = text[at..].find(is_word).map(|offset| at + offset) else {
+        return text.to_string();
+    };
+    let end = text[start..].find(|c| !is_word(c)).map_or(text.len(), |offset| start + offset);
+    let word = random.of(&WORDS).copied().unwrap_or_default();
+    format!("{}{word}{}", &text[..start], &text[end..])
 }
 
 fn gather(folder: &PathBuf, files: &mut Vec<String>) -> io::Result<()> {
