@@ -124,7 +124,7 @@ fn compare(name: &str) {
             "Usage: ",
             "possible values: ",
             " is not in ",
-            ": write ",
+            "write ",
             "is required",
             ", such as ",
         ];
