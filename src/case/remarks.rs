@@ -145,7 +145,7 @@ fn of_components(model: &Model) -> Vec<String> {
 fn differences(root: &Section<'_>) -> Vec<String> {
     let mut all = Vec::new();
     for table in ["parameters", "state"] {
-        let entries = root.table(if table == "state" { "state" } else { "parameters" });
+        let entries = root.table(table);
         for (key, value) in entries.map(|section| section.entries()).unwrap_or_default() {
             let DeValue::String(text) = value.get_ref() else { continue };
             let Some((low, high)) = text.trim().split_once(['-', '−']) else { continue };

@@ -1,6 +1,6 @@
 //! Mutations of texts: bytes, tokens, lines, and pieces of other files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Tokens that formulas and case files are made of, and some that they are not.
@@ -227,7 +227,7 @@ fn gentle(text: &str, random: &mut Random) -> String {
     format!("{}{word}{}", &text[..start], &text[end..])
 }
 
-fn gather(folder: &PathBuf, files: &mut Vec<String>) -> io::Result<()> {
+fn gather(folder: &Path, files: &mut Vec<String>) -> io::Result<()> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)?
         .map(|entry| entry.map(|entry| entry.path()))
         .collect::<Result<_, _>>()?;

@@ -146,13 +146,14 @@ fn memory() -> Option<u64> {
 mod tests {
     use super::*;
 
+    fn forever() {
+        loop {
+            std::thread::sleep(GLANCE);
+        }
+    }
+
     #[test]
     fn work_beyond_a_limit_is_left() {
-        let forever = || -> () {
-            loop {
-                std::thread::sleep(GLANCE);
-            }
-        };
         let limits = Limits { within: Some(Duration::from_millis(50)), megabytes: None };
         let stop = limits.run(forever).expect_err("stopped");
         assert_eq!(stop.to_string(), "stopped after 0.05 s");
