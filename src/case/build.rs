@@ -13,8 +13,8 @@ use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
-    homogeneous, lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities,
-    weights,
+    homogeneous, lists, map, one_sided, poincare, remarks, shadows, toml_errors, variables,
+    velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -176,6 +176,8 @@ fn read(
     let alike = parts.alike.iter().cloned();
     let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
     let Parts { model, chart, free_draws, .. } = parts;
+    let is_without_claims = claims.is_empty() && motions.is_empty() && absences.is_empty();
+    let remarks = remarks::remarks(root, &system, &model, &claims, is_without_claims);
     Some(Case {
         title: title?.value,
         source,
@@ -191,6 +193,7 @@ fn read(
         one_sided,
         notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
+        remarks,
     })
 }
 

@@ -15,6 +15,15 @@ const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 /// Keys common to all claims about motion.
 const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
 
+/// Keys of a claim: each statement, with the keys that may stand beside it.
+pub fn claim_keys() -> Vec<(&'static str, Vec<&'static str>)> {
+    let stated = STATEMENTS.iter().map(|key| (*key, [&COMMON, Kind::companions(key)].concat()));
+    let motions = MOTIONS.iter();
+    let motions = motions.map(|key| (*key, [&COMMON_OF_MOTIONS, Motion::companions(key)].concat()));
+    let absences = ABSENCES.iter().map(|key| (*key, COMMON.to_vec()));
+    stated.chain(motions).chain(absences).collect()
+}
+
 /// Whether this is a claim about motion.
 pub fn is_about_motion(section: &Section<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())

@@ -67,7 +67,10 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         Unreadable::Message(message, remedy) => (message, remedy.to_string()),
         Unreadable::Unknown(_) => {
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
-            let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
+            let remedy = match names.as_slice() {
+                [] => "declare the variable in [state] first".to_string(),
+                _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
+            };
             (format!("`{}` is not the rate of a state variable", excerpt(key)), remedy)
         }
     };
@@ -210,10 +213,9 @@ fn equation(
     let Some((left, right, second)) = sides(&text.value) else {
         let message = format!("each of `{key}` has two sides");
         let remedy = match key {
-            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"",
-            _ => "write \"(γ,γ) = 1\"",
+            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"".to_string(),
+            _ => format!("write \"{} = 1\", or another value", excerpt(text.value.trim())),
         };
-        let remedy = remedy.to_string();
         return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     };
     for (side, start) in [(left, 0), (right, second)] {

@@ -16,6 +16,7 @@ mod error;
 mod family;
 mod feedback;
 mod field;
+mod foreign;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
@@ -30,6 +31,7 @@ mod one_sided;
 mod order;
 mod parameters;
 mod poincare;
+mod remarks;
 mod section;
 mod shadows;
 mod shapes;
@@ -53,7 +55,9 @@ use crate::mechanics::{Chart, Draw, Model};
 
 pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
+pub use claims::claim_keys;
 pub use error::{CaseError, Mistake, Problem};
+pub use kinds::SYSTEM_NAMES;
 pub use labels::{is_labelled, labels, matches};
 pub use lines::Line;
 pub use one_sided::OneSided;
@@ -107,6 +111,8 @@ pub struct Case {
     pub notes: Vec<String>,
     /// Warnings about statements that may be unintended.
     pub warnings: Vec<String>,
+    /// Remarks on what the file may say by mistake, such as parameters without use.
+    pub remarks: Vec<String>,
 }
 
 /// A column of one of the paper's tables.

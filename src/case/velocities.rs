@@ -22,6 +22,15 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> 
         let problem = Problem::Sense { message, remedy: remedy.to_string() };
         return Err(Mistake::new(place_of_rate(root, name), problem));
     }
+    if let Some(index) = nonlinear.still.first() {
+        let text = model.level.get(*index).map_or("", |equation| equation.text.as_str());
+        let span = root.find(text).map(|start| start..start + text.len());
+        let message = "this constraint contains no velocity".to_string();
+        let remedy = "write its derivative, such as x*x' + y*y' = 0 for x² + y² = 1, or choose \
+                      coordinates that satisfy it";
+        let problem = Problem::Sense { message, remedy: remedy.to_string() };
+        return Err(Mistake::new(span, problem));
+    }
     let warning = |index: &usize| {
         format!(
             "the constraint `{}` is not linear in the velocities: its reaction is taken by Chetaev's \
@@ -39,6 +48,8 @@ struct Nonlinear {
     rates: Vec<usize>,
     /// Nonholonomic constraints, by their numbers.
     constraints: Vec<usize>,
+    /// Nonholonomic constraints without velocities, by their numbers.
+    still: Vec<usize>,
 }
 
 impl Nonlinear {
@@ -82,7 +93,16 @@ impl Nonlinear {
         let constraints = (0..lagrangian.constraints.len())
             .filter(|k| !lagrangian.vakonomic && slopes.iter().any(|(_, all)| bends(all[*k])))
             .collect();
-        Self { rates, constraints }
+        let is_still = |k: &usize| {
+            slopes
+                .iter()
+                .all(|(_, all)| graph.constant_value(all[*k]).is_some_and(|value| value.is_zero()))
+        };
+        let still = match lagrangian.vakonomic || slopes.is_empty() {
+            true => Vec::new(),
+            false => (0..lagrangian.constraints.len()).filter(is_still).collect(),
+        };
+        Self { rates, constraints, still }
     }
 }
 

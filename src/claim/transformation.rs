@@ -111,7 +111,10 @@ impl Transformation {
 
 fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     let message = format!("`{name}` is neither a state variable nor a parameter");
-    from.complaint(key, message, "name state variables, and parameters if they change")
+    let names: Vec<&str> = from.model().state.iter().map(|own| own.name.as_str()).collect();
+    let remedy =
+        format!("the state variables are {}; parameters may change, too", names.join(", "));
+    from.complaint(key, message, &remedy)
 }
 
 /// Whether a scalar formula is recorded as 0.

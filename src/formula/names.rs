@@ -109,6 +109,11 @@ const ALIKE: [(char, &str); 44] = [
     ('ψ', "ѱ"),
 ];
 
+/// English names of the Greek letters.
+pub(super) fn spelled_names() -> impl Iterator<Item = &'static str> {
+    SPELLED.iter().map(|(name, _)| *name)
+}
+
 /// Canonical form of an identifier; `None` if the text is not one.
 ///
 /// Spelled-out Greek becomes letters; look-alike letters, primes and subscript digits become one; a

@@ -52,6 +52,8 @@ pub struct CaseReport {
     pub claims: Vec<ClaimReport>,
     /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
+    /// Remarks on what the file may say by mistake.
+    pub remarks: Vec<String>,
     /// Results of the mutants, if requested.
     pub mutants: Option<MutationReport>,
     /// Number of claims about motion that were left out.
@@ -147,8 +149,8 @@ impl JudgeError {
                  ranges of [state]"
             }
             JudgeError::Singular(_) => {
-                "look for a division by zero, the root of a negative number, or a singular inertia \
-                 tensor in [parameters]"
+                "look for a division by zero, the root of a negative number, a singular inertia \
+                 tensor, or a kinetic energy that leaves out a velocity"
             }
             JudgeError::Discrete => {
                 "claim the invariants of a map, and let `liouville check` judge them"
@@ -221,5 +223,6 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
-    Ok(CaseReport { claims, warnings, mutants, motions_left, absences_left })
+    let remarks = case.remarks.clone();
+    Ok(CaseReport { claims, warnings, remarks, mutants, motions_left, absences_left })
 }

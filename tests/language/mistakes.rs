@@ -44,15 +44,16 @@ fn first_errors_say_what_to_write() {
     let help: Vec<&str> = told.iter().map(|(_, _, help)| help.as_str()).collect();
     let quoted = [
         "quote both: \"x'\" = \"y\"",
-        "quote the formula: x = \"-2..2\"",
-        "quote the formula: integral = \"energy\"",
+        "quote the value: x = \"-2..2\"",
+        "quote the value: integral = \"energy\"",
     ];
     assert_eq!(help, quoted, "{told:#?}");
     let claim = |text: &str| {
         let head = "title = 't'\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n[[claim]]\n";
         error(&format!("{head}{text}\n")).remove(0)
     };
-    assert_eq!(claim("integral = 'w*x'").2, "the names here are x, x'");
+    let names = "the names here are x, x'; others are declared in [parameters] or [let]";
+    assert_eq!(claim("integral = 'w*x'").2, names);
     assert_eq!(claim("integral = 'xdot'").2, "the rate of `x` is written `x'`");
     assert_eq!(claim("integral = 'cot(x)'").2, "write `1/tan(x)`");
     let place = claim("integral = 'x'\nwhere = 'x = 0'").2;

@@ -1,5 +1,7 @@
 //! The program from the user's side: commands, exit codes, JSON, wrong input.
 
+#[path = "cli/limits.rs"]
+mod limits;
 #[path = "cli/motion.rs"]
 mod motion;
 #[path = "cli/start.rs"]

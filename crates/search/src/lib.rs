@@ -45,7 +45,7 @@ use liouville::graph::Fault;
 use liouville::mechanics::{Meaning, Model};
 use liouville::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
-pub use absence::judge;
+pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
@@ -140,7 +140,15 @@ impl SearchError {
             SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
             SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
-            _ => "see docs/writing-a-case.md",
+            SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
+            SearchError::NoSeries | SearchError::NoPoints => {
+                "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
+                 the cosine of φ"
+            }
+            SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::NotSpanned => {
+                "search with --ansatz=4, which needs no velocities"
+            }
+            _ => "`liouville check` judges what you claim by hand",
         }
     }
 }

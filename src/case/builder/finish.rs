@@ -70,6 +70,7 @@ impl ModelBuilder {
             one_sided: None,
             notes: Vec::new(),
             warnings,
+            remarks: Vec::new(),
         };
         build::extend_support(&mut case.model);
         let is_open = |equation: &&LevelEquation| match &equation.function {

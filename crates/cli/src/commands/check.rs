@@ -3,72 +3,88 @@
 use std::io::IsTerminal;
 
 use liouville::case::{Case, Column, is_labelled, labels, matches};
-use liouville::verdict::{CaseReport, JudgeError, Options};
+use liouville::verdict::Options;
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
-use super::files::Judge;
-use super::{Answer, Check, CheckFormat, certificates, colour, files, width};
+use super::judging::{Work, judge};
+use super::{Answer, Check, CheckFormat, certificates, colour, width};
 
-/// Judge of cases, including the claims of absence, and those about motion where requested.
-fn judge(options: &Check) -> Judge {
-    if options.motion { with_motions } else { liouville_search::judge }
+/// Claims that were asked for, by name or source and by label.
+#[derive(Clone)]
+struct Wanted {
+    claims: Vec<String>,
+    sources: Vec<String>,
 }
 
-fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
-    let mut report = liouville_search::judge(case, options)?;
-    report.claims.extend(liouville_flow::observe::observe(case, options));
-    report.motions_left = 0;
-    Ok(report)
-}
+impl Wanted {
+    fn is_everything(&self) -> bool {
+        self.claims.is_empty() && self.sources.is_empty()
+    }
 
-pub fn run(options: &Check) -> Result<Answer, String> {
-    let (claims, sources) = (&options.claims, &options.sources);
-    let is_everything = claims.is_empty() && sources.is_empty();
-    let is_named = |name: &str, source: &str| {
-        claims.is_empty() || claims.iter().any(|wanted| is_meant(name, source, wanted))
-    };
-    // A label of the case is one of all its claims.
-    let is_from = |own: &str, case: &str, cell: Option<&str>, column: Option<&Column>| {
-        let labels = [labels(own, column, cell), labels(case, None, None)].concat();
+    /// Whether a claim is meant, given the source and the column of its case.
+    fn takes(&self, own: &Own<'_>, case: &str, column: Option<&Column>) -> bool {
+        let mut claims = self.claims.iter();
+        let is_named =
+            self.claims.is_empty() || claims.any(|wanted| is_meant(own.name, own.source, wanted));
+        // A label of the case is one of all its claims.
+        let labels = [labels(own.source, column, own.cell), labels(case, None, None)].concat();
         let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
-        sources.is_empty() || sources.iter().any(is_wanted)
-    };
-    // Other claims of a case may matter to those that are meant, but motions take minutes and do not.
-    let prepare = |case: &mut Case| {
+        is_named && (self.sources.is_empty() || self.sources.iter().any(is_wanted))
+    }
+
+    /// Removes what need not be judged: other claims of a case may matter to those that are meant,
+    /// but motions take minutes and do not.
+    fn prepare(&self, case: &mut Case) {
         let (whole, column) = (case.source.clone(), case.column.clone());
-        let is_own = |name: &str, source: &str, cell: Option<&str>| {
-            is_named(name, source) && is_from(source, &whole, cell, column.as_ref())
+        let takes = |name: &str, source: &str, cell: Option<&str>| {
+            self.takes(&Own { name, source, cell }, &whole, column.as_ref())
         };
-        case.motions.retain(|own| is_own(&own.name, &own.source, None));
+        case.motions.retain(|own| takes(&own.name, &own.source, None));
         let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
         let mut absences = case.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
         let is_meant = |(name, source, cell): (&String, &String, &Option<String>)| {
-            is_own(name, source, cell.as_deref())
+            takes(name, source, cell.as_deref())
         };
         if !claims.any(is_meant) && !absences.any(is_meant) {
             case.claims.clear();
             case.absences.clear();
         }
-    };
-    let mut run = files::judge(
-        &options.paths,
-        &read_settings(&options.settings)?,
-        &prepare,
-        &Options { mutants: options.mutants, ..options.sampling.options() },
-        judge(options),
-        options.sampling.threads,
-    )?;
+    }
+}
+
+/// A claim as it is asked for.
+struct Own<'c> {
+    name: &'c str,
+    source: &'c str,
+    cell: Option<&'c str>,
+}
+
+pub fn run(options: &Check) -> Result<Answer, String> {
+    let wanted = Wanted { claims: options.claims.clone(), sources: options.sources.clone() };
+    let of_case = wanted.clone();
+    let mut run = judge(Work {
+        paths: options.paths.clone(),
+        settings: read_settings(&options.settings)?,
+        prepare: Box::new(move |case| of_case.prepare(case)),
+        options: Options { mutants: options.mutants, ..options.sampling.options() },
+        motions: options.motion,
+        threads: options.sampling.threads,
+        limits: options.limits,
+    })?;
+    let is_everything = wanted.is_everything();
     if !is_everything {
         run.retain(|heading, claim| {
-            let (cell, column) = (claim.cell.as_deref(), heading.column.as_ref());
-            is_named(&claim.name, &claim.source)
-                && is_from(&claim.source, &heading.source, cell, column)
+            let own = Own { name: &claim.name, source: &claim.source, cell: claim.cell.as_deref() };
+            wanted.takes(&own, &heading.source, heading.column.as_ref())
         });
         if run.claims().next().is_none() && run.summary().errors == 0 {
-            let wanted = [claims.as_slice(), sources.as_slice()].concat().join("` or `");
-            return Err(format!("error: no claim has a name or source like `{wanted}`"));
+            let all = [wanted.claims, wanted.sources].concat().join("` or `");
+            return Err(format!(
+                "error: no claim has a name or source like `{all}`\n\
+                 help: `liouville check -v` shows the names"
+            ));
         }
     }
     if let Some(folder) = &options.certificate {

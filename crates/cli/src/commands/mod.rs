@@ -3,19 +3,26 @@
 pub mod cases;
 mod certificates;
 pub mod check;
+pub mod completions;
 pub mod eval;
 pub mod explain;
 pub mod explore;
 pub mod export;
 mod files;
+mod judging;
+mod limits;
 pub mod names;
 pub mod new;
+mod out;
+pub mod schema;
 mod source;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+pub use limits::{Limits, STOPPED};
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
@@ -74,18 +81,34 @@ Examples:
     /// List, print or copy cases of the catalogue inside the program
     #[command(after_help = "Example:\n  liouville cases list rattleback")]
     Cases(cases::Cases),
+    /// Print the JSON Schema of case files, for editors that complete and check them
+    #[command(after_help = "Example:\n  liouville schema > liouville.schema.json")]
+    Schema,
+    /// Print the script that completes commands in a shell
+    #[command(after_help = "\
+Example:
+  liouville completions bash > ~/.local/share/bash-completion/completions/liouville")]
+    Completions(completions::Completions),
+    /// Write the manual pages
+    #[command(after_help = "Example:\n  liouville man ~/.local/share/man/man1")]
+    Man(completions::Man),
 }
 
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
     pub fn read() -> Self {
+        let matches = Self::described().get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
+    /// All commands and options; former names are hidden.
+    fn described() -> clap::Command {
         let mut command = Self::command();
         let former = explore::Former::augment_subcommands(clap::Command::new("former"));
         for one in former.get_subcommands() {
             command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
-        let matches = command.get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        command
     }
 }
 
@@ -103,8 +126,15 @@ pub struct Sampling {
     #[arg(long, value_enum)]
     pub trust: Option<Trust>,
     /// Number of threads; all cores by default. Results do not depend on it
-    #[arg(long)]
+    #[arg(long, value_parser = parse_threads)]
     pub threads: Option<usize>,
+}
+
+/// Reads a number of threads.
+pub fn parse_threads(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1024;
+    let threads = text.parse().ok().filter(|threads| (1..=MOST).contains(threads));
+    threads.ok_or(format!("write a number of threads from 1 to {MOST}"))
 }
 
 /// Required strength of evidence.
@@ -166,6 +196,8 @@ pub struct Check {
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
     #[command(flatten)]
+    pub limits: Limits,
+    #[command(flatten)]
     pub sampling: Sampling,
 }
 
@@ -184,7 +216,10 @@ pub enum CheckFormat {
 
 fn parse_digits(text: &str) -> Result<usize, String> {
     let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
-    (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
+    (1..=2000)
+        .contains(&digits)
+        .then_some(digits)
+        .ok_or("write a number from 1 to 2000".to_string())
 }
 
 #[derive(Debug, Args)]
@@ -210,13 +245,15 @@ pub struct Eval {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 #[derive(Debug, Args)]
 pub struct Table {
     /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
     /// rolling with and without spin
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]
+    #[arg(value_parser = parse_table)]
     pub number: u32,
     /// Case files, or folders of them
     #[arg(default_value = "cases")]
@@ -228,7 +265,14 @@ pub struct Table {
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
     #[command(flatten)]
+    pub limits: Limits,
+    #[command(flatten)]
     pub sampling: Sampling,
+}
+
+fn parse_table(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| (1..=4).contains(number));
+    number.ok_or("write 1, 2, 3 or 4".to_string())
 }
 
 /// Format of a table.

@@ -5,6 +5,7 @@ pub mod certificate;
 pub mod chart;
 pub mod diagnostic;
 pub mod diagram;
+mod digest;
 mod evidence;
 pub mod exponents;
 pub mod export;
@@ -22,6 +23,8 @@ pub mod table;
 pub mod terminal;
 mod typeset;
 
+pub use digest::{Digest, VERSION};
+
 use std::time::Duration;
 
 use serde::Serialize;
@@ -38,6 +41,8 @@ pub struct Outcome {
     pub heading: Heading,
     /// Verdicts, or the reasons why there are none.
     pub result: Result<CaseReport, Vec<Failure>>,
+    /// Names of the claims that were not reached when the run was stopped.
+    pub unreached: Vec<String>,
 }
 
 /// Reason why a file could not be judged.
@@ -72,6 +77,8 @@ pub struct Heading {
     pub column: Option<Column>,
     /// Notes of the author.
     pub notes: Vec<String>,
+    /// Digest of the file's text.
+    pub digest: Option<Digest>,
 }
 
 /// Results for all files of a run.
@@ -104,6 +111,9 @@ pub struct Summary {
     pub disagreements: usize,
     /// Number of files that could not be judged.
     pub errors: usize,
+    /// Number of claims that were not reached when the run was stopped.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub unreached: usize,
     /// Number of claims about motion that were skipped.
     #[serde(skip_serializing_if = "is_zero")]
     pub motions_left: usize,
@@ -184,25 +194,28 @@ impl RunReport {
             counts.equivalent += mutants.equivalent;
             counts.discovered += mutants.discovered.len();
         }
-        for (_, claim) in self.claims() {
+        for (outcome, claim) in self.claims() {
+            let is_reached = !outcome.unreached.contains(&claim.name);
             summary.claims += 1;
+            summary.unreached += usize::from(!is_reached);
             *match claim.verdict {
                 Verdict::Proved => &mut summary.proved,
                 Verdict::Confirmed => &mut summary.confirmed,
                 Verdict::Refuted => &mut summary.refuted,
                 Verdict::Undecided => &mut summary.undecided,
             } += 1;
-            summary.disagreements += usize::from(!claim.agrees);
+            summary.disagreements += usize::from(!claim.agrees && is_reached);
         }
         summary
     }
 
     /// Exit code. 0: all as expected; 1: a verdict contradicts its expectation, or a mutant
-    /// survived; 2: a file could not be judged.
+    /// survived; 2: a file could not be judged; 3: the run was stopped before all was judged.
     pub fn exit_code(&self) -> u8 {
         let summary = self.summary();
         let survived = summary.mutants.map_or(0, |mutants| mutants.survived);
         match (summary.errors, summary.disagreements + survived) {
+            (0, 0) if summary.unreached > 0 => 3,
             (0, 0) => 0,
             (0, _) => 1,
             _ => 2,

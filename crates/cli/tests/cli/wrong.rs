@@ -29,7 +29,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
                 [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
-        ("empty", String::new(), "the file is empty", "writing-a-case"),
+        ("empty", String::new(), "the file is empty", "liouville new"),
         ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
         ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
         ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "unknown system", "rubber-plane"),

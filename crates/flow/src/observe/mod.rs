@@ -42,9 +42,17 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
 
 /// Tests all claims about motion of a case.
 pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
+    let mut reports = Vec::new();
+    observe_each(case, options, &mut |report| reports.push(report));
+    reports
+}
+
+/// Judges the claims about motion one after another, and hands over each report as it is made.
+pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimReport)) {
     let scene = Scene::new(case, options.seed);
-    let look = |claim| look(claim, &scene, options);
-    case.motions.iter().map(|claim| report(claim, look(claim), options)).collect()
+    for claim in &case.motions {
+        keep(report(claim, look(claim, &scene, options), options));
+    }
 }
 
 fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {

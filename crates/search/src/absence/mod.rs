@@ -51,6 +51,12 @@ enum Outcome {
 /// Judges all claims of a case except those about motion; claims of absence come last.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let mut report = verdict::judge(case, options)?;
+    complete(case, options, &mut report)?;
+    Ok(report)
+}
+
+/// Adds verdicts on the claims of absence to a report on the others.
+pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Result<(), JudgeError> {
     if !case.absences.is_empty() {
         let reports = match options.trust {
             // Counts rest on proved integrals.
@@ -64,7 +70,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         report.claims.extend(told);
     }
     report.absences_left = 0;
-    Ok(report)
+    Ok(())
 }
 
 /// Reports on all claims of absence; `judged` are the reports on the other claims.

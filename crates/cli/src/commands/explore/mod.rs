@@ -15,7 +15,8 @@ mod stress;
 
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, source, width, write};
+use super::out::{self, write};
+use super::{Answer, Limits, Sampling, colour, eval, files, source, width};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -96,7 +97,31 @@ impl Command {
     }
 }
 
+impl Command {
+    /// Limits of a command that has nothing to show before its end; a search has its own.
+    pub fn limits(&self) -> Limits {
+        match self {
+            Self::Report(options) => options.limits,
+            Self::Motion { command } => command.limits(),
+            Self::Former(Former::Motion(command)) => command.limits(),
+            Self::Search(_) | Self::Measure { .. } | Self::Former(Former::Measure(_)) => {
+                Limits::default()
+            }
+        }
+    }
+}
+
 impl Motion {
+    fn limits(&self) -> Limits {
+        match self {
+            Self::Orbit(options) => options.subject.limits,
+            Self::Section(options) => options.subject.limits,
+            Self::Exponents(options) => options.subject.limits,
+            Self::Chart(options) => options.subject.limits,
+            Self::Periodic(options) => options.subject.limits,
+        }
+    }
+
     fn run(&self) -> Result<Answer, String> {
         match self {
             Self::Orbit(options) => orbit::run(options),

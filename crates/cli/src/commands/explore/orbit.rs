@@ -8,6 +8,7 @@ use liouville_cli::report::orbit;
 use liouville_flow::{FlowError, Precision, Start};
 
 use super::Answer;
+use super::eval::wrong_state;
 use super::motion::Subject;
 
 #[derive(Debug, Args)]
@@ -52,9 +53,7 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
     let case = subject.open()?;
     let state = match &options.state {
         None => None,
-        Some(text) => Some(
-            verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
-        ),
+        Some(text) => Some(verdict::read_state(&case, text).map_err(|error| wrong_state(&error))?),
     };
     let told = |error: FlowError| subject.told(&error);
     let start = Start::new(&case, state.as_deref(), subject.seed, options.index).map_err(told)?;

@@ -11,12 +11,10 @@ use liouville_search::{Effort, Halt, Wanted};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
-use super::eval::open;
+use super::super::limits::{STOPPED, parse_seconds};
+use super::eval::open_signed;
 use super::progress::telling;
 use super::{Answer, colour};
-
-/// Exit code of a search that was stopped.
-const STOPPED: u8 = 3;
 
 /// Exit code of a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
@@ -59,10 +57,10 @@ pub struct Search {
     /// End a count that needs more memory than this, in megabytes, and skip an ansatz that may
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,
-    /// End a count that takes longer than this, in seconds of an average machine, and skip an ansatz
-    /// that may
-    #[arg(long, default_value_t = 60.0)]
-    pub seconds: f64,
+    /// End a count that takes longer than this, in seconds of an average machine, and skip an
+    /// ansatz that may
+    #[arg(long, default_value = "60", value_parser = parse_seconds)]
+    pub seconds: Duration,
     /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own
     /// fields are searched in higher degrees until then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
@@ -75,13 +73,8 @@ pub struct Search {
     pub json: bool,
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.ok_or("write a number of seconds".to_string())
-}
-
 pub fn run(options: &Search) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
+    let (case, digest) = open_signed(&options.case, &options.settings)?;
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
@@ -90,7 +83,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             "" => Wanted::Existence,
             name => Wanted::Claim(name.to_string()),
         }),
-        seconds: options.seconds,
+        seconds: options.seconds.as_secs_f64(),
         ansatz: liouville_search::Ansatz {
             wanted: options.ansatz.is_some(),
             positions: options.ansatz.unwrap_or(liouville_search::Ansatz::default().positions),
@@ -124,7 +117,9 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
     })?;
     let text = match options.json {
-        true => written::json(&case.title, &report).map_err(|error| format!("error: {error}"))?,
+        true => written::json(&case.title, &report)
+            .and_then(|json| digest.sign(&json))
+            .map_err(|error| format!("error: {error}"))?,
         false => written::text(&case.title, &report),
     };
     let code = if report.unreached.is_empty() { 0 } else { STOPPED };

@@ -6,7 +6,7 @@ use liouville_cli::report::section::{SectionReport, draw_lines, draw_separatrice
 use liouville_cli::report::{exponents, picture};
 use liouville_flow::{FlowError, SectionOrbit, SectionRequest};
 
-use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_start};
+use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_count, parse_start};
 use super::progress::progress;
 use super::{Answer, write};
 
@@ -24,13 +24,13 @@ pub struct Section {
     #[command(flatten)]
     pub plane: Plane,
     /// Number of orbits to start, spread over the sphere
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
     /// Number of crossings of each orbit to draw
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub crossings: Option<usize>,
     /// Number of crossings to leave out at the beginning of each orbit
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub skip: Option<usize>,
     /// Start l,L/G in place of those of the case; may be repeated
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
@@ -49,7 +49,7 @@ pub struct Section {
     #[arg(long, value_delimiter = ',')]
     pub lines: Vec<Line>,
     /// Number of images of the lines, forwards and backwards
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub images: Option<usize>,
     /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
     /// may be repeated
