@@ -2,6 +2,8 @@
 
 pub mod bench;
 pub mod chart;
+pub mod cycle;
+pub mod data;
 pub mod diagnostic;
 pub mod diagram;
 mod evidence;
@@ -14,6 +16,7 @@ pub mod records;
 pub mod search;
 pub mod section;
 pub mod stress;
+pub mod surface;
 pub mod survey;
 pub mod table;
 pub mod terminal;
