@@ -2,6 +2,8 @@
 
 #[path = "cli/motion.rs"]
 mod motion;
+#[path = "cli/orbits.rs"]
+mod orbits;
 #[path = "cli/start.rs"]
 mod start;
 #[path = "cli/wrong.rs"]

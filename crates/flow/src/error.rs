@@ -200,7 +200,7 @@ impl FlowError {
                 "start nearer to the orbit, or give its period by --time or another --period"
             }
             FlowError::Degenerate(_) => {
-                "a family has no single orbit: claim the further integral, and start elsewhere"
+                "where a further integral is kept, closed orbits come in families, and have no multipliers"
             }
             FlowError::NotHyperbolic { .. } => {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"

@@ -91,6 +91,7 @@ fn spectrum(
     let block = time * (1.0 - SKIPPED) / BLOCKS as f64;
     let mut sums =
         Sums { growth: vec![0.0; count], volume: 0.0, blocks: Vec::new(), volumes: Vec::new() };
+    let level = Level::new(model, &start.parameters, &[])?;
     let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
     stepper.start(0, &begin, Pair::from_f64(time * SKIPPED));
     loop {
@@ -98,8 +99,11 @@ fn spectrum(
         stepper.check(0)?;
         stepper.advance();
         let mut all = stepper.pairs(0);
+        // Off the level vectors may grow otherwise than on it.
+        let normals = level.normals(&all[..dimension]);
         let vectors = &mut all[dimension..dimension * (count + 1)];
-        for (sum, length) in sums.growth.iter_mut().zip(orthonormalised(vectors, dimension)) {
+        let lengths = orthonormalised(vectors, dimension, normals);
+        for (sum, length) in sums.growth.iter_mut().zip(lengths) {
             *sum += libm::log(length);
         }
         let volume = all.last().map_or(f64::NAN, |volume| volume.hi);
@@ -125,9 +129,9 @@ fn spectrum(
     Ok(Spectrum { time, exponents, divergence: estimate(&sums.volumes[1..]) })
 }
 
-/// Makes vectors orthonormal one after another. Returns their lengths across those before.
-fn orthonormalised(vectors: &mut [Pair], dimension: usize) -> Vec<f64> {
-    let mut unit: Vec<Vec<f64>> = Vec::new();
+/// Makes vectors orthonormal one after another, across unit vectors. Returns their lengths across
+/// those before.
+fn orthonormalised(vectors: &mut [Pair], dimension: usize, mut unit: Vec<Vec<f64>>) -> Vec<f64> {
     let mut lengths = Vec::new();
     for vector in vectors.chunks_mut(dimension) {
         let mut rest: Vec<f64> = vector.iter().map(|x| x.hi).collect();

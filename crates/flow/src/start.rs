@@ -163,6 +163,20 @@ impl Level {
         evaluator.outputs().map(|value| value.hi).collect()
     }
 
+    /// Orthonormal basis of the span of the gradients at a state.
+    pub fn normals(&self, state: &[Pair]) -> Vec<Vec<f64>> {
+        let mut unit: Vec<Vec<f64>> = Vec::new();
+        for gradient in self.at(state).1 {
+            let gradient: Vec<f64> = gradient.iter().map(|x| x.hi).collect();
+            let rest = rejection(&gradient, &unit);
+            let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > 0.0 {
+                unit.push(rest.into_iter().map(|x| x / length).collect());
+            }
+        }
+        unit
+    }
+
     /// Moves a state to the level. Returns the distance.
     pub fn correct(&self, state: &mut [Pair], loose: &[Pair]) -> Result<f64, FlowError> {
         if self.equations == 0 {

@@ -72,8 +72,10 @@ impl Surface {
         let model = self.lexicon.model();
         let sides: Vec<&str> = self.text.split('=').map(str::trim).collect();
         let names = (0..model.dimension()).map(|k| model.component_name(k));
-        let free = names.filter(|name| !sides.contains(&name.as_str()));
-        free.take(2).collect::<Vec<_>>().join(", ")
+        let (bound, free): (Vec<_>, Vec<_>) =
+            names.partition(|name| sides.contains(&name.as_str()));
+        let shown = if free.is_empty() { bound } else { free };
+        shown.into_iter().take(2).collect::<Vec<_>>().join(", ")
     }
 
     pub(super) fn model(&self) -> &Model {

@@ -101,19 +101,29 @@ fn product(volume: Measured) -> Measured {
 /// Renders a closed orbit as JSON.
 pub fn entry(found: &Found) -> Value {
     let cycle = &found.cycle;
-    let number = |x: Measured| json!({ "value": x.value, "error": x.error });
-    let multiplier = |one: &Multiplier| json!({ "re": one.re, "im": one.im, "error": one.error, "modulus": one.modulus(), "modulus_error": one.modulus_error });
+    let multiplier = |one: &Multiplier| {
+        json!({
+            "re": one.re,
+            "im": one.im,
+            "error": one.error,
+            "modulus": one.modulus(),
+            "modulus_error": one.modulus_error,
+        })
+    };
     let product = product(cycle.volume);
     json!({
         "at": found.point.map(|point| point.at),
-        "crossings": found.crossings,
+        "period": found.crossings,
         "state": cycle.start.state.iter().map(|x| x.hi).collect::<Vec<_>>(),
         "kind": kind(cycle.kind),
-        "period": number(cycle.period),
+        "time": cycle.period.value,
+        "time_error": cycle.period.error,
         "residual": cycle.residual,
         "multipliers": cycle.multipliers.iter().map(multiplier).collect::<Vec<_>>(),
-        "product": number(product),
-        "volume": number(cycle.volume),
+        "product": product.value,
+        "product_error": product.error,
+        "volume": cycle.volume.value,
+        "volume_error": cycle.volume.error,
     })
 }
 

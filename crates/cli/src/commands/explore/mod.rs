@@ -49,20 +49,20 @@ pub enum Motion {
     #[command(after_help = "\
 Examples:
   liouville motion orbit figures/fig-8 --time 1000
-  liouville motion orbit classical/flows/lorenz --start 1,1,20 --every 0.01 --columns 't, x, z' --out orbit.csv")]
+  liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv")]
     Orbit(orbit::Orbit),
     /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
     /// surface
     #[command(after_help = "\
 Examples:
   liouville motion section figures/fig-8 --out section.png
-  liouville motion section classical/flows/lorenz --section 'z = 27' --axes 'x, y' --out points.csv")]
+  liouville motion section plane/unbalanced-ball --section 'γ3 = 0' --axes 'γ1, ω3' --out points.csv")]
     Section(section::Section),
     /// Measure Lyapunov exponents and the mean divergence along motions
     #[command(after_help = "\
 Examples:
   liouville motion exponents figures/fig-10
-  liouville motion exponents classical/flows/lorenz --start 1,1,20 --spectrum")]
+  liouville motion exponents classical/flows/nose-hoover --spectrum")]
     Exponents(exponents::Exponents),
     /// Draw a plane of motions, such as two parameters, each point coloured by its class
     #[command(after_help = "\
@@ -73,7 +73,7 @@ Example:
     #[command(after_help = "\
 Examples:
   liouville motion periodic figures/fig-5 --start pi/2,0
-  liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'x = 0'")]
+  liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0'")]
     Periodic(periodic::Periodic),
 }
 

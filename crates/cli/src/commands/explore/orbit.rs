@@ -193,7 +193,8 @@ fn interval(options: &Orbit, starts: usize, columns: usize) -> Result<Rational, 
     let numbers = rows * starts as f64 * columns as f64;
     match options.ink.out.is_some() && numbers > MOST_NUMBERS {
         true => Err(format!(
-            "error: {numbers:.1e} numbers are too many for one file, which holds {MOST_NUMBERS:.0e}\n             help: give a longer --every, a shorter --time, or fewer --columns"
+            "error: {numbers:.1e} numbers are too many for one file, which holds {MOST_NUMBERS:.0e}\n\
+             help: give a longer --every, a shorter --time, or fewer --columns"
         )),
         false => Ok(every),
     }
