@@ -130,9 +130,9 @@ fn wrong_systems_are_refused() {
         ("function = 'p'\nbracket = { 'q,x' = '1' }", "not a pair of the bracket's variables", ""),
         ("function = 'p'\npars = [['q', 'p']]", "pars", "pairs"),
         (
-            "function = 'p'\npairs = [['q', 'p']]\n[poisson]\n'q,p' = '1'",
-            "bracket for new variables",
-            "[variables]",
+            "function = 'p'\npairs = [['q', 'p'], ['v', 'v']]\n[poisson]\n'q,x' = '1'",
+            "paired with itself",
+            "two state variables",
         ),
         ("function = 'p'\n[field]\n\"q'\" = 'p'", "both give the rates", "remove one"),
     ];

@@ -3,6 +3,10 @@
 //!
 //! Each case is judged; a claim passes when its verdict is the one the case expects.
 
+#[path = "language/brackets.rs"]
+mod brackets;
+#[path = "language/derivatives.rs"]
+mod derivatives;
 #[path = "language/mistakes.rs"]
 mod mistakes;
 #[path = "language/names.rs"]

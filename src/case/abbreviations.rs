@@ -52,8 +52,7 @@ impl Reading<'_, '_> {
         let read = formula(text, &self.vocabulary, &name, None, reach)?;
         let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
         let kind = read.value_type();
-        let meaning = Meaning::Abbreviation(self.abbreviations.len());
-        self.vocabulary.add(&name, meaning, kind, reach);
+        self.vocabulary.define(&name, self.abbreviations.len(), &read, reach);
         if (kind, reach) == (Type::Scalar, Reach::Parameters)
             && let Ok(whole) = Formula::whole_number(read.text(), &self.vocabulary)
         {

@@ -9,7 +9,7 @@ use super::mistakes::Mistakes;
 use super::parameters::named;
 use super::section::Section;
 use super::{Case, PlacedClaim, toml_errors, variables};
-use crate::mechanics::{Meaning, Model, Reach};
+use crate::mechanics::{Model, Reach};
 
 /// Tables of a question.
 const KEYS: [&str; 4] = ["let", "variables", "poisson", "claim"];
@@ -66,7 +66,7 @@ impl Case {
         if let Some(section) = root.table("let") {
             abbreviate(&section, &mut asked.model);
         }
-        if root.value("variables").is_some() {
+        if root.value("variables").is_some() || root.value("poisson").is_some() {
             asked.model.variables = None;
             variables::read(root, &mut asked.model);
         }
@@ -112,8 +112,7 @@ fn abbreviate(section: &Section<'_>, model: &mut Model) {
             continue;
         };
         let reach = model.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
-        let meaning = Meaning::Abbreviation(model.abbreviations.len());
-        model.vocabulary.add(&name, meaning, read.value_type(), reach);
+        model.vocabulary.define(&name, model.abbreviations.len(), &read, reach);
         model.abbreviations.push(read);
     }
 }

@@ -204,6 +204,14 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// Table of an entry of this one, if it is a table.
+    pub fn inner(&self, key: &str, value: &'a Spanned<DeValue<'a>>) -> Option<Section<'a>> {
+        let DeValue::Table(table) = value.get_ref() else { return None };
+        let outer = self.name.trim_matches(['[', ']']);
+        let name = format!("[{outer}.{key}]");
+        Some(Section::new(&name, table, value.span(), self.source, self.mistakes))
+    }
+
     /// Reads a table inside this one; `None` where it is absent, or is not a table.
     pub fn table(&self, key: &'static str) -> Option<Section<'a>> {
         self.keep(self.section(key)).flatten()

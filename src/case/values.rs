@@ -4,7 +4,7 @@ use super::field::both_sides;
 use super::{Case, PlacedClaim, TABLE_ROWS};
 use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS, jets};
 use crate::formula::{Formula, FormulaError, Type, canonical_name};
-use crate::mechanics::{Meaning, Model, Reach, Vocabulary};
+use crate::mechanics::{Model, Reach, Vocabulary};
 
 /// The reason why a case does not take a value: a claim, a name or a bracket.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -118,8 +118,7 @@ impl Case {
         let model = &mut self.model;
         model.vocabulary.check_own(formula).map_err(|other| stranger(name, &other))?;
         let reach = model.vocabulary.reach(formula).map_or(Reach::Parameters, |entry| entry.reach);
-        let meaning = Meaning::Abbreviation(model.abbreviations.len());
-        model.vocabulary.add(&canonical, meaning, formula.value_type(), reach);
+        model.vocabulary.define(&canonical, model.abbreviations.len(), formula, reach);
         model.abbreviations.push(formula.clone());
         Ok(())
     }

@@ -11,20 +11,23 @@ use super::section::{Section, Text};
 use super::values::stranger;
 use super::{Case, ClaimError};
 use crate::formula::{Formula, Scope, Type, canonical_name};
-use crate::mechanics::{Block, Meaning, Model, Reach, System, Variable, Variables, Vocabulary};
+use crate::mechanics::{
+    Block, Meaning, Model, Poisson, Reach, System, Variable, Variables, Vocabulary,
+};
+
+/// Name of a bracket that is given without one.
+const ONLY: &str = "poisson";
+
+/// Name of the bracket of `[hamiltonian]`.
+const OWN: &str = "hamiltonian";
 
 /// Reads both tables into the model, if they are present; `false` where there is a mistake.
 pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     let Some(section) = root.table("variables") else {
-        if let Some(section) = root.table("poisson") {
-            root.mistakes().add(section.complaint(Problem::Other {
-                message: "[poisson] is a bracket for new variables".to_string(),
-                remedy: "add [variables], e.g. M = \"Ĩ*ω\", \"γ\" = \"γ\"".to_string(),
-            }));
-        } else if root.value("variables").is_none() {
-            model.variables = own_bracket(model).map(Box::new);
+        if root.value("variables").is_some() {
+            return false;
         }
-        return root.value("variables").is_none() && root.value("poisson").is_none();
+        return state_brackets(root, model);
     };
     let (mut state, mut images, mut broken) = (Vec::new(), Vec::new(), false);
     for (key, value) in section.entries() {
@@ -45,24 +48,92 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
         return false;
     }
     let target = target(model, state, &images);
-    let blocks = match root.table("poisson") {
-        Some(section) => {
-            let names =
-                Names { state: &target.state, vocabulary: &target.vocabulary, reach: Reach::Phase };
-            blocks(&section, &names)
-        }
-        None => Some(vec![vec![None; target.state.len()]; target.state.len()]),
+    let Some(brackets) = brackets(root, &target) else { return false };
+    model.variables = Some(Box::new(Variables { model: target, images, brackets }));
+    true
+}
+
+/// Brackets for the state variables themselves, where no new variables are named.
+fn state_brackets(root: &Section<'_>, model: &mut Model) -> bool {
+    let own = own_bracket(model);
+    if root.value("poisson").is_none() {
+        model.variables = own.map(Box::new);
+        return true;
+    }
+    let variables = own.or_else(|| {
+        let images = own_images(model)?;
+        let target = target(model, model.state.clone(), &images);
+        Some(Variables { model: target, images, brackets: Vec::new() })
+    });
+    let Some(mut variables) = variables else { return false };
+    let Some(brackets) = brackets(root, &variables.model) else { return false };
+    variables.brackets.extend(brackets);
+    model.variables = Some(Box::new(variables));
+    true
+}
+
+/// Reads `[poisson]`, one bracket or several with names; `None` where there is a mistake.
+fn brackets(root: &Section<'_>, target: &Model) -> Option<Vec<Poisson>> {
+    let Some(section) = root.table("poisson") else {
+        return root.value("poisson").is_none().then(Vec::new);
     };
-    let Some(blocks) = blocks else { return false };
-    model.variables = Some(Box::new(Variables { model: target, images, blocks }));
-    root.value("poisson").is_none_or(|value| value.get_ref().is_table())
+    let names = Names { state: &target.state, vocabulary: &target.vocabulary, reach: Reach::Phase };
+    let entries = section.entries();
+    let named: Vec<(String, Section<'_>)> = entries
+        .iter()
+        .filter_map(|(key, value)| {
+            Some((key.get_ref().to_string(), section.inner(key.get_ref(), value)?))
+        })
+        .collect();
+    if named.is_empty() {
+        let bracket = bracket(ONLY, &section, &names)?;
+        return Some(if bracket.is_some() { bracket.into_iter().collect() } else { Vec::new() });
+    }
+    if named.len() < entries.len() {
+        section.mistakes().add(section.complaint(Problem::Other {
+            message: "blocks stand beside brackets with names".to_string(),
+            remedy: "give every bracket a name: [poisson.P], [poisson.Q]".to_string(),
+        }));
+        return None;
+    }
+    let mut all = Vec::new();
+    for (name, inner) in named {
+        match bracket(&name, &inner, &names)? {
+            _ if name == OWN || name.trim() != name => {
+                let (name, reason) = (name, "it is taken already".to_string());
+                inner.mistakes().add(inner.complaint(Problem::BadName { name, reason }));
+                return None;
+            }
+            Some(bracket) => all.push(bracket),
+            None => {
+                inner.mistakes().add(inner.complaint(Problem::Other {
+                    message: format!("the bracket `{name}` has no block"),
+                    remedy: "write \"M,γ\" = \"hat(γ)\" or structure = \"e(3)\"".to_string(),
+                }));
+                return None;
+            }
+        }
+    }
+    Some(all)
+}
+
+/// Reads a bracket; `None` within if it has no block.
+fn bracket(name: &str, section: &Section<'_>, names: &Names<'_>) -> Option<Option<Poisson>> {
+    let blocks = blocks(section, names)?;
+    let is_given = blocks.iter().flatten().any(Option::is_some);
+    Some(is_given.then(|| Poisson { name: name.to_string(), blocks }))
+}
+
+/// Each state variable as a formula.
+fn own_images(model: &Model) -> Option<Vec<Formula>> {
+    let image = |variable: &Variable| Formula::parse(&variable.name, &model.vocabulary).ok();
+    model.state.iter().map(image).collect()
 }
 
 /// State variables as variables of the bracket that `[hamiltonian]` gives.
 fn own_bracket(model: &Model) -> Option<Variables> {
     let System::Hamiltonian(hamiltonian) = &model.system else { return None };
-    let image = |variable: &Variable| Formula::parse(&variable.name, &model.vocabulary).ok();
-    let images: Vec<Formula> = model.state.iter().map(image).collect::<Option<_>>()?;
+    let images = own_images(model)?;
     let target = target(model, model.state.clone(), &images);
     let again = |formula: &Formula| Formula::parse(formula.text(), &target.vocabulary).ok();
     let block = |block: &Option<Block>| {
@@ -74,7 +145,8 @@ fn own_bracket(model: &Model) -> Option<Variables> {
     };
     let row = |row: &Vec<Option<Block>>| row.iter().map(block).collect::<Option<Vec<_>>>();
     let blocks = hamiltonian.blocks.iter().map(row).collect::<Option<Vec<_>>>()?;
-    Some(Variables { model: target, images, blocks })
+    let brackets = vec![Poisson { name: OWN.to_string(), blocks }];
+    Some(Variables { model: target, images, brackets })
 }
 
 /// Model whose names functions of the new variables use.
@@ -209,9 +281,9 @@ impl Case {
         }
         let images: Vec<Formula> = images.iter().map(|(_, image)| image.clone()).collect();
         let target = target(model, state, &images);
-        let blocks = vec![vec![None; images.len()]; images.len()];
+        let brackets = Vec::new();
         let mut changed = self.with_claims(&[])?;
-        changed.model.variables = Some(Box::new(Variables { model: target, images, blocks }));
+        changed.model.variables = Some(Box::new(Variables { model: target, images, brackets }));
         Ok(changed)
     }
 
@@ -255,7 +327,9 @@ impl Case {
                 Some(_) => place(&mut blocks, (*i, *j), block.clone()),
             }
         }
-        variables.blocks = blocks;
+        let is_given = blocks.iter().flatten().any(Option::is_some);
+        let bracket = is_given.then(|| Poisson { name: ONLY.to_string(), blocks });
+        variables.brackets = bracket.into_iter().collect();
         Ok(changed)
     }
 

@@ -1,6 +1,8 @@
 //! Brackets of functions of the new variables: {F,G} = K in the bracket of `[poisson]`.
 
-use super::hamiltonian::{ON_A_PART, bracket_is_given, defects, of, they_vary, turned, variables};
+use super::hamiltonian::{
+    CHOICE, ON_A_PART, bracket_of, defects, of, they_vary, turned, variables,
+};
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
@@ -15,6 +17,10 @@ pub struct Bracket {
     second: Formula,
     /// Value K, 0 if `None`.
     value: Option<Formula>,
+    /// Index of the bracket.
+    bracket: usize,
+    /// Name of the bracket, if the claim gives it.
+    named: Option<String>,
 }
 
 /// Returns the type of {F,G}, if F and G are scalars or vectors.
@@ -39,7 +45,7 @@ fn slopes<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<Vec<T>> {
 
 impl Bracket {
     fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(there);
+        let tensor = variables.tensor(self.bracket, there);
         let flows: Vec<Vec<T>> =
             slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();
         let found: Vec<T> = slopes(there, &self.first)
@@ -58,11 +64,11 @@ impl Bracket {
 impl Statement for Bracket {
     const NAME: &'static str = "bracket";
     const OF_MAPS: bool = true;
-    const COMPANIONS: &'static [&'static str] = &["equals"];
+    const COMPANIONS: &'static [&'static str] = &["equals", CHOICE];
     const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        bracket_is_given(from, Self::NAME)?;
+        let bracket = bracket_of(from, Self::NAME)?;
         let names = &variables(from, Self::NAME)?.model.vocabulary;
         let given = from.list_in(Self::NAME, names)?.ok_or_else(|| from.missing(Self::NAME))?;
         let [first, second]: [Formula; 2] = given.try_into().map_err(|given: Vec<Formula>| {
@@ -76,12 +82,14 @@ impl Statement for Bracket {
             return Err(from.complaint(Self::NAME, message, remedy));
         };
         let value = from.formula_in("equals", Some(kind), names)?;
-        Ok(Self { first, second, value })
+        Ok(Self { first, second, value, bracket, named: from.text(CHOICE)? })
     }
 
     fn text(&self) -> Option<String> {
         let value = self.value.as_ref().map_or("0", |value| value.text().trim());
-        Some(format!("{{{}, {}}} = {value}", self.first.text().trim(), self.second.text().trim()))
+        let [first, second] = [&self.first, &self.second].map(|f| f.text().trim());
+        let of = self.named.as_ref().map(|name| format!(" of {name}")).unwrap_or_default();
+        Some(format!("{{{first}, {second}}}{of} = {value}"))
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
@@ -102,6 +110,6 @@ impl Statement for Bracket {
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, [&self.first, &self.second].into_iter().chain(&self.value))
+        defects(jet, &[self.bracket], [&self.first, &self.second].into_iter().chain(&self.value))
     }
 }

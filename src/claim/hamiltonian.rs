@@ -4,7 +4,7 @@ use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_def
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{Jet, trace_of_quotient};
-use crate::mechanics::{Model, Phase, Variables};
+use crate::mechanics::{Model, Phase, Poisson, Variables};
 use crate::scalar::Scalar;
 
 /// The claim N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0.
@@ -12,15 +12,24 @@ use crate::scalar::Scalar;
 pub struct Hamiltonian {
     hamiltonian: Formula,
     multiplier: Option<Formula>,
+    /// Index of the bracket.
+    bracket: usize,
 }
 
 /// The claim P ∂C/∂y = 0 and P + Pᵀ = 0.
 #[derive(Clone, Debug)]
-pub struct Casimir(Formula);
+pub struct Casimir {
+    function: Formula,
+    /// Index of the bracket.
+    bracket: usize,
+}
 
 /// The claim Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0.
 #[derive(Clone, Debug)]
-pub struct JacobiIdentity;
+pub struct JacobiIdentity {
+    /// Index of the bracket.
+    bracket: usize,
+}
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
 #[derive(Clone, Debug)]
@@ -32,8 +41,10 @@ pub(super) fn variables<'r, R: Reader>(
     key: &'static str,
 ) -> Result<&'r Variables, R::Error> {
     from.model().variables.as_deref().ok_or_else(|| {
-        let message = format!("`{key}` is a claim about new variables, and the case has none");
-        from.complaint(key, message, "add [variables], and [poisson] for a bracket")
+        let message =
+            format!("`{key}` is a claim about a bracket or new variables, and the case has none");
+        let remedy = "add [poisson] for a bracket, [variables] for new variables";
+        from.complaint(key, message, remedy)
     })
 }
 
@@ -43,13 +54,43 @@ fn scalar_in<R: Reader>(from: &R, key: &'static str) -> Result<Formula, R::Error
     from.formula_in(key, Some(Type::Scalar), names)?.ok_or_else(|| from.missing(key))
 }
 
-/// Fails if the case has no bracket.
-pub(super) fn bracket_is_given<R: Reader>(from: &R, key: &'static str) -> Result<(), R::Error> {
-    if variables(from, key)?.has_bracket() {
-        return Ok(());
+/// Key that chooses one of several brackets.
+pub(super) const CHOICE: &str = "poisson";
+
+/// Returns the index of the bracket that a claim is about, or the complaint that there is none.
+pub(super) fn bracket_of<R: Reader>(from: &R, key: &'static str) -> Result<usize, R::Error> {
+    let brackets = &variables(from, key)?.brackets;
+    match (from.text(CHOICE)?, brackets.len()) {
+        (_, 0) => {
+            let message = format!("`{key}` needs a bracket");
+            Err(from.complaint(key, message, "add [poisson], e.g. structure = \"e(3)\""))
+        }
+        (None, 1) => Ok(0),
+        (None, _) => {
+            let message = format!("the case has the brackets {}", names(brackets));
+            let remedy = format!("choose one: poisson = \"{}\"", brackets[0].name);
+            Err(from.complaint(key, message, &remedy))
+        }
+        (Some(name), _) => named_bracket(from, CHOICE, &name),
     }
-    let message = format!("`{key}` needs a bracket");
-    Err(from.complaint(key, message, "add [poisson], e.g. structure = \"e(3)\""))
+}
+
+/// Returns the index of the bracket of this name.
+pub(super) fn named_bracket<R: Reader>(
+    from: &R,
+    key: &'static str,
+    name: &str,
+) -> Result<usize, R::Error> {
+    let brackets = &variables(from, key)?.brackets;
+    brackets.iter().position(|bracket| bracket.name == name.trim()).ok_or_else(|| {
+        let message = format!("there is no bracket `{name}`");
+        from.complaint(key, message, &format!("there is {}", names(brackets)))
+    })
+}
+
+fn names(brackets: &[Poisson]) -> String {
+    let names: Vec<String> = brackets.iter().map(|one| format!("`{}`", one.name)).collect();
+    names.join(", ")
 }
 
 /// Returns the variables of a model; claims about them are refused if there are none.
@@ -74,12 +115,15 @@ pub(super) fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
 /// bracket, is a function of its variable.
 pub(super) fn defects<'f>(
     jet: &Jet<'_, Expr>,
+    brackets: &[usize],
     functions: impl Iterator<Item = &'f Formula>,
 ) -> Vec<Expr> {
     let variables = of(jet.phase.model());
     let there = Jet::new(variables.point(&jet.phase));
     let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
-    functions.flat_map(of_one).chain(variables.given_blocks().flat_map(of_one)).collect()
+    let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
+    let blocks = brackets.flat_map(Poisson::given_blocks);
+    functions.flat_map(of_one).chain(blocks.flat_map(of_one)).collect()
 }
 
 /// Requires that the new variables vary independently, so that statements about them hold for all
@@ -97,14 +141,14 @@ pub(super) const ON_A_PART: &str = "the new variables obey a relation, and what 
 
 impl Statement for Hamiltonian {
     const NAME: &'static str = "hamiltonian";
-    const COMPANIONS: &'static [&'static str] = &["multiplier"];
+    const COMPANIONS: &'static [&'static str] = &["multiplier", CHOICE];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        bracket_is_given(from, Self::NAME)?;
+        let bracket = bracket_of(from, Self::NAME)?;
         let hamiltonian = scalar_in(from, Self::NAME)?;
         let names = &variables(from, Self::NAME)?.model.vocabulary;
         let multiplier = from.formula_in("multiplier", Some(Type::Scalar), names)?;
-        Ok(Self { hamiltonian, multiplier })
+        Ok(Self { hamiltonian, multiplier, bracket })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
@@ -112,7 +156,7 @@ impl Statement for Hamiltonian {
         let there = variables.point(&jet.phase);
         let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
         let gradient = slope(&there, &self.hamiltonian);
-        let tensor = variables.tensor(&there);
+        let tensor = variables.tensor(self.bracket, &there);
         let claimed = turned(&tensor, &gradient).into_iter().map(|x| x * multiplier).collect();
         let mut residual = difference(variables.rates(jet), claimed);
         residual.extend(variables.symmetric_part(&tensor));
@@ -124,14 +168,14 @@ impl Statement for Hamiltonian {
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, [&self.hamiltonian].into_iter().chain(&self.multiplier))
+        defects(jet, &[self.bracket], [&self.hamiltonian].into_iter().chain(&self.multiplier))
     }
 }
 
 impl Casimir {
     fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(there);
-        let mut residual = turned(&tensor, &slope(there, &self.0));
+        let tensor = variables.tensor(self.bracket, there);
+        let mut residual = turned(&tensor, &slope(there, &self.function));
         residual.extend(variables.symmetric_part(&tensor));
         residual
     }
@@ -139,12 +183,13 @@ impl Casimir {
 
 impl Statement for Casimir {
     const NAME: &'static str = "casimir";
+    const COMPANIONS: &'static [&'static str] = &[CHOICE];
     const OF_MAPS: bool = true;
     const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        bracket_is_given(from, Self::NAME)?;
-        scalar_in(from, Self::NAME).map(Self)
+        let bracket = bracket_of(from, Self::NAME)?;
+        Ok(Self { function: scalar_in(from, Self::NAME)?, bracket })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
@@ -165,21 +210,28 @@ impl Statement for Casimir {
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, [&self.0].into_iter())
+        defects(jet, &[self.bracket], [&self.function].into_iter())
     }
 }
 
+/// Computes the derivatives of a tensor: the entry l is ∂P/∂y_l.
+pub(super) fn tensor_slopes<T: Scalar>(
+    variables: &Variables,
+    bracket: usize,
+    there: &Phase<'_, T>,
+) -> Vec<Vec<Vec<T>>> {
+    let along = |l| {
+        let moved = variables.tensor(bracket, &there.lift_along(l));
+        moved.iter().map(|row| row.iter().map(|p| p.eps).collect()).collect()
+    };
+    (0..there.model().dimension()).map(along).collect()
+}
+
 impl JacobiIdentity {
-    fn at<T: Scalar>(variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(there);
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(self.bracket, there);
         let n = tensor.len();
-        // slopes[l] is ∂P/∂y_l.
-        let slopes: Vec<Vec<Vec<T>>> = (0..n)
-            .map(|l| {
-                let moved = variables.tensor(&there.lift_along(l));
-                moved.iter().map(|row| row.iter().map(|p| p.eps).collect()).collect()
-            })
-            .collect();
+        let slopes = tensor_slopes(variables, self.bracket, there);
         let term = |i: usize, j: usize, k: usize| -> T {
             (0..n).map(|l| tensor[i][l] * slopes[l][j][k]).sum()
         };
@@ -195,17 +247,18 @@ impl JacobiIdentity {
 
 impl Statement for JacobiIdentity {
     const NAME: &'static str = "jacobi-identity";
+    const COMPANIONS: &'static [&'static str] = &[CHOICE];
     const OF_MAPS: bool = true;
     const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        bracket_is_given(from, Self::NAME)?;
-        from.word(Self::NAME, "holds").map(|()| Self)
+        let bracket = bracket_of(from, Self::NAME)?;
+        from.word(Self::NAME, "holds").map(|()| Self { bracket })
     }
 
     fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
-        Self::at(variables, &variables.point(&jet.phase))
+        self.at(variables, &variables.point(&jet.phase))
     }
 
     fn residual_of_values(
@@ -213,7 +266,7 @@ impl Statement for JacobiIdentity {
         variables: &Variables,
         there: &Phase<'_, Expr>,
     ) -> Option<Vec<Expr>> {
-        Some(Self::at(variables, there))
+        Some(self.at(variables, there))
     }
 
     fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
@@ -221,7 +274,7 @@ impl Statement for JacobiIdentity {
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, std::iter::empty())
+        defects(jet, &[self.bracket], std::iter::empty())
     }
 }
 
@@ -259,6 +312,6 @@ impl Statement for DensityInVariables {
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, [&self.0].into_iter())
+        defects(jet, &[], [&self.0].into_iter())
     }
 }

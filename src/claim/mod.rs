@@ -6,6 +6,7 @@
 pub mod absence;
 mod bracket;
 mod commutator;
+mod compatible;
 mod components;
 mod condition;
 mod criterion;
@@ -40,6 +41,7 @@ use crate::scalar::Scalar;
 
 pub use bracket::Bracket;
 pub use commutator::Commutator;
+pub use compatible::Compatible;
 pub use components::Components;
 pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
@@ -178,6 +180,7 @@ kinds! {
     Casimir,
     Bracket,
     JacobiIdentity,
+    Compatible,
     DensityInVariables,
 }
 

@@ -85,6 +85,12 @@ pub(super) enum Operation {
     Extreme(Extreme, Box<[NodeId]>),
     /// Antiderivative `∫(integrand, variable)`.
     Antiderivative(NodeId, NodeId),
+    /// Partial derivative `∂of/∂by`: the value of `derivative`, where `of` is defined.
+    Partial {
+        derivative: NodeId,
+        of: NodeId,
+        by: NodeId,
+    },
 }
 
 impl Operation {
@@ -131,6 +137,9 @@ impl Operation {
             | Solve(a, b)
             | Angle(a, b)
             | Antiderivative(a, b) => (*a, *b) = (other(*a), other(*b)),
+            Partial { derivative, of, by } => {
+                (*derivative, *of, *by) = (other(*derivative), other(*of), other(*by));
+            }
         }
         own
     }

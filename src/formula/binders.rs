@@ -20,6 +20,7 @@ use super::kind::Type;
 use super::lexer::Kind;
 use super::names::canonical_name;
 use super::parser::{Parsed, Parser};
+use super::partial;
 use super::typing::Operand;
 
 /// Limit on the tokens read while indexed forms are written out.
@@ -38,7 +39,7 @@ pub(super) fn is_form(name: &str) -> bool {
 
 /// Names of all such forms.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    FORMS.into_iter().chain(["zero"])
+    FORMS.into_iter().chain(["zero", partial::CALL])
 }
 
 /// Syntax of a form, for help.
@@ -108,7 +109,7 @@ impl<'t> Parser<'t> {
         match sizes[..] {
             [n] => self.builder.push_sized(Operation::Identity, Type::Matrix(n, n), span),
             _ => Err(FormulaError::new(span, "a unit matrix has one size")
-                .with_help("write `E(4)`; `E` by itself has 3 rows")),
+                .with_help("write `E(4)`; `E` alone has 3 rows")),
         }
     }
 

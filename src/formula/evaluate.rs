@@ -182,6 +182,12 @@ fn step<T: Scalar>(
             Scalar(all.reduce(|a, b| elementary::extreme(*which, a, b)).expect(TYPED))
         }
         Operation::Antiderivative(f, x) => Scalar(T::antiderivative(v.scalar(*f), v.scalar(*x))),
+        Operation::Partial { derivative, of, .. } => {
+            // undefined where the function is
+            let nothing = v.list(*of).into_iter().map(|x| T::zero() * x).reduce(|a, b| a + b);
+            let nothing = nothing.unwrap_or_else(T::zero);
+            v.0[*derivative].map(|x| x + nothing)
+        }
         _ => in_space(operation, v).unwrap_or_else(|| of_any_size(operation, v)),
     }
 }

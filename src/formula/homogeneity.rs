@@ -64,7 +64,8 @@ impl Check<'_> {
             Operation::Inverse(a) => self.times(*a, &-&one),
             Operation::Adjugate(a) => self.times(*a, &Rational::from(self.rows(*a) - 1)),
             Operation::Determinant(a) => self.times(*a, &Rational::from(self.rows(*a))),
-            Operation::Negate(a)
+            Operation::Partial { derivative: a, .. }
+            | Operation::Negate(a)
             | Operation::Component(a, _)
             | Operation::Row(a, _)
             | Operation::Entry(a, _, _)

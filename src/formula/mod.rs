@@ -15,7 +15,7 @@
 //! | `a^b`, `a²`, `A⁻¹`, `Aᵀ`, `γ[3]`, `B[1,2]` | power, inverse, transpose, component |
 //!
 //! `(a,b)` is the dot product, `|a|` the norm or absolute value, `[a,b,c]` a vector and
-//! `[[..],[..],[..]]` a matrix by rows. `γ3` is a component of `γ`, `I12` an entry and `I1` a
+//! `[[..],[..],[..]]` a matrix by rows. `∂F/∂x` is a partial derivative. `γ3` is a component of `γ`, `I12` an entry and `I1` a
 //! diagonal entry of `I`, unless they are names themselves. `E` is the identity matrix.
 //!
 //! ```
@@ -60,9 +60,11 @@ mod mutation;
 mod names;
 mod operands;
 mod parser;
+mod partial;
 mod poles;
 mod powers;
 mod scope;
+mod slopes;
 mod spelling;
 mod substitute;
 mod symbols;
@@ -92,7 +94,7 @@ pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::canonical_name;
 pub(crate) use names::{names_in, skeleton};
-pub use scope::{Scope, Symbol};
+pub use scope::{Origin, Scope, Symbol};
 pub use spelling::nearest;
 pub use value::{Table, Value};
 pub use weights::{Weight, WeightSystem};

@@ -31,7 +31,7 @@ impl Formula {
     /// All mutants, in the order of the text; at most 60.
     pub fn mutants(&self, scope: &dyn Scope) -> Vec<Mutant> {
         let mut edits = Vec::new();
-        for node in 0..self.arena.nodes.len() {
+        for node in self.written_nodes() {
             self.edits_of(node, scope, &mut edits);
         }
         let mut mutants: Vec<Mutant> = Vec::new();
@@ -50,6 +50,17 @@ impl Formula {
         }
         let step = mutants.len().div_ceil(MOST).max(1);
         mutants.into_iter().step_by(step).collect()
+    }
+
+    /// Nodes that stand in the text: all but those that make up a derivative.
+    fn written_nodes(&self) -> Vec<NodeId> {
+        let mut hidden = vec![false; self.arena.nodes.len()];
+        for (node, own) in self.arena.nodes.iter().enumerate() {
+            if let Operation::Partial { by, .. } = own.operation {
+                hidden[by + 1..node].fill(true);
+            }
+        }
+        (0..hidden.len()).filter(|node| !hidden[*node]).collect()
     }
 
     fn operations(&self) -> impl Iterator<Item = &Operation> {

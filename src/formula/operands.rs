@@ -36,6 +36,11 @@ impl Parser<'_> {
     /// Reads a name of the scope, one of its components, the identity, or a call.
     pub(super) fn name(&mut self) -> Parsed {
         let span = self.advance();
+        self.name_at(span)
+    }
+
+    /// Reads the name at a place that has been passed.
+    pub(super) fn name_at(&mut self, span: Span) -> Parsed {
         let name = self.text(&span);
         if let Some(value) = self.bound(name) {
             let number = Operation::Number(Rational::from(value));
@@ -47,6 +52,11 @@ impl Parser<'_> {
         }
         if meaning.is_none() && binders::is_form(name) {
             return self.form(name, span);
+        }
+        if meaning.is_none()
+            && let Some(derivative) = self.derivative(name, &span)
+        {
+            return derivative;
         }
         if self.whole_numbers && meaning.is_some() {
             return self.known_number(name, span);

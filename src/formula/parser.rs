@@ -228,7 +228,8 @@ impl<'t> Parser<'t> {
         if self.starts_operand() { Err(self.missing_times(&operand)) } else { Ok(operand) }
     }
 
-    fn primary(&mut self) -> Parsed {
+    /// Reads a number, a name, or what stands in brackets or bars.
+    pub(super) fn primary(&mut self) -> Parsed {
         match self.peek() {
             Kind::Number => self.number(),
             Kind::Name | Kind::Integral => self.name(),

@@ -1,5 +1,6 @@
 //! Meaning of names: the scope of a formula, and the lookup of written names in it.
 
+use super::Formula;
 use super::arena::Constant;
 use super::kind::Type;
 use super::names::canonical_name;
@@ -21,6 +22,24 @@ pub trait Scope {
     fn whole_number(&self, _name: &str) -> Option<i64> {
         None
     }
+
+    /// Origin of a symbol's value, which `∂F/∂x` has to know.
+    fn origin(&self, _symbol: Symbol) -> Origin<'_> {
+        Origin::Computed
+    }
+}
+
+/// Origin of a symbol's value.
+#[derive(Clone, Copy, Debug)]
+pub enum Origin<'s> {
+    /// A variable, independent of all others.
+    Variable,
+    /// The same for all values of the variables.
+    Constant,
+    /// The value of a formula in the same scope.
+    Defined(&'s Formula),
+    /// Computed otherwise: it may depend on any variable.
+    Computed,
 }
 
 /// Meaning of a written name.

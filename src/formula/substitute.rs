@@ -1,6 +1,6 @@
 //! Substitution of a formula for a name.
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, Function, Node, NodeId, Operation};
 use super::binders::is_form;
 use super::bond::{Bond, is_signed};
 use super::compose::Composed;
@@ -16,6 +16,8 @@ struct Edit {
     text: String,
     /// Place of the other formula's text in the new piece.
     inside: usize,
+    /// Length of the index written behind it, where a component stood.
+    index: usize,
 }
 
 impl Formula {
@@ -57,8 +59,13 @@ impl Formula {
         Ok(Formula { text, arena })
     }
 
-    /// Fails where an index of a form could catch a name.
+    /// Fails where an index of a form could catch a name, and in derivatives.
     fn without_forms(&self) -> Result<(), FormulaError> {
+        let derivative = |node: &&Node| matches!(node.operation, Operation::Partial { .. });
+        if let Some(node) = self.arena.nodes.iter().find(derivative) {
+            let message = "nothing can be put into a derivative";
+            return Err(FormulaError::new(node.span.clone(), message));
+        }
         let tokens = tokens(&self.text)?;
         let calls = tokens.iter().zip(tokens.iter().skip(1));
         let is_call = |kind: Kind, next: Kind| kind == Kind::Name && next == Kind::Open;
@@ -113,7 +120,7 @@ impl Formula {
             let in_brackets = by.bond() < wants || (follows_operator && is_signed(by.written()));
             let (open, close) = if in_brackets { ("(", ")") } else { ("", "") };
             let text = format!("{open}{}{close}{index}", by.written());
-            edits.push(Edit { span, text, inside: open.len() });
+            edits.push(Edit { span, text, inside: open.len(), index: index.len() });
         }
         edits.sort_by_key(|edit| edit.span.start);
         Ok(edits)
@@ -195,11 +202,10 @@ impl Rebuilding<'_> {
     /// Appends the other formula in the place of a symbol.
     fn put(&self, builder: &mut Builder<'_>, old: &Span, span: Span) -> NodeId {
         let inside = |edit: &&Edit| old.start <= edit.span.start && edit.span.end <= old.end;
-        let start = self
-            .edits
-            .iter()
-            .find(inside)
-            .map_or(span.start, |edit| self.moved(edit.span.start, false) + edit.inside);
+        let edit = self.edits.iter().find(inside);
+        let start =
+            edit.map_or(span.start, |edit| self.moved(edit.span.start, false) + edit.inside);
+        let span = span.start..span.end - edit.map_or(0, |edit| edit.index);
         let mut map: Vec<NodeId> = Vec::new();
         for own in &self.by.arena.nodes {
             let moved = |place: usize| (place + start).saturating_sub(self.by.leading());

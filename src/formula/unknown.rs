@@ -12,7 +12,11 @@ use super::{binders, functions};
 const MOST_LISTED: usize = 24;
 
 /// Functions of other languages, and their notation here.
-const ELSEWHERE: [(&[&str], &str); 21] = [
+const ELSEWHERE: [(&[&str], &str); 22] = [
+    (
+        &["grad", "gradient", "nabla", "diff", "derivative", "d"],
+        "write `∂F/∂x`, or `partial(F, x)`",
+    ),
     (&["sec"], "write `1/cos(x)`"),
     (&["csc", "cosec"], "write `1/sin(x)`"),
     (&["cot", "cotan", "ctg"], "write `1/tan(x)`"),

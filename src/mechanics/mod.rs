@@ -50,7 +50,7 @@ pub use rigid::RigidBody;
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use spinning::Spinning;
 pub use system::System;
-pub use variables::{Block, Variables};
+pub use variables::{Block, Poisson, Variables};
 pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
 
 pub use across::AcrossNormal;

@@ -13,8 +13,24 @@ pub struct Variables {
     pub model: Model,
     /// One formula for each new variable, in the names of the case.
     pub images: Vec<Formula>,
-    /// Blocks of the Poisson tensor, by pairs of variables; 0 where none is given.
+    /// Brackets of them, each with its name.
+    pub brackets: Vec<Poisson>,
+}
+
+/// A bracket of the new variables.
+#[derive(Clone, Debug)]
+pub struct Poisson {
+    /// Name by which claims choose it.
+    pub name: String,
+    /// Blocks of the tensor, by pairs of variables; 0 where none is given.
     pub blocks: Vec<Vec<Option<Block>>>,
+}
+
+impl Poisson {
+    /// Returns the blocks that are formulas.
+    pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
+        self.blocks.iter().flatten().flatten().filter_map(Block::typed)
+    }
 }
 
 /// A block of a Poisson tensor.
@@ -41,16 +57,6 @@ impl Block {
 }
 
 impl Variables {
-    /// Whether a bracket is given.
-    pub fn has_bracket(&self) -> bool {
-        self.blocks.iter().flatten().any(Option::is_some)
-    }
-
-    /// Returns the given blocks of the bracket.
-    pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
-        self.blocks.iter().flatten().flatten().filter_map(Block::typed)
-    }
-
     /// Evaluates φ(x), component by component.
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
@@ -72,9 +78,9 @@ impl Variables {
         symmetric_part(&self.model.state, matrix)
     }
 
-    /// Returns P at a point of the new variables, by rows.
-    pub fn tensor<T: Scalar>(&self, there: &Phase<'_, T>) -> Vec<Vec<T>> {
-        tensor(&self.model.state, &self.blocks, there)
+    /// Returns the tensor P of a bracket at a point of the new variables, by rows.
+    pub fn tensor<T: Scalar>(&self, bracket: usize, there: &Phase<'_, T>) -> Vec<Vec<T>> {
+        tensor(&self.model.state, &self.brackets[bracket].blocks, there)
     }
 }
 

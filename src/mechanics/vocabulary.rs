@@ -1,9 +1,11 @@
 //! Names of a case and their meanings.
 
+use std::sync::Arc;
+
 use rustc_hash::FxHashMap;
 
 use super::quantity::Quantity;
-use crate::formula::{Formula, Scope, Symbol, Type};
+use crate::formula::{Formula, Origin, Scope, Symbol, Type};
 
 /// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +44,8 @@ pub struct Entry {
     pub reach: Reach,
     /// Integer value, if the file fixes one.
     pub whole: Option<i64>,
+    /// Formula of an abbreviation.
+    definition: Option<Arc<Formula>>,
 }
 
 /// All names of a case.
@@ -55,7 +59,22 @@ impl Vocabulary {
     /// Adds a name; a later entry of the same name hides the earlier one.
     pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) {
         self.by_name.insert(name.to_string(), self.entries.len() as u32);
-        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
+        self.entries.push(Entry {
+            name: name.to_string(),
+            meaning,
+            kind,
+            reach,
+            whole: None,
+            definition: None,
+        });
+    }
+
+    /// Adds an abbreviation, the one with this index in the model.
+    pub fn define(&mut self, name: &str, index: usize, formula: &Formula, reach: Reach) {
+        self.add(name, Meaning::Abbreviation(index), formula.value_type(), reach);
+        if let Some(entry) = self.entries.last_mut() {
+            entry.definition = Some(Arc::new(formula.clone()));
+        }
     }
 
     /// Notes the integer value that the file fixes for a name.
@@ -67,7 +86,14 @@ impl Vocabulary {
 
     /// Adds an entry without making it accessible by name; returns its symbol.
     pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) -> Symbol {
-        self.entries.push(Entry { name: name.to_string(), meaning, kind, reach, whole: None });
+        self.entries.push(Entry {
+            name: name.to_string(),
+            meaning,
+            kind,
+            reach,
+            whole: None,
+            definition: None,
+        });
         Symbol(self.entries.len() as u32 - 1)
     }
 
@@ -189,5 +215,15 @@ impl Scope for Vocabulary {
 
     fn whole_number(&self, name: &str) -> Option<i64> {
         self.find(name)?.whole
+    }
+
+    fn origin(&self, symbol: Symbol) -> Origin<'_> {
+        let entry = self.entry(symbol);
+        match (entry.meaning, &entry.definition) {
+            (_, Some(formula)) => Origin::Defined(formula),
+            (Meaning::State(_), None) => Origin::Variable,
+            (_, None) if entry.reach == Reach::Parameters => Origin::Constant,
+            _ => Origin::Computed,
+        }
     }
 }

@@ -74,5 +74,5 @@ pub use separatrix::{Separatrices, separatrices};
 pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
-pub use validated::{Enclosure, Obstacle, ProvedOrbit, Request, prove};
+pub use validated::{Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove};
 pub use variational::Variational;

@@ -111,7 +111,7 @@ pub fn over_denominators(
         let dimension = vectors.len() + irrational;
         report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
         if irrational > 0 {
-            let many = format!("{irrational} relations have no small rational coefficients");
+            let many = format!("{irrational} relations do not have small rational coefficients");
             report.remark(many);
         }
         let written = |vector: &Vec<Rational>| {

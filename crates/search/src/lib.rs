@@ -69,10 +69,10 @@ pub enum SearchError {
     #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
     NoSeries,
     /// A minor is not a fraction of low degree in a parameter.
-    #[error("the equations are no fractions of low degree in the parameter")]
+    #[error("the equations are not fractions of low degree in the parameter")]
     NoFraction,
     /// A term given by the user cannot be read.
-    #[error("the term `{0}` is no scalar in the names of the case")]
+    #[error("the term `{0}` is not a scalar in the names of the case")]
     NoTerm(String),
     /// The case has no claim of this name.
     #[error("the case has no claim `{0}`")]

@@ -7,7 +7,7 @@ use super::ClaimError;
 use super::state::State;
 use super::value::{FormulaSource, ValueSpec};
 use crate::formula::{Formula, Type};
-use crate::mechanics::{LevelEquation, Meaning, Model, Parameter, Reach, Vocabulary};
+use crate::mechanics::{LevelEquation, Model, Parameter, Reach, Vocabulary};
 
 /// Kind of system that is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,8 +173,7 @@ impl ModelBuilder {
             let read = builder.read(name, &formula, None, Reach::Phase)?;
             let entry = builder.vocabulary.reach(&read);
             let reach = entry.map_or(Reach::Parameters, |entry| entry.reach);
-            let meaning = Meaning::Abbreviation(builder.abbreviations.len());
-            builder.vocabulary.add(name, meaning, read.value_type(), reach);
+            builder.vocabulary.define(name, builder.abbreviations.len(), &read, reach);
             builder.abbreviations.push(read);
             Ok(())
         })

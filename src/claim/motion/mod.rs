@@ -13,6 +13,7 @@ mod limit_cycle;
 mod limit_of_motion;
 mod mean_divergence;
 mod periodic_point;
+mod reaches;
 mod stated;
 
 use super::Reader;
@@ -26,6 +27,7 @@ pub use limit_cycle::LimitCycle;
 pub use limit_of_motion::LimitOfMotion;
 pub use mean_divergence::{MeanDivergence, Tendency};
 pub use periodic_point::{PeriodicPoint, Stability};
+pub use reaches::Reaches;
 pub use stated::Stated;
 
 /// A kind of claim about motion, with its syntax.
@@ -101,6 +103,7 @@ kinds! {
     LimitOfMotion,
     Contacts,
     ClosedOrbit,
+    Reaches,
 }
 
 /// Reads the number of a key.

@@ -108,6 +108,15 @@ impl Paper<'_> {
             Function(function, a) => self.function(*function, *a, inline),
             Angle(y, x) => self.called("atan2", &[*y, *x], inline),
             Extreme(which, all) => self.called(which_word(*which), all, inline),
+            Partial { of, by, .. } => {
+                let part =
+                    |node| Layout::Row(vec![Layout::Sign("∂"), self.at(node, Bond::Whole, inline)]);
+                let (above, below) = (part(*of), part(*by));
+                match inline {
+                    true => (Layout::Row(vec![above, Layout::Sign("/"), below]), Bond::Product),
+                    false => (Layout::Fraction(Box::new(above), Box::new(below)), Bond::Power),
+                }
+            }
             Antiderivative(f, x) => {
                 let parts = vec![
                     Layout::Sign("∫"),

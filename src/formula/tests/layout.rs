@@ -1,6 +1,6 @@
 //! Tests of the layout of formulas.
 
-use crate::formula::{Formula, Layout, Scope, Symbol, Type};
+use crate::formula::{Formula, Layout, Origin, Scope, Symbol, Type};
 
 struct Letters;
 
@@ -14,6 +14,10 @@ impl Scope for Letters {
 
     fn names(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    fn origin(&self, _symbol: Symbol) -> Origin<'_> {
+        Origin::Variable
     }
 }
 
@@ -57,6 +61,8 @@ fn brackets_are_those_that_the_tree_needs() {
     assert_eq!(set("m*2"), "m·2", "digits are kept apart");
     assert_eq!(set("(ω,J⁻¹*ω)*det(J)"), "(ω,J^{−1} ω) det J", "the dot product has its own");
     assert_eq!(set("ω2*J13*J1"), "ω2 J13 J1", "components and entries");
+    assert_eq!(set("m*∂(k² + m)/∂k"), "m {∂(k^{2}+m)/∂k}", "derivatives");
+    assert_eq!(set("m^∂k/∂k"), "m^{∂k/∂k}", "in line under an exponent");
     assert_eq!(set("(J*ω)[3]"), "(J ω)_{3}", "of an expression");
     assert_eq!(set("√(m + k)*exp(−m)"), "√{m+k} exp(−m)", "functions");
     assert_eq!(set("2*π*e^m"), "2 π exp(m)", "constants");

@@ -6,6 +6,7 @@ mod forms;
 mod language;
 mod layout;
 mod logarithm;
+mod partial;
 mod random;
 mod weights;
 

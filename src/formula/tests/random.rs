@@ -6,8 +6,8 @@ use super::*;
 
 /// Formula of known meaning: its text, its binding strength, its value.
 #[derive(Clone, Debug)]
-struct Sample {
-    text: String,
+pub(super) struct Sample {
+    pub(super) text: String,
     level: u8,
     value: Value<f64>,
 }
@@ -154,7 +154,7 @@ fn matrix_step(kind: u8, s: &Sample, v: &Sample, w: &Sample, m: &Sample, n: &Sam
 }
 
 /// Grows a pool of samples by random steps; every later sample may contain earlier ones.
-fn grown() -> impl Strategy<Value = Sample> {
+pub(super) fn grown() -> impl Strategy<Value = Sample> {
     let leaves = (
         prop::collection::vec(prop_oneof![name(Type::Scalar), number()], 2..4),
         prop::collection::vec(name(Type::VECTOR), 2..4),

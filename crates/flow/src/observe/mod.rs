@@ -4,8 +4,8 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Nothing here is a proof but of closed orbits, which are enclosed. A stated number agrees with a computed one if they differ by no more
-//! than the last stated digit and the error that the computation itself shows: the spread of
+//! Closed orbits and states reached are enclosed, and so proved; all else is observed. There a
+//! stated number agrees with a computed one if they differ by no more than the last stated digit and the error that the computation itself shows: the spread of
 //! blocks, or the difference between f64 and double-double.
 
 mod closed_orbit;
@@ -15,6 +15,7 @@ mod exponents;
 mod finding;
 mod limit;
 mod periodic;
+mod reaches;
 mod scene;
 mod section;
 
@@ -55,6 +56,7 @@ fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Fin
         Motion::LimitOfMotion(claim) => limit::look(claim, scene),
         Motion::Contacts(claim) => contacts::look(claim, scene),
         Motion::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
+        Motion::Reaches(claim) => reaches::look(claim, scene),
     }
 }
 

@@ -1,4 +1,5 @@
-//! Closed orbits proved: Krawczyk's method on multiple shooting, with Taylor steps in balls.
+//! Motions enclosed by Taylor steps in balls: from a state, by Lohner's method, and closed orbits
+//! proved by Krawczyk's method on multiple shooting.
 //!
 //! ```text
 //! start, period ─ follow ─▶ nodes ─ Newton ─▶ nodes ─ boxes, K(Y) ⊂ Y ─▶ one closed orbit, ∮ div v
@@ -9,6 +10,7 @@
 mod band;
 mod coefficients;
 mod enclosure;
+mod forward;
 mod functions;
 mod guess;
 mod krawczyk;
@@ -28,6 +30,7 @@ use liouville::mechanics::Model;
 use liouville::number::rational::Rational;
 
 pub use enclosure::Enclosure;
+pub use forward::{Reached, follow};
 
 use functions::{Functions, norm};
 use guess::Nodes;
@@ -91,7 +94,7 @@ pub struct ProvedOrbit {
     pub kept: usize,
 }
 
-/// Reason why no closed orbit is proved.
+/// Reason why a motion is not enclosed, or no closed orbit proved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Obstacle {
     /// The motion cannot be computed.
@@ -103,6 +106,12 @@ pub enum Obstacle {
     /// The orbit is too long.
     #[error("the orbit takes more than {MOST_UNKNOWNS} unknowns")]
     TooLong,
+    /// The motion is too long.
+    #[error("the motion takes more than {} steps", forward::MOST_STEPS)]
+    TooManySteps,
+    /// The state is not enclosed well enough.
+    #[error("the enclosure of the state grows too wide near t = {0:.3}")]
+    Wide(f64),
     /// The equations are singular.
     #[error(
         "the equations for the orbit are singular: it is degenerate, or one of a family of closed \

@@ -66,7 +66,7 @@ impl Underived {
         let kept = claim.place.kept.iter().any(|kept| *kept);
         if matches!(claim.kind, Kind::Density(_)) && kept && !model.system.conserves_level() {
             return Ok(Err(
-                "the level changes beside itself: its cofactor takes second derivatives",
+                "the level changes next to itself, and its cofactor takes second derivatives",
             ));
         }
         let is_criterion =

@@ -70,7 +70,15 @@ pub fn with_constants(
 pub fn combination<'t>(
     parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
 ) -> Result<Option<Formula>, FormulaError> {
-    let mut sum: Option<Formula> = None;
+    appended(None, parts)
+}
+
+/// A formula plus Σ constant · part; `None` for an empty sum.
+pub fn appended<'t>(
+    first: Option<&Formula>,
+    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
+) -> Result<Option<Formula>, FormulaError> {
+    let mut sum: Option<Formula> = first.cloned();
     for (constant, part) in parts {
         let term = match part.value_type() {
             Type::Scalar => (constant * part.bracketed())?,

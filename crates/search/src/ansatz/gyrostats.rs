@@ -15,7 +15,7 @@ use super::super::products::Generators;
 use super::super::terms::{is_one, read};
 use super::super::{Effort, Excluded, Found, Report, SearchError};
 use super::coefficients::{Coefficients, Ratio};
-use super::forces::{combination, with_constants, with_gyrostat};
+use super::forces::{appended, combination, with_constants, with_gyrostat};
 use super::monomials::Variables;
 use super::size::Size;
 use super::system::{Column, System};
@@ -113,7 +113,7 @@ impl Rotors<'_> {
         let highest = self.effort.ansatz.positions;
         let then = match (dimension, told) {
             (0, _) => String::new(),
-            (n, told) if n == told => ": those told here".to_string(),
+            (n, told) if n == told => ": those listed here".to_string(),
             (_, told) => format!("; the terms of second order leave {told} of them"),
         };
         report.excluded.push(Excluded {
@@ -194,7 +194,7 @@ impl Rotors<'_> {
             dimension += 1;
             let Some(coefficients) = Coefficients::of(system, &support) else {
                 report.remark(format!(
-                    "a rotor with {} terms has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                    "a rotor with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
                     support.len()
                 ));
                 continue;
@@ -315,11 +315,11 @@ impl Rotors<'_> {
     ) -> Result<usize, SearchError> {
         let (mut extended, names) = with_constants(self.case, "s", own.len())?;
         let rotor = combination(names.iter().zip(own.iter().map(|one| &one.rotor)))?;
-        let linear = combination(names.iter().zip(own.iter().map(|one| &one.linear)))?;
-        let (Some(rotor), Some(linear)) = (rotor, linear) else { return Ok(0) };
+        let linear = names.iter().zip(own.iter().map(|one| &one.linear));
+        let sum = appended(Some(&self.integral), linear)?;
+        let (Some(rotor), Some(mut formula)) = (rotor, sum) else { return Ok(0) };
         let Some(model) = with_gyrostat(&extended.model, &rotor) else { return Ok(0) };
         extended.model = model;
-        let mut formula = (&self.integral + &linear)?;
         for ((k, l), term) in pairs.iter().zip(quadratic) {
             let is_zero = |term: &&Formula| term.constant().is_some_and(|value| value.is_zero());
             if let Some(term) = term.as_ref().filter(|term| !is_zero(term)) {

@@ -219,7 +219,7 @@ impl Search<'_> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let Some(coefficients) = Coefficients::of(system, &support) else {
             report.remark(format!(
-                "an integral of degree {} with {} terms over {} has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                "an integral of degree {} with {} terms over {} has coefficients that are not fractions of low degree in the parameters; give values with --set",
                 self.degree, support.len(), self.below
             ));
             return Ok(Outcome::Open);
@@ -253,7 +253,7 @@ impl Search<'_> {
             other => {
                 let word = other.map_or("undecided", |verdict| verdict.word());
                 report.remark(format!(
-                    "an integral, of which it is {word} that it is independent of what is told: {formula}"
+                    "an integral, whose independence of those listed is {word}: {formula}"
                 ));
                 Ok(Outcome::Dependent)
             }
@@ -293,7 +293,7 @@ impl Search<'_> {
             ),
         };
         for (count, words) in [
-            (many(Outcome::Told), "are told here"),
+            (many(Outcome::Told), "are listed here"),
             (dependent, "are not shown to be independent functions of these"),
             (open, "are not known"),
         ] {

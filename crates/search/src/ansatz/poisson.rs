@@ -189,7 +189,7 @@ impl<'a> Family<'a> {
             Some(solution) => self.judge(solution, &beside, known, report),
             None if irrational > 0 => {
                 report.remark(format!(
-                    "brackets with {name}: their coefficients are no small rational numbers"
+                    "brackets with {name}: their coefficients are not small rational numbers"
                 ));
                 Ok(())
             }

@@ -10,7 +10,7 @@ use super::super::products::Generators;
 use super::super::terms::read;
 use super::super::{Effort, Excluded, Found, Report, SearchError};
 use super::coefficients::{Coefficients, Ratio};
-use super::forces::{combination, with_constants, with_potential};
+use super::forces::{appended, combination, with_constants, with_potential};
 use super::monomials::Variables;
 use super::size::Size;
 use super::system::{Column, System};
@@ -129,7 +129,7 @@ impl Family<'_> {
             }
             let Some(coefficients) = Coefficients::of(&system, &support) else {
                 report.remark(format!(
-                    "a potential with {} terms has coefficients that are no fractions of low degree in the parameters; give values with --set",
+                    "a potential with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
                     support.len()
                 ));
                 continue;
@@ -160,7 +160,7 @@ impl Family<'_> {
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent potentials of this form, \
                  constants aside, allow an integral {} + G(γ) with G = Σ p/d, p of degree at most {GAIN}{}.",
                 self.integral,
-                if told == dimension && told > 0 { ": those told here" } else { "" }
+                if told == dimension && told > 0 { ": those listed here" } else { "" }
             ),
         });
         Ok(())
@@ -200,14 +200,11 @@ impl Family<'_> {
         let (mut extended, names) = with_constants(self.case, "ε", found.len())?;
         let potential = combination(names.iter().zip(found.iter().map(|(u, _)| u)))?;
         let gains = names.iter().zip(found).filter_map(|(name, (_, g))| Some((name, g.as_ref()?)));
-        let gain = combination(gains)?;
         let Some(potential) = potential else { return Ok(0) };
         let Some(model) = with_potential(&extended.model, &potential) else { return Ok(0) };
         extended.model = model;
-        let formula = match gain {
-            None => self.integral.clone(),
-            Some(gain) => (&self.integral + &gain)?,
-        };
+        let formula = appended(Some(&self.integral), gains)?;
+        let formula = formula.unwrap_or_else(|| self.integral.clone());
         let verdict = judged_alone(&extended, Claim::integral(&formula), self.effort)?;
         let Some(verdict) = verdict else { return Ok(0) };
         if !holds(&verdict) {

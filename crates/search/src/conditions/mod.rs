@@ -135,7 +135,7 @@ fn condition(
     };
     let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
     let Some(mut lines) = Lines::new(&residual, effort.options.seed) else {
-        let grounds = "the residual is no fraction of low degree in the parameters";
+        let grounds = "the residual is not a fraction of low degree in the parameters";
         return told(Vec::new(), grounds.to_string());
     };
     let names = residual.names();
@@ -148,7 +148,7 @@ fn condition(
             Along::Unknown => {
                 return told(
                     Vec::new(),
-                    "the residual is no fraction of low degree in the parameters".to_string(),
+                    "the residual is not a fraction of low degree in the parameters".to_string(),
                 );
             }
             Along::Points(found, own) => {

@@ -78,7 +78,7 @@ pub fn polynomials(
             images::coefficients(&Columns { system: &system, columns: &support }, &effort.halt)
         else {
             report.remark(format!(
-                "an integral of degree {degree} with {} terms has coefficients that are no fractions of low \
+                "an integral of degree {degree} with {} terms has coefficients that are not fractions of low \
                  degree in the parameters; give values with --set",
                 support.len()
             ));

@@ -143,10 +143,10 @@ impl Integrals {
                 "integrals: proved, but fewer than Euler and Jacobi's theorem needs".to_string()
             }
             Integrals::ExcludedToDegree(degree) => format!(
-                "an integral beside the energy: none known; none that is polynomial in the velocities of \
+                "an integral besides the energy: none known; none that is polynomial in the velocities of \
                  degree at most {degree} exists for generic parameters; others are not known"
             ),
-            Integrals::NotKnown => "an integral beside the energy: not known".to_string(),
+            Integrals::NotKnown => "an integral besides the energy: not known".to_string(),
         }
     }
 }

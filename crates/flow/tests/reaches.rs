@@ -1,0 +1,166 @@
+//! Values at a time of a motion: known solutions lie in their enclosures, and wrong bounds are
+//! refuted.
+
+use std::f64::consts::{E, PI};
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Method, Options, Verdict};
+use liouville_flow::observe::observe;
+
+fn judged(text: &str) -> ClaimReport {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    observe(&case, &Options::default()).remove(0)
+}
+
+fn claim(field: &str, rest: &str) -> ClaimReport {
+    judged(&format!("title = \"x\"\n{field}\n[[claim]]\n{rest}\n"))
+}
+
+const GROWTH: &str = "[state]\nx = \"-9..9\"\n[field]\n\"x'\" = \"x\"";
+const OSCILLATOR: &str =
+    "[state]\nx = \"-9..9\"\ny = \"-9..9\"\n[field]\n\"x'\" = \"y\"\n\"y'\" = \"−x\"";
+const LOGISTIC: &str = "[state]\nx = \"0..1\"\n[field]\n\"x'\" = \"x*(1 − x)\"";
+const TOP: &str = "[parameters]\nA = [\"1/2\", \"1\", \"3\"]\n[state]\nM = \"vector(3, -1..1)\"\n\
+                   [level]\nequations = [\"(M,M) = 1\"]\n[field]\n\"M'\" = \"M × (A*M)\"";
+
+#[test]
+fn known_solutions_lie_in_their_enclosures() {
+    let mut seed: u64 = 7;
+    let mut random = || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for _ in 0..40 {
+        let (time, x, y) = (0.1 + 9.0 * random(), 2.0 * random() - 1.0, 2.0 * random() - 1.0);
+        let cases = [
+            (GROWTH, format!("{{ x = \"{x}\" }}"), x * time.exp()),
+            (
+                OSCILLATOR,
+                format!("{{ x = \"{x}\", y = \"{y}\" }}"),
+                x * time.cos() + y * time.sin(),
+            ),
+            (
+                LOGISTIC,
+                format!("{{ x = \"{}\" }}", x * x),
+                1.0 / (1.0 + (1.0 / (x * x) - 1.0) * (-time).exp()),
+            ),
+        ];
+        for (field, state, known) in cases {
+            let found = claim(
+                field,
+                &format!("reaches = \"x\"\nabove = \"−1e9\"\nstate = {state}\ntime = \"{time}\""),
+            );
+            assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
+            assert_eq!(found.evidence.method, Method::EnclosedOrbit);
+            let value = &found.evidence.measured[0];
+            // the known value is rounded as well
+            let slack = 1e-13 * (1.0 + known.abs());
+            assert!((value.value - known).abs() <= value.error + slack, "{known}: {value:?}");
+            assert!(value.error <= 1e-10 * (1.0 + known.abs()), "{known}: {value:?}");
+        }
+    }
+}
+
+#[test]
+fn the_typed_time_is_meant_and_not_its_f64() {
+    let turn = |bounds: &str| {
+        claim(
+            OSCILLATOR,
+            &format!("reaches = \"y\"\n{bounds}\nstate = {{ x = \"1\" }}\ntime = \"π/2\""),
+        )
+    };
+    let found = turn("above = \"−1 − 1e-12\"\nbelow = \"−1 + 1e-12\"");
+    assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
+    assert_eq!(turn("above = \"−1 + 1e-12\"").verdict, Verdict::Refuted);
+    assert_eq!(turn("above = \"−1\"").verdict, Verdict::Undecided, "it is −1");
+    let value = turn("above = \"−2\"").evidence.measured[0].clone();
+    assert!((value.value + (PI / 2.0).sin()).abs() <= value.error, "{value:?}");
+}
+
+#[test]
+fn bounds_are_proved_or_refuted() {
+    let grown = |bounds: &str, time: &str| {
+        claim(
+            GROWTH,
+            &format!("reaches = \"x\"\n{bounds}\nstate = {{ x = \"1\" }}\ntime = \"{time}\""),
+        )
+    };
+    assert_eq!(
+        grown("above = \"2.718281828459\"\nbelow = \"e\"", "0.999999").verdict,
+        Verdict::Refuted
+    );
+    assert_eq!(
+        grown("above = \"2.7182818284\"\nbelow = \"2.7182818285\"", "1").verdict,
+        Verdict::Proved
+    );
+    assert_eq!(grown("below = \"e\"", "1").verdict, Verdict::Undecided, "it is e");
+    let value = grown("above = \"0\"", "1").evidence.measured[0].clone();
+    assert!((value.value - E).abs() <= value.error, "{value:?}");
+}
+
+#[test]
+fn a_state_on_a_level_is_exact() {
+    let top = |state: &str| {
+        claim(
+            TOP,
+            &format!(
+                "reaches = \"(M,M)\"\nabove = \"1 − 1e-10\"\nbelow = \"1 + 1e-10\"\nstate = {{ M = \"{state}\" }}\ntime = 20"
+            ),
+        )
+    };
+    let found = top("[3/5, 0, 4/5]");
+    assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
+    for (state, reason) in
+        [("[0.6, 0.1, 0.8]", "violates (M,M) = 1"), ("[√2/2, √2/2, 0]", "give rational numbers")]
+    {
+        let found = top(state);
+        assert_eq!(found.verdict, Verdict::Undecided, "{state}");
+        let told = found.evidence.reason.unwrap_or_default();
+        assert!(told.contains(reason), "{state}: {told}");
+    }
+}
+
+#[test]
+fn what_cannot_be_enclosed_is_undecided() {
+    // x = 1/(1 − t) ends at t = 1
+    let pole = claim(
+        "[state]\nx = \"-9..9\"\n[field]\n\"x'\" = \"x²\"",
+        "reaches = \"x\"\nabove = \"0\"\nstate = { x = \"1\" }\ntime = 2",
+    );
+    assert_eq!(pole.verdict, Verdict::Undecided, "{:?}", pole.evidence);
+    let ranges = claim(
+        "[parameters]\nk = \"1..2\"\n[state]\nx = \"-9..9\"\n[field]\n\"x'\" = \"k*x\"",
+        "reaches = \"x\"\nabove = \"0\"\nstate = { x = \"1\" }\ntime = 2",
+    );
+    let told = ranges.evidence.reason.unwrap_or_default();
+    assert!(told.contains("some parameters have ranges"), "{told}");
+}
+
+#[test]
+fn chaos_widens_the_box_until_nothing_is_said() {
+    let lorenz = "[state]\nx = \"-30..30\"\ny = \"-30..30\"\nz = \"0..60\"\n[field]\n\
+                  \"x'\" = \"10*(y − x)\"\n\"y'\" = \"x*(28 − z) − y\"\n\"z'\" = \"x*y − 8*z/3\"";
+    let at = |time: u32| {
+        claim(
+            lorenz,
+            &format!(
+                "reaches = \"z\"\nabove = \"0\"\nstate = {{ x = \"1\", y = \"1\", z = \"20\" }}\ntime = {time}"
+            ),
+        )
+    };
+    let near = at(10);
+    assert_eq!(near.verdict, Verdict::Proved, "{:?}", near.evidence);
+    assert_eq!(at(200).verdict, Verdict::Undecided);
+}
+
+#[test]
+fn the_rattleback_turns_back_one_way() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/spin/rattleback-reversal.toml");
+    let case = Case::read(std::path::Path::new(path), &[]).1.expect("a case");
+    let claims = observe(&case, &Options::default());
+    assert_eq!(claims.len(), 4, "all are about the motion");
+    for claim in claims {
+        assert!(claim.agrees, "{}: {:?}", claim.name, claim.evidence);
+        println!("{}: {:?}", claim.name, claim.evidence.measured);
+    }
+}

@@ -1,0 +1,81 @@
+//! Compatible brackets: every combination aP + bQ satisfies Jacobi's identity where P and Q do.
+
+use super::hamiltonian::{ON_A_PART, defects, named_bracket, of, tensor_slopes, they_vary};
+use super::{Condition, Reader, Statement};
+use crate::graph::Expr;
+use crate::mechanics::calculus::Jet;
+use crate::mechanics::{Phase, Variables};
+use crate::scalar::Scalar;
+
+/// The claim Σ_l (P_il ∂_lQ_jk + Q_il ∂_lP_jk + cyclic in i, j, k) = 0, P + Pᵀ = 0 and Q + Qᵀ = 0.
+#[derive(Clone, Debug)]
+pub struct Compatible {
+    /// Indices of the two brackets.
+    brackets: [usize; 2],
+    text: String,
+}
+
+impl Compatible {
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensors = self.brackets.map(|bracket| variables.tensor(bracket, there));
+        let slopes = self.brackets.map(|bracket| tensor_slopes(variables, bracket, there));
+        let n = there.model().dimension();
+        let term = |i: usize, j: usize, k: usize| -> T {
+            let along = |l: usize| {
+                tensors[0][i][l] * slopes[1][l][j][k] + tensors[1][i][l] * slopes[0][l][j][k]
+            };
+            (0..n).map(along).sum()
+        };
+        let mut residual: Vec<T> =
+            tensors.iter().flat_map(|tensor| variables.symmetric_part(tensor)).collect();
+        for i in 0..n {
+            for j in i + 1..n {
+                residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));
+            }
+        }
+        residual
+    }
+}
+
+impl Statement for Compatible {
+    const NAME: &'static str = "compatible";
+    const OF_MAPS: bool = true;
+    const AT_IMAGES: bool = true;
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let names = from.texts(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
+        let [first, second] = <[String; 2]>::try_from(names).map_err(|names| {
+            let message = format!("two brackets are compatible, and {} are given", names.len());
+            from.complaint(Self::NAME, message, "write compatible = [\"P\", \"Q\"]")
+        })?;
+        let text = format!("[{first}, {second}] = 0");
+        let first = named_bracket(from, Self::NAME, &first)?;
+        let second = named_bracket(from, Self::NAME, &second)?;
+        Ok(Self { brackets: [first, second], text })
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(self.text.clone())
+    }
+
+    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        let variables = of(jet.phase.model());
+        self.at(variables, &variables.point(&jet.phase))
+    }
+
+    fn residual_of_values(
+        &self,
+        variables: &Variables,
+        there: &Phase<'_, Expr>,
+    ) -> Option<Vec<Expr>> {
+        Some(self.at(variables, there))
+    }
+
+    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![they_vary(jet, ON_A_PART, true)]
+    }
+
+    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+        defects(jet, &self.brackets, std::iter::empty())
+    }
+}

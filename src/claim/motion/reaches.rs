@@ -1,0 +1,59 @@
+//! Values that a function has at a time of a motion, proved by enclosures.
+
+use super::{Beginning, Motional, time};
+use crate::claim::Reader;
+use crate::formula::{Formula, Type};
+
+/// The claim that a function lies between bounds at a time of a motion.
+#[derive(Clone, Debug)]
+pub struct Reaches {
+    /// Function of the state.
+    pub function: Formula,
+    /// Bound that it lies above.
+    pub above: Option<Formula>,
+    /// Bound that it lies below.
+    pub below: Option<Formula>,
+    /// State at which the motion begins.
+    pub beginning: Beginning,
+    /// Time after which the function is asked for.
+    pub time: f64,
+}
+
+impl Motional for Reaches {
+    const NAME: &'static str = "reaches";
+    const COMPANIONS: &'static [&'static str] = &["above", "below", "state", "time"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let function = from.required(Self::NAME, Some(Type::Scalar))?;
+        let [above, below] = ["above", "below"].map(|key| from.formula(key, Some(Type::Scalar)));
+        let (above, below) = (above?, below?);
+        if above.is_none() && below.is_none() {
+            let message = "nothing is said of its value".to_string();
+            return Err(from.complaint(Self::NAME, message, "add above = \"…\" or below = \"…\""));
+        }
+        let all = [Some(&function), above.as_ref(), below.as_ref()];
+        if all.iter().flatten().any(|formula| from.model().has_antiderivative(formula)) {
+            let message = "the constant of an ∫ is open".to_string();
+            return Err(from.complaint(Self::NAME, message, "write the antiderivative out"));
+        }
+        let beginning = Beginning::read(from)?;
+        if matches!(beginning, Beginning::Section(_)) {
+            let message = "an enclosed motion begins at a state".to_string();
+            return Err(from.complaint(Self::NAME, message, "write state = { … }"));
+        }
+        Ok(Self { function, above, below, beginning, time: time(from)? })
+    }
+
+    fn beginning(&self) -> &Beginning {
+        &self.beginning
+    }
+
+    fn text(&self) -> String {
+        let trimmed = |formula: &Formula| formula.text().trim().to_string();
+        let above = self.above.as_ref().map(|bound| format!("{} < ", trimmed(bound)));
+        let below = self.below.as_ref().map(|bound| format!(" < {}", trimmed(bound)));
+        let (above, below) = (above.unwrap_or_default(), below.unwrap_or_default());
+        let (time, start) = (self.time, self.beginning.text());
+        format!("{above}{}{below} at t = {time} from {start}", trimmed(&self.function))
+    }
+}
