@@ -68,7 +68,12 @@ impl Launches<'_> {
                 return self.on_surface(&pad, parameters, at);
             }
         };
-        let conditions = self.conditions(&self.case.model, &parameters, &|_| Vec::new())?;
+        let model = &self.case.model;
+        if self.energy.is_none() {
+            let state = state.iter().map(Pair::from_rational).collect();
+            return Start::near(model, parameters, state);
+        }
+        let conditions = self.conditions(model, &parameters, &|_| Vec::new())?;
         moved(&conditions, parameters, &state)
     }
 

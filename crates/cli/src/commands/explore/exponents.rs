@@ -111,13 +111,13 @@ fn starts(case: &Case, options: &Exponents) -> Result<Named, String> {
     let told = |error: FlowError| subject.told(&error);
     let mut given = options.starts.read(case)?;
     if given.is_empty() && options.state.is_none() {
-        let plan = case.section.iter().flat_map(|plan| &plan.starts);
-        let exact = |x: f64| Rational::from_f64(x).unwrap_or(Rational::from(0));
-        given.extend(
-            plan.map(|at| {
-                (format!("({}, {})", at[0], at[1]), Given::Values(at.map(exact).to_vec()))
-            }),
-        );
+        for at in case.section.iter().flat_map(|plan| &plan.starts) {
+            let [Some(l), Some(z)] = at.map(Rational::from_f64) else {
+                return Err("error: a start of [section] is not finite".to_string());
+            };
+            let name = format!("({}, {})", at[0], at[1]);
+            given.push((name, Given::Values(vec![l, z])));
+        }
     }
     let launches = Launches { case, energy: None, pad: None, seed: subject.seed, index: 0 };
     if given.is_empty() {
