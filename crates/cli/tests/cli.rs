@@ -4,6 +4,8 @@
 mod limits;
 #[path = "cli/motion.rs"]
 mod motion;
+#[path = "cli/orbits.rs"]
+mod orbits;
 #[path = "cli/start.rs"]
 mod start;
 #[path = "cli/wrong.rs"]

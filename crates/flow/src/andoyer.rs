@@ -30,24 +30,24 @@ pub fn applies(model: &Model) -> bool {
 }
 
 /// cos and sin of an angle.
-fn circular(angle: &Angle) -> (Expr, Expr) {
+fn circular<T: Scalar>(angle: &Angle) -> (T, T) {
     match angle {
         Angle::QuarterTurns(n) => {
-            let value = |k: u32| Expr::rational(&Rational::from([1, 0, -1, 0][k as usize % 4]));
+            let value = |k: u32| T::rational(&Rational::from([1, 0, -1, 0][k as usize % 4]));
             (value(*n), value(n + 3))
         }
         Angle::Radians(value) => {
-            let value = Expr::rational(value);
+            let value = T::rational(value);
             (value.cos(), value.sin())
         }
     }
 }
 
 /// Returns s sin(g - g₀) and s cos(g - g₀).
-pub fn section_functions(phase: &Phase<'_, Expr>, g0: &Angle) -> [Expr; 2] {
+pub fn section_functions<T: Scalar>(phase: &Phase<'_, T>, g0: &Angle) -> [T; 2] {
     let state = phase.state();
     let [w1, w2, w3, y1, y2, y3] = [0, 1, 2, 3, 4, 5].map(|k| state[k]);
-    let (cos, sin) = circular(g0);
+    let (cos, sin): (T, T) = circular(g0);
     let across = y1 * w2 - y2 * w1;
     // A quarter turn needs only one of the terms, and then |ω| > 0 is a mere factor.
     let along = match g0 {
@@ -105,7 +105,7 @@ impl Sphere {
         let (graph, outputs) = record(3 + loose.len(), |inputs| {
             let (l, z, energy) = (inputs[0], inputs[1], inputs[2]);
             let parameters = filled(parameters, loose, &inputs[3..]);
-            let (cos, sin) = circular(g0);
+            let (cos, sin): (Expr, Expr) = circular(g0);
             let s = (Expr::rational(&Rational::from(1)) - z * z).sqrt();
             let direction = [s * l.sin(), s * l.cos(), z];
             let gamma =

@@ -66,6 +66,21 @@ pub enum FlowError {
         /// Number of crossings in the direction that does not count.
         others: usize,
     },
+    /// The level set is a point.
+    #[error("the level set has dimension 0, so that nothing moves on it")]
+    NoTangents,
+    /// The motion stands still.
+    #[error("the start is an equilibrium: the motion stays there")]
+    AtRest,
+    /// The motion stays in the surface.
+    #[error("the motion stays in the surface, and does not cross it")]
+    InSurface,
+    /// The system has no energy.
+    #[error("the system has no energy, so that none can be given")]
+    NoEnergy,
+    /// No state with the values requested was found.
+    #[error("no state on the surface was found with {0}")]
+    NoPoint(String),
     /// The case has no such claim, or it is not about a formula.
     #[error("the case has no claim `{0}` about a formula")]
     NoSuchClaim(String),
@@ -94,6 +109,14 @@ pub enum FlowError {
         /// Period, in crossings of the section.
         period: usize,
     },
+    /// Newton's method for a closed orbit does not converge.
+    #[error("no closed orbit was found near the start, with a period near {0}")]
+    NoClosedOrbit(f64),
+    /// The equations of a closed orbit are singular.
+    #[error(
+        "the closed orbit near t = {0} is degenerate: it is one of a family, such as those of a further integral"
+    )]
+    Degenerate(f64),
     /// The point has no separatrices.
     #[error("the periodic point ({l:.6}, {z:.6}) is not hyperbolic but of kind: {kind}")]
     NotHyperbolic {
@@ -146,7 +169,9 @@ impl FlowError {
                 "choose another start; if all are singular, the parameters are"
             }
             FlowError::Singular { .. } => "choose another start, or a shorter time",
-            FlowError::NoAndoyer => "give a case with system = rubber-plane or rubber-sphere",
+            FlowError::NoAndoyer => {
+                "for other systems give a surface, such as --section 'x = 0', and starts by states"
+            }
             FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::Arbitrary => "give a shape and a potential by formulas",
             FlowError::Discrete => {
@@ -155,7 +180,14 @@ impl FlowError {
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => {
-                "choose another start, another g0, or another direction"
+                "choose another start, another surface (--section or --g0), or another direction"
+            }
+            FlowError::NoTangents => "leave out an equation of [level]",
+            FlowError::AtRest => "choose another start",
+            FlowError::InSurface => "choose another surface, or a start outside of it",
+            FlowError::NoEnergy => "leave out --energy",
+            FlowError::NoPoint(_) => {
+                "choose other values, another energy or direction, or give the whole state"
             }
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
             FlowError::OneSidedBackwards => "give a positive --time",
@@ -164,6 +196,12 @@ impl FlowError {
             }
             FlowError::TooManyPhases { .. } => "choose a shorter time",
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
+            FlowError::NoClosedOrbit(_) => {
+                "start nearer to the orbit, or give its period by --time or another --period"
+            }
+            FlowError::Degenerate(_) => {
+                "where a further integral is kept, closed orbits come in families, and have no multipliers"
+            }
             FlowError::NotHyperbolic { .. } => {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }

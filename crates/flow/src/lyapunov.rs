@@ -4,9 +4,9 @@
 //! error is reliable only where a block is longer than the slow drift between regions.
 
 /// Number of blocks after the transient.
-const BLOCKS: usize = 10;
+pub(super) const BLOCKS: usize = 10;
 /// Fraction of the time left out as transient.
-const SKIPPED: f64 = 0.1;
+pub(super) const SKIPPED: f64 = 0.1;
 /// Smallest deviation of a mean from 0 that counts, in standard errors.
 const ERRORS: f64 = 3.0;
 /// Distance below which two unit vectors count as parallel or antiparallel.
@@ -215,7 +215,8 @@ impl Record {
     }
 }
 
-fn estimate(blocks: &[f64]) -> Estimate {
+/// Mean of blocks, with its standard error.
+pub(super) fn estimate(blocks: &[f64]) -> Estimate {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let all = mean(blocks);
     let spread = blocks.iter().map(|x| (x - all) * (x - all)).sum::<f64>();

@@ -4,8 +4,9 @@ use super::error::FlowError;
 use super::motion::{point, program};
 use super::number::Number;
 use super::one_sided::{ContactEvent, follow};
+use super::samples::Samples;
 use super::start::Start;
-use super::stepper::{Accuracy, Stepper};
+use super::stepper::{Accuracy, Piece, Stepper};
 use liouville::case::{Case, Expect};
 use liouville::claim::Kind;
 use liouville::formula::Formula;
@@ -85,9 +86,52 @@ pub fn orbit(
     time: Pair,
     precision: Precision,
 ) -> Result<Orbit, FlowError> {
+    let mut nothing = Samples::nothing();
+    sampled(case, start, time, precision, &mut nothing)
+}
+
+/// Follows a motion, and takes samples of it. Where it ends early, the samples up to there are kept.
+pub(super) fn sampled(
+    case: &Case,
+    start: Start,
+    time: Pair,
+    precision: Precision,
+    samples: &mut Samples<'_>,
+) -> Result<Orbit, FlowError> {
     match precision {
-        Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT),
-        Precision::Pair => orbit_over::<Pair>(case, start, time, Accuracy::PAIR),
+        Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT, samples),
+        Precision::Pair => orbit_over::<Pair>(case, start, time, Accuracy::PAIR, samples),
+    }
+}
+
+/// Observer of a motion in steps.
+pub(super) trait Watcher<T: Number> {
+    /// Sees a piece of the motion up to `length`; `begin` is the time at which it begins.
+    fn piece(&mut self, begin: Pair, piece: &Piece<'_, T>, length: T::One);
+
+    /// Sees a state at the end of a piece.
+    fn state(&mut self, now: Pair, state: &[Pair]);
+}
+
+/// Observer of a single motion: its drift, and its samples.
+struct Looks<'l, 's> {
+    watch: Watch,
+    samples: &'l mut Samples<'s>,
+    time: Pair,
+    looks: u32,
+}
+
+impl<T: Number<One = T>> Watcher<T> for Looks<'_, '_> {
+    fn piece(&mut self, begin: Pair, piece: &Piece<'_, T>, length: T) {
+        self.samples.piece(begin, piece, length);
+    }
+
+    fn state(&mut self, now: Pair, state: &[Pair]) {
+        let passed = now.hi / self.time.hi * f64::from(LOOKS);
+        if passed >= f64::from(self.looks) {
+            self.looks = passed as u32 + 1;
+            self.watch.look(state);
+        }
     }
 }
 
@@ -96,19 +140,13 @@ fn orbit_over<T: Number<One = T>>(
     start: Start,
     time: Pair,
     accuracy: Accuracy,
+    samples: &mut Samples<'_>,
 ) -> Result<Orbit, FlowError> {
-    let mut watch = Watch::new(case, &start)?;
-    let mut looks = 0;
-    let mut look = |now: Pair, state: &[Pair]| {
-        let passed = now.hi / time.hi * f64::from(LOOKS);
-        if passed >= f64::from(looks) {
-            looks = passed as u32 + 1;
-            watch.look(state);
-        }
-    };
+    let watch = Watch::new(case, &start)?;
+    let mut looks = Looks { watch, samples, time, looks: 0 };
     let (end, steps, events) = match &case.one_sided {
         Some(rule) => {
-            let found = follow::<T>(case, rule, &start, time, accuracy, &mut look)?;
+            let found = follow::<T>(case, rule, &start, time, accuracy, &mut looks)?;
             (found.end, found.steps, found.events)
         }
         None => {
@@ -118,15 +156,18 @@ fn orbit_over<T: Number<One = T>>(
             while !stepper.is_done(0) {
                 stepper.expand();
                 stepper.check(0)?;
+                let piece = stepper.piece(0);
+                Watcher::<T>::piece(&mut looks, piece.begin(), &piece, piece.length());
                 stepper.advance();
-                look(stepper.time(0), &stepper.pairs(0));
+                Watcher::<T>::state(&mut looks, stepper.time(0), &stepper.pairs(0));
             }
             (stepper.pairs(0), stepper.steps(0), Vec::new())
         }
     };
-    watch.look(&end);
-    let order = accuracy.order;
-    Ok(Orbit { start, time, end, steps, order, followed: watch.followed, events })
+    looks.watch.look(&end);
+    looks.samples.end(time, &end);
+    let (order, followed) = (accuracy.order, looks.watch.followed);
+    Ok(Orbit { start, time, end, steps, order, followed, events })
 }
 
 /// Followed quantities, recorded on a tape.

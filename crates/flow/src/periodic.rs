@@ -138,6 +138,11 @@ impl<'c> SectionMap<'c> {
         Ok(Self { chart: Chart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
     }
 
+    /// Angle of the section.
+    pub(super) fn g0(&self) -> &Angle {
+        &self.g0
+    }
+
     /// Returns the image of a point after some crossings, and the time.
     pub fn image(&self, at: [f64; 2], crossings: usize) -> Result<([f64; 2], f64), FlowError> {
         let ends = self.passage(at, crossings)?;

@@ -1,13 +1,14 @@
 //! Initial states, given or drawn, moved to the level set to working precision.
 
 use nalgebra::{DMatrix, DVector};
+use num_dual::Dual;
 
 use super::error::FlowError;
 use super::motion::{Loose, filled, point};
 use super::number::Number;
 use liouville::case::Case;
 use liouville::claim::{Components, Place};
-use liouville::graph::{Evaluator, Tape, record};
+use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::calculus::{Jet, rejection};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::pair::{Pair, Pairs};
@@ -29,7 +30,11 @@ pub struct Start {
 }
 
 /// Components of the free parameters at an index of the seed, and the state drawn with them.
-fn drawn(case: &Case, seed: u64, index: u64) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
+pub(super) fn drawn(
+    case: &Case,
+    seed: u64,
+    index: u64,
+) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
     let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
     let mut values: Vec<Rational> = sampler
         .printed(index, f64::MANTISSA_DIGITS)
@@ -85,7 +90,7 @@ impl Start {
     }
 }
 
-/// Level functions of a model and their gradients.
+/// Level functions of a model, possibly further ones, and their gradients.
 pub(super) struct Level {
     tape: Tape,
     equations: usize,
@@ -107,11 +112,69 @@ impl Level {
         Ok(Self { tape: Tape::new(&graph, &outputs), equations: model.level.len() })
     }
 
+    /// Records the level functions of a model and further functions that vanish with them.
+    pub fn with(
+        model: &Model,
+        parameters: &[Rational],
+        further: &dyn Fn(&Phase<'_, Dual<Expr>>) -> Vec<Dual<Expr>>,
+    ) -> Result<Self, FlowError> {
+        let dimension = model.dimension();
+        let mut equations = 0;
+        let (graph, outputs) = record(dimension, |state| {
+            let phase = point(model, parameters, state);
+            let along = |index: usize| {
+                let lifted = phase.lift_along(index);
+                let level = model.level.iter();
+                let mut values: Vec<Dual<Expr>> =
+                    level.map(|equation| lifted.level_function(&equation.function)).collect();
+                values.extend(further(&lifted));
+                values
+            };
+            let columns: Vec<Vec<Dual<Expr>>> = (0..dimension).map(along).collect();
+            equations = columns.first().map_or(0, Vec::len);
+            let mut outputs: Vec<Expr> =
+                columns.first().into_iter().flatten().map(|value| value.re).collect();
+            for row in 0..equations {
+                outputs.extend(columns.iter().map(|column| column[row].eps));
+            }
+            outputs
+        })?;
+        Ok(Self { tape: Tape::new(&graph, &outputs), equations })
+    }
+
+    /// Number of equations.
+    pub fn len(&self) -> usize {
+        self.equations
+    }
+
+    /// Values of the functions at a state, and their gradients one after another.
+    pub fn at(&self, state: &[Pair]) -> (Vec<Pair>, Vec<Vec<Pair>>) {
+        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        evaluator.run(state);
+        let mut values: Vec<Pair> = evaluator.outputs().copied().collect();
+        let slopes = values.split_off(self.equations);
+        (values, slopes.chunks(state.len().max(1)).map(<[Pair]>::to_vec).collect())
+    }
+
     /// Evaluates the level functions, then their gradients one by one, at a state.
     fn values(&self, state: &[Pair], loose: &[Pair]) -> Vec<f64> {
         let mut evaluator = Evaluator::new(&self.tape, Pairs);
         evaluator.run(&[state, loose].concat());
         evaluator.outputs().map(|value| value.hi).collect()
+    }
+
+    /// Orthonormal basis of the span of the gradients at a state.
+    pub fn normals(&self, state: &[Pair]) -> Vec<Vec<f64>> {
+        let mut unit: Vec<Vec<f64>> = Vec::new();
+        for gradient in self.at(state).1 {
+            let gradient: Vec<f64> = gradient.iter().map(|x| x.hi).collect();
+            let rest = rejection(&gradient, &unit);
+            let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > 0.0 {
+                unit.push(rest.into_iter().map(|x| x / length).collect());
+            }
+        }
+        unit
     }
 
     /// Moves a state to the level. Returns the distance.

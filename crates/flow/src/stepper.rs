@@ -159,6 +159,18 @@ impl<T: Number> Stepper<T> {
         }
     }
 
+    /// Velocity of a motion at its present state.
+    pub fn velocity(&self, lane: usize) -> Vec<f64> {
+        let rows = 0..self.state.len();
+        rows.map(|row| self.series.component(row)[1].lane(lane).leading()).collect()
+    }
+
+    /// Whether a motion stands still: its velocity is exactly 0.
+    pub fn rests(&self, lane: usize) -> bool {
+        let rows = 0..self.state.len();
+        rows.into_iter().all(|row| self.series.component(row)[1].lane(lane).leading() == 0.0)
+    }
+
     /// Takes the steps.
     pub fn advance(&mut self) {
         with_widest_vectors(Advance(self));

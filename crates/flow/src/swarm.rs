@@ -57,3 +57,23 @@ pub fn swarm<R: Send>(
     done.sort_by_key(|(index, _)| *index);
     done.into_iter().map(|(_, result)| result).collect()
 }
+
+/// Runs a job for each index, the next one on the first thread that is free. Returns the results in
+/// order.
+pub fn each<R: Send>(count: usize, threads: usize, job: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
+    let queue = Queue { next: AtomicUsize::new(0), count };
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, count.max(1)) {
+            scope.spawn(|| {
+                while let Some(index) = queue.take() {
+                    let result = (index, job(index));
+                    done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(result);
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}

@@ -65,6 +65,18 @@ fn at(
     Failure { message, help, line, column, rendered }
 }
 
+/// Failure at a place in the text of an option.
+pub fn of_option(
+    option: &str,
+    text: &str,
+    span: Range<usize>,
+    message: &str,
+    help: Option<&str>,
+    colour: bool,
+) -> Failure {
+    at(option, text, Some(span), message.to_string(), help.map(str::to_string), colour)
+}
+
 /// Failure that concerns a file, or a folder, as a whole.
 pub fn of_file(path: &str, message: &str, help: &str, colour: bool) -> Failure {
     let title = Level::ERROR.primary_title(message);

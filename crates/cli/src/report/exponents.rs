@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use liouville_flow::{Alignment, Character, Estimate, Exponents, FlowError};
+use liouville_flow::{Alignment, Character, Estimate, Exponents, FlowError, Spectrum};
 
 /// A motion that was followed.
 pub struct Row {
@@ -108,13 +108,68 @@ pub fn json(title: &str, rows: &[Row]) -> Result<String, serde_json::Error> {
 }
 
 fn numbers(found: &Exponents) -> Value {
-    let estimate = |estimate: Estimate| json!({ "mean": estimate.mean, "error": estimate.error, "later": estimate.later });
     let alignment = |found: Alignment| json!({ "index": found.index, "since": found.since });
     json!({
         "time": found.time,
         "character": found.character.name(),
-        "largest": estimate(found.largest),
-        "divergence": estimate(found.divergence),
+        "largest": estimated(found.largest),
+        "divergence": estimated(found.divergence),
         "alignment": found.alignment.map(alignment),
     })
+}
+
+/// Renders the spectra of motions.
+pub fn spectra_text(
+    title: &str,
+    names: &[String],
+    spectra: &[Result<Spectrum, FlowError>],
+) -> String {
+    let shown = |estimate: &Estimate| {
+        let Estimate { mean, error, later } = estimate;
+        format!("{mean:+.5} ± {error:.5} (later half {later:+.5})")
+    };
+    let mut out = format!("{title}\n");
+    for (name, spectrum) in names.iter().zip(spectra) {
+        let found = match spectrum {
+            Ok(found) => found,
+            Err(problem) => {
+                out.push_str(&format!("{name}: {problem}\n"));
+                continue;
+            }
+        };
+        out.push_str(&format!("{name}, t = {}\n", found.time));
+        for (index, exponent) in found.exponents.iter().enumerate() {
+            out.push_str(&format!("  λ{:<3} {}\n", index + 1, shown(exponent)));
+        }
+        let sum: f64 = found.exponents.iter().map(|exponent| exponent.mean).sum();
+        out.push_str(&format!("  sum  {sum:+.5}; mean divergence {}\n", shown(&found.divergence)));
+        if let Some(dimension) = found.kaplan_yorke() {
+            out.push_str(&format!("  dimension of Kaplan and Yorke {dimension:.3}\n"));
+        }
+    }
+    out
+}
+
+/// Renders the spectra of motions as JSON.
+pub fn spectra_json(
+    title: &str,
+    names: &[String],
+    spectra: &[Result<Spectrum, FlowError>],
+) -> Result<String, serde_json::Error> {
+    let entry = |(name, spectrum): (&String, &Result<Spectrum, FlowError>)| match spectrum {
+        Ok(found) => json!({
+            "start": name,
+            "time": found.time,
+            "exponents": found.exponents.iter().copied().map(estimated).collect::<Vec<_>>(),
+            "divergence": estimated(found.divergence),
+            "kaplan_yorke": found.kaplan_yorke(),
+        }),
+        Err(problem) => json!({ "start": name, "problem": problem.to_string() }),
+    };
+    let motions: Vec<Value> = names.iter().zip(spectra).map(entry).collect();
+    serde_json::to_string_pretty(&json!({ "title": title, "motions": motions }))
+}
+
+fn estimated(estimate: Estimate) -> Value {
+    json!({ "mean": estimate.mean, "error": estimate.error, "later": estimate.later })
 }

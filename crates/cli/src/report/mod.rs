@@ -3,6 +3,8 @@
 pub mod bench;
 pub mod certificate;
 pub mod chart;
+pub mod cycle;
+pub mod data;
 pub mod diagnostic;
 pub mod diagram;
 mod digest;
@@ -18,6 +20,7 @@ pub mod records;
 pub mod search;
 pub mod section;
 pub mod stress;
+pub mod surface;
 pub mod survey;
 pub mod table;
 pub mod terminal;

@@ -2,11 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
+use super::picture::{Dot, Layer, Picture, Scale, Tint};
+use super::section::shade;
 use liouville::case::Case;
 use liouville::mechanics::Variable;
 use liouville::number::pair::Pair;
 use liouville::number::precise::Approximation;
-use liouville_flow::{Contact, Orbit, Precision, Role};
+use liouville_flow::{Contact, FlowError, Orbit, Precision, Role};
 
 /// Number of digits printed of a double-double.
 const PAIR_DIGITS: usize = 31;
@@ -145,4 +147,83 @@ pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, 
     }
     root.insert("followed".into(), followed.into());
     serde_json::to_string_pretty(&Value::Object(root))
+}
+
+/// Renders a line for each of several motions.
+pub fn text_of_several<'o>(
+    case: &Case,
+    names: &[String],
+    orbits: impl Iterator<Item = &'o Result<Orbit, FlowError>>,
+) -> String {
+    let mut out = format!("{}\n", case.title);
+    for (index, (name, orbit)) in names.iter().zip(orbits).enumerate() {
+        let words = match orbit {
+            Err(problem) => format!("ended early: {problem}"),
+            Ok(orbit) => {
+                let kept = orbit.followed.iter().filter(|followed| followed.role != Role::Decoy);
+                let drifts = kept.map(|followed| followed.drift);
+                let worst = drifts.reduce(|a, b| if b > a || b.is_nan() { b } else { a });
+                let drift = worst.map_or(String::new(), |worst| {
+                    format!(", what is kept drifts by {worst:.1e} at most")
+                });
+                format!("{} steps{drift}", orbit.steps)
+            }
+        };
+        out.push_str(&format!("{index} ({name}): {words}\n"));
+    }
+    out
+}
+
+/// Renders several motions as JSON.
+pub fn json_of_several<'o>(
+    case: &Case,
+    names: &[String],
+    orbits: impl Iterator<Item = &'o Result<Orbit, FlowError>>,
+    precision: Precision,
+) -> Result<String, serde_json::Error> {
+    let mut entries = Vec::new();
+    for (name, orbit) in names.iter().zip(orbits) {
+        let mut entry = match orbit {
+            Ok(orbit) => serde_json::from_str::<Value>(&json(case, orbit, precision)?)?,
+            Err(problem) => json!({ "problem": problem.to_string() }),
+        };
+        entry["name"] = json!(name);
+        entries.push(entry);
+    }
+    serde_json::to_string_pretty(&json!({ "title": case.title, "orbits": entries }))
+}
+
+/// Draws the columns of motions after the first over the first: one line each where the first is
+/// the time, and otherwise the second alone. `None` without two columns.
+pub fn picture(
+    title: &str,
+    columns: &[String],
+    orbits: &[&[Vec<Pair>]],
+    width: u32,
+) -> Option<Picture> {
+    let [first, others @ ..] = columns else { return None };
+    let others = if first == "t" { others } else { &others[..others.len().min(1)] };
+    let count = others.len();
+    let last = others.last()?;
+    let value = |row: &Vec<Pair>, place: usize| row.get(place).map_or(f64::NAN, |x| x.hi);
+    let all = || orbits.iter().flat_map(|rows| rows.iter());
+    let mut layers = Vec::new();
+    for rows in orbits {
+        for place in 1..=count {
+            let dots = rows.iter().map(|row| Dot { x: value(row, 0), y: value(row, place) });
+            let tint = Tint::Shade(shade(layers.len()));
+            layers.push(Layer { tint, dots: dots.collect(), joined: true });
+        }
+    }
+    let name = if count == 1 { last.as_str() } else { "" };
+    let heights = all().flat_map(|row| (1..=count).map(move |place| value(row, place)));
+    Some(Picture {
+        title: title.to_string(),
+        across: Scale::over(first, all().map(|row| value(row, 0))),
+        up: Scale::over(name, heights),
+        layers,
+        overlay: Vec::new(),
+        marks: Vec::new(),
+        width,
+    })
 }

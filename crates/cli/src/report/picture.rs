@@ -1,6 +1,7 @@
-//! Pictures of Poincaré sections: points in the rectangle of l and L/G, as SVG or PNG.
+//! Pictures of sections and of motions: points and lines in a rectangle, as SVG or PNG.
 //!
-//! The rectangle is the sphere in Lambert's cylindrical projection, which preserves areas.
+//! The rectangle of l and L/G is the sphere in Lambert's cylindrical projection, which preserves
+//! areas.
 
 mod glyphs;
 mod map;
@@ -18,10 +19,10 @@ pub use svg::{inline_svg, svg};
 /// A point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
-    /// Coordinate l in [0, 2π).
-    pub l: f64,
-    /// Coordinate L/G in [-1, 1].
-    pub z: f64,
+    /// Horizontal coordinate, such as l in [0, 2π).
+    pub x: f64,
+    /// Vertical coordinate, such as L/G in [-1, 1].
+    pub y: f64,
 }
 
 /// Colour of a layer.
@@ -40,13 +41,19 @@ pub struct Layer {
     pub tint: Tint,
     /// Dots of the layer.
     pub dots: Vec<Dot>,
+    /// Whether a line joins the dots, in their order.
+    pub joined: bool,
 }
 
-/// A picture of a section.
+/// A picture of dots and lines.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Title of the picture.
     pub title: String,
+    /// Horizontal axis.
+    pub across: Scale,
+    /// Vertical axis.
+    pub up: Scale,
     /// Layers of dots, later ones over earlier ones.
     pub layers: Vec<Layer>,
     /// Further dots over all layers, such as images of fixed lines of a reversor.
@@ -97,6 +104,6 @@ impl Frame {
 
 impl Picture {
     fn frame(&self) -> Frame {
-        Frame::new(self.width, Scale::longitude(), Scale::height(), 0.0)
+        Frame::new(self.width, self.across.clone(), self.up.clone(), 0.0)
     }
 }

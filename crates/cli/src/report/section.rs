@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::picture::{Dot, Layer, Picture, Tint};
+use super::picture::{Dot, Layer, Picture, Scale, Tint};
 use liouville::case::{Case, Direction};
 use liouville_flow::{AreaForm, Character, SectionOrbit, SectionRequest, Separatrices};
 
@@ -140,17 +140,22 @@ pub fn picture(
 ) -> Picture {
     let shades = match values {
         Some(values) => ranks(values),
-        // Neighbouring orbits get colours far apart.
-        None => (0..orbits.len()).map(|k| (0.5 + k as f64 * 0.618_033_988_75).fract()).collect(),
+        None => (0..orbits.len()).map(shade).collect(),
     };
     let dots = |orbit: &SectionOrbit| {
-        orbit.crossings.iter().map(|c| Dot { l: c.at[0], z: c.at[1] }).collect()
+        orbit.crossings.iter().map(|c| Dot { x: c.at[0], y: c.at[1] }).collect()
     };
     let layers = orbits.iter().zip(shades);
     Picture {
         title: title.to_string(),
+        across: Scale::longitude(),
+        up: Scale::height(),
         layers: layers
-            .map(|(orbit, shade)| Layer { tint: Tint::Shade(shade), dots: dots(orbit) })
+            .map(|(orbit, shade)| Layer {
+                tint: Tint::Shade(shade),
+                dots: dots(orbit),
+                joined: false,
+            })
             .collect(),
         overlay: Vec::new(),
         marks: Vec::new(),
@@ -158,15 +163,20 @@ pub fn picture(
     }
 }
 
+/// Position on the colour scale of the orbit with this index: neighbours are far apart.
+pub(super) fn shade(index: usize) -> f64 {
+    (0.5 + index as f64 * 0.618_033_988_75).fract()
+}
+
 /// Adds the images of lines to a picture, each in a different colour.
 pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
     for (index, orbits) in lines.iter().enumerate() {
-        let start = |orbit: &SectionOrbit| Dot { l: orbit.start[0], z: orbit.start[1] };
+        let start = |orbit: &SectionOrbit| Dot { x: orbit.start[0], y: orbit.start[1] };
         let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
-        let mut dots: Vec<Dot> = crossings.map(|c| Dot { l: c.at[0], z: c.at[1] }).collect();
+        let mut dots: Vec<Dot> = crossings.map(|c| Dot { x: c.at[0], y: c.at[1] }).collect();
         dots.extend(orbits.iter().map(start));
         let tint = Tint::Shade(index as f64 / 2.0);
-        picture.layers.push(Layer { tint, dots });
+        picture.layers.push(Layer { tint, dots, joined: false });
     }
 }
 
@@ -184,10 +194,10 @@ pub fn draw_separatrices(picture: &mut Picture, all: &[Separatrices]) {
     for found in all {
         for (orbits, shade) in [(&found.stable, STABLE), (&found.unstable, UNSTABLE)] {
             let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
-            let dots = crossings.map(|c| Dot { l: c.at[0], z: c.at[1] }).collect();
-            picture.layers.push(Layer { tint: Tint::Shade(shade), dots });
+            let dots = crossings.map(|c| Dot { x: c.at[0], y: c.at[1] }).collect();
+            picture.layers.push(Layer { tint: Tint::Shade(shade), dots, joined: false });
         }
-        picture.marks.push(Dot { l: found.point.at[0], z: found.point.at[1] });
+        picture.marks.push(Dot { x: found.point.at[0], y: found.point.at[1] });
     }
 }
 

@@ -61,10 +61,12 @@ fn sections_that_cannot_be_drawn_say_why() {
     fails(&["section", &case, "--g0", "tomorrow"], "is not an angle");
     fails(
         &["section", &case, "--start", "1,0", "--crossings", "1", "--out", "x.gif"],
-        "neither .svg",
+        "is none of .svg",
     );
     let free = folder("no-section", &[("free.toml", GOOD)]).join("free.toml");
-    fails(&["section", free.to_str().expect("UTF-8")], "no [section]");
+    let body = &["section", free.to_str().expect("UTF-8")];
+    fails(body, "no [section]");
+    fails(&["section", "classical/flows/lorenz"], "give a surface, such as --section");
 }
 
 #[test]

@@ -6,7 +6,9 @@ use crate::{Enclosure, FlowError, Measured, Obstacle, ProvedOrbit, Request, Star
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::claim::motion::{Beginning, Change, ClosedOrbit, Stability, Stated};
+use liouville::formula::Formula;
 use liouville::mechanics::{Chart, Draw, LevelFunction, Line};
+use liouville::number::rational::Rational;
 use liouville::verdict::{self, Options, Trust, Verdict};
 
 /// Distance from the start within which an orbit is the claimed one, relative to the state; the
@@ -35,8 +37,8 @@ pub fn look(
         return Ok(finding);
     }
     let start = scene.start(&claim.beginning)?;
-    let found = kept(case, claim, options)
-        .and_then(|keeps_energy| enclosed(claim, scene, &start, keeps_energy));
+    let found = kept(case, &claim.integrals, options)
+        .and_then(|keeps_energy| claimed(claim, scene, &start, keeps_energy));
     match found {
         Ok(found) => judge(claim, &found, &mut finding),
         Err(reason) => finding.leave_open(reason),
@@ -44,8 +46,38 @@ pub fn look(
     Ok(finding)
 }
 
-/// Encloses the orbit, and checks that it lies where its integrals are proved.
-fn enclosed(
+/// Proves that no density is continuous and positive on the closed orbit near a start; `None` where
+/// the enclosures do not show it.
+pub(super) fn exclusion(
+    case: &Case,
+    start: &Start,
+    period: f64,
+    energy: Option<&Rational>,
+    options: &Options,
+) -> Option<String> {
+    if case.one_sided.is_some() || case.model.free_components() > 0 {
+        return None;
+    }
+    let keeps_energy = kept(case, &[], options).ok()?;
+    let found = enclosed(
+        case,
+        &Request {
+            model: &case.model,
+            start,
+            period,
+            keeps_energy,
+            energy,
+            integrals: &[],
+            wants_multipliers: true,
+        },
+    );
+    let found = found.ok()?;
+    let changes = found.volume.is_positive() || (-found.volume).is_positive();
+    changes.then(|| format!("proved: {}", theorem(&found, true, stability(&found))))
+}
+
+/// Encloses the orbit of a claim.
+fn claimed(
     claim: &ClosedOrbit,
     scene: &Scene<'_>,
     start: &Start,
@@ -55,20 +87,27 @@ fn enclosed(
         Beginning::Section(_) => scene.case.section.as_ref().map(|plan| &plan.energy),
         Beginning::State(_) => None,
     };
-    let found = prove(&Request {
-        model: &scene.case.model,
-        start,
-        period: claim.period.value,
-        keeps_energy,
-        energy,
-        integrals: &claim.integrals.iter().collect::<Vec<_>>(),
-        wants_multipliers: claim.stability.is_some(),
-    })
-    .map_err(|obstacle| match obstacle {
+    enclosed(
+        scene.case,
+        &Request {
+            model: &scene.case.model,
+            start,
+            period: claim.period.value,
+            keeps_energy,
+            energy,
+            integrals: &claim.integrals.iter().collect::<Vec<_>>(),
+            wants_multipliers: claim.stability.is_some(),
+        },
+    )
+}
+
+/// Encloses an orbit, and checks that it lies where its integrals are proved.
+fn enclosed(case: &Case, request: &Request<'_>) -> Result<ProvedOrbit, String> {
+    let found = prove(request).map_err(|obstacle| match obstacle {
         Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
         other => other.to_string(),
     })?;
-    if found.kept > 0 && !is_inside(scene.case, &found.start) {
+    if found.kept > 0 && !is_inside(case, &found.start) {
         let reason = "the orbit starts outside the ranges of [state], where its integrals are \
                       proved";
         return Err(reason.to_string());
@@ -78,7 +117,7 @@ fn enclosed(
 
 /// Checks that the level functions and the claimed integrals are proved to be conserved. Returns
 /// whether the energy is.
-fn kept(case: &Case, claim: &ClosedOrbit, options: &Options) -> Result<bool, String> {
+fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, String> {
     let level = case.model.level.iter().map(|equation| match &equation.function {
         LevelFunction::UnitNormal => "(γ,γ)".to_string(),
         LevelFunction::NoSpin => "(ω,γ)".to_string(),
@@ -87,7 +126,7 @@ fn kept(case: &Case, claim: &ClosedOrbit, options: &Options) -> Result<bool, Str
             None => equation.text.clone(),
         },
     });
-    let integrals = claim.integrals.iter().map(|formula| formula.text().to_string());
+    let integrals = integrals.iter().map(|formula| formula.text().to_string());
     let needed: Vec<String> = level.chain(integrals).collect();
     if let Some(text) = needed.iter().find(|text| !is_proved(case, text, options)) {
         return Err(format!("it is not proved that the motion keeps {}", text.trim()));

@@ -1,8 +1,10 @@
 //! Evidence against a density: a closed orbit along which volumes change.
 
+use super::closed_orbit::exclusion;
 use super::scene::Scene;
 use crate::{Measured, Multipliers, SectionRequest, section, spread};
 use liouville::case::{Case, Direction};
+use liouville::verdict::Options;
 
 /// Numbers of motions, and of crossings of each, that are followed to come near attracting points.
 const STARTS: usize = 16;
@@ -15,9 +17,10 @@ pub fn speaks_against(product: Measured) -> bool {
 }
 
 /// Finds a fixed point of the section map that speaks against every density that is smooth and
-/// positive on the level, and describes it. Only for a case with a section and without free
-/// parameters.
-pub fn evidence_against_density(case: &Case, seed: u64) -> Option<String> {
+/// positive on the level, and describes it: as a theorem where the closed orbit through it is
+/// enclosed, and otherwise as evidence. Only for a case with a section and without free parameters.
+pub fn evidence_against_density(case: &Case, options: &Options) -> Option<String> {
+    let seed = options.seed;
     if case.model.free_components() > 0 {
         return None;
     }
@@ -50,12 +53,17 @@ pub fn evidence_against_density(case: &Case, seed: u64) -> Option<String> {
         }
         Multipliers::Real(a, b) => format!("{a:.8} and {b:.8}"),
     };
-    speaks_against(product).then(|| {
+    if !speaks_against(product) {
+        return None;
+    }
+    let start = map.chart.start(point.at).ok()?;
+    let proved = exclusion(case, &start, point.time, Some(&plan.energy), options);
+    Some(proved.unwrap_or_else(|| {
         format!(
             "evidence against any density that is smooth and positive: the closed orbit through \
              (l, L/G) = ({:.8}, {:.8}) of the section g = {} at energy {} has multipliers \
              {multipliers}, product {:.12} ± {:.0e} in place of 1",
             point.at[0], point.at[1], plan.g0, plan.energy, product.value, product.error
         )
-    })
+    }))
 }

@@ -180,7 +180,7 @@ pub fn survey(
     let mut hierarchy = Standing::of(measure, standing, reversors.len());
     if !matches!(measure, Measure::ClosedForm | Measure::ByQuadrature) {
         progress("closed orbits");
-        hierarchy.grounds.extend(evidence_against_density(case, options.seed));
+        hierarchy.grounds.extend(evidence_against_density(case, options));
     }
     Ok(Survey {
         title: case.title.clone(),

@@ -9,7 +9,8 @@ use liouville::verdict;
 use liouville_cli::report::chart::ChartReport;
 use liouville_flow::{Axis, Coordinate, Launch, PlaneRequest};
 
-use super::motion::{Drawing, Ink, Plane, Subject, Threads, number_with_pi, parse_start};
+use super::motion::{Ink, Plane, Subject, Threads, number_with_pi, parse_start};
+use super::output::Ending;
 use super::progress::progress;
 use super::{Answer, write};
 
@@ -60,7 +61,7 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
     if options.time == 0.0 || !options.time.is_finite() {
         return Err("error: --time: write a number that is not 0".to_string());
     }
-    let out = options.ink.out()?;
+    let out = options.ink.output(Ending::PICTURES, &[&options.subject.case])?;
     let (x_name, x) = axis(&case, "--x", &options.x, options.size[0])?;
     let (y_name, y) = axis(&case, "--y", &options.y, options.size[1])?;
     if x.coordinate == y.coordinate {
@@ -81,15 +82,15 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
         time: request.time,
         cells: &cells,
     };
-    if let Some((path, drawing)) = out {
+    if let Some(out) = &out {
         let map = report.map(options.ink.width);
-        let bytes = match drawing {
-            Drawing::Svg => map.svg().into_bytes(),
-            Drawing::Png => {
+        let bytes = match out.ending {
+            Ending::Png => {
                 map.png(options.ink.paper()).map_err(|error| format!("error: {error}"))?
             }
+            _ => map.svg().into_bytes(),
         };
-        write(path, "--out", bytes)?;
+        write(&out.path, "--out", bytes)?;
     }
     let text = match subject.json {
         true => report.json().map_err(|error| format!("error: {error}"))? + "\n",

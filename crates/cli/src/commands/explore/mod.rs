@@ -6,12 +6,15 @@ mod exponents;
 mod growth;
 mod motion;
 mod orbit;
+mod output;
 mod periodic;
 mod progress;
 mod report;
 mod search;
 mod section;
+mod starts;
 mod stress;
+mod surface;
 
 use clap::Subcommand;
 
@@ -43,22 +46,35 @@ pub enum Command {
 /// Commands about motions.
 #[derive(Debug, Subcommand)]
 pub enum Motion {
-    /// Follow a motion: its final state, and the drift of integrals
-    #[command(after_help = "Example:\n  liouville motion orbit figures/fig-8 --time 1000")]
+    /// Follow motions: final states, the drift of integrals, and samples as data or a picture
+    #[command(after_help = "\
+Examples:
+  liouville motion orbit figures/fig-8 --time 1000
+  liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv")]
     Orbit(orbit::Orbit),
-    /// Draw the Poincaré section of a rolling body in the Andoyer-like variables
-    #[command(after_help = "Example:\n  liouville motion section figures/fig-8 --out section.png")]
+    /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
+    /// surface
+    #[command(after_help = "\
+Examples:
+  liouville motion section figures/fig-8 --out section.png
+  liouville motion section plane/unbalanced-ball --section 'γ3 = 0' --axes 'γ1, ω3' --out points.csv")]
     Section(section::Section),
-    /// Measure the largest Lyapunov exponent and the mean divergence along motions
-    #[command(after_help = "Example:\n  liouville motion exponents figures/fig-10")]
+    /// Measure Lyapunov exponents and the mean divergence along motions
+    #[command(after_help = "\
+Examples:
+  liouville motion exponents figures/fig-10
+  liouville motion exponents classical/flows/nose-hoover --spectrum")]
     Exponents(exponents::Exponents),
     /// Draw a plane of motions, such as two parameters, each point coloured by its class
     #[command(after_help = "\
 Example:
   liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --out chart.png")]
     Chart(chart::Chart),
-    /// Find fixed and periodic points of a section, with their multipliers
-    #[command(after_help = "Example:\n  liouville motion periodic figures/fig-5")]
+    /// Find closed orbits: periodic points of a section, with their multipliers and errors
+    #[command(after_help = "\
+Examples:
+  liouville motion periodic figures/fig-5 --start pi/2,0
+  liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0'")]
     Periodic(periodic::Periodic),
 }
 

@@ -1,17 +1,23 @@
 //! Options shared by the commands about motions: case, section, threads, pictures, errors.
 
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use liouville::case::{Angle, Case};
 use liouville::mechanics::System;
+use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
-use liouville_cli::report::picture::Paper;
-use liouville_flow::FlowError;
+use liouville_cli::report::data::Data;
+use liouville_cli::report::diagnostic;
+use liouville_cli::report::picture::{self, Paper, Picture};
+use liouville_flow::{FlowError, FormulaMistake};
 
+use super::Limits;
+use super::colour;
 use super::eval::open;
 use super::files::plain;
-use super::{Limits, out};
+use super::output::{Ending, Output};
 
 /// Case whose motion is followed, and format of the output.
 #[derive(Debug, Args)]
@@ -105,7 +111,11 @@ pub fn parse_count(text: &str) -> Result<usize, String> {
 
 /// Reads a point of a section.
 pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
+    let number = |text: &str| {
+        let exact = || number_with_pi(text).map(|x| x.to_f64().0);
+        text.trim().parse().ok().or_else(exact)
+    };
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
     pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
 }
@@ -132,9 +142,10 @@ pub fn number_with_pi(text: &str) -> Option<Rational> {
 /// File and style of a picture.
 #[derive(Debug, Args)]
 pub struct Ink {
-    /// Draw to this file, .svg or .png
+    /// Write to this file: a picture to .svg or .png; of `orbit` and `section` also data to .csv, .npy
+    /// or .json
     #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Width of the picture in pixels
     #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
     pub width: u32,
@@ -145,15 +156,18 @@ pub struct Ink {
 
 impl Ink {
     /// Returns the file with its format, so that errors are found before any long computation.
-    pub fn out(&self) -> Result<Option<(&Path, Drawing)>, String> {
-        self.out
-            .as_deref()
-            .map(|path| {
-                let drawing = drawing(path)?;
-                out::check(path, "--out", &[])?;
-                Ok((path, drawing))
-            })
-            .transpose()
+    pub fn output(&self, allowed: &[Ending], inputs: &[&Path]) -> Result<Option<Output>, String> {
+        self.out.as_deref().map(|path| Output::new(path, allowed, inputs)).transpose()
+    }
+
+    /// Draws a picture of dots and lines.
+    pub fn drawn(&self, picture: &Picture, ending: Ending) -> Result<Vec<u8>, String> {
+        match ending {
+            Ending::Png => {
+                picture::png(picture, self.paper()).map_err(|error| format!("error: {error}"))
+            }
+            _ => Ok(picture::svg(picture).into_bytes()),
+        }
     }
 
     pub fn paper(&self) -> Paper {
@@ -161,20 +175,23 @@ impl Ink {
     }
 }
 
-/// Format of a picture, chosen by the ending of its file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drawing {
-    Svg,
-    Png,
+/// Renders data by the ending of their file.
+pub fn rendered(data: &Data, ending: Ending) -> Vec<u8> {
+    match ending {
+        Ending::Npy => data.npy(),
+        Ending::Json => data.json().into_bytes(),
+        _ => data.csv().into_bytes(),
+    }
 }
 
-fn drawing(path: &Path) -> Result<Drawing, String> {
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => Ok(Drawing::Svg),
-        Some("png") => Ok(Drawing::Png),
-        _ => Err(format!(
-            "error: {} is neither .svg nor .png\nhelp: give the file one of these endings",
-            path.display()
-        )),
-    }
+/// A whole number as a cell of data.
+pub fn whole(count: usize) -> Pair {
+    Pair::from_f64(count as f64)
+}
+
+/// Message about a formula of an option, with its place.
+pub fn wrong_formula(option: &str, text: &str, mistake: &FormulaMistake) -> String {
+    let coloured = colour(std::io::stderr().is_terminal());
+    let (message, help) = (&mistake.message, mistake.help.as_deref());
+    diagnostic::of_option(option, text, mistake.span.clone(), message, help, coloured).rendered
 }

@@ -1,15 +1,26 @@
 //! The command `liouville motion orbit`.
 
 use clap::{Args, ValueEnum};
-use liouville::number::pair::Pair;
+use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville::verdict;
+use liouville_cli::report::data::Data;
 use liouville_cli::report::orbit;
-use liouville_flow::{FlowError, Precision, Start};
+use liouville_flow::{
+    Begin, Columns, FlowError, Launches, Lexicon, Precision, SampledOrbit, Sampling, Start,
+};
 
-use super::Answer;
 use super::eval::wrong_state;
-use super::motion::Subject;
+use super::motion::{Ink, Subject, Threads, rendered, wrong_formula};
+use super::output::{Ending, Output};
+use super::progress::progress;
+use super::starts::{Given, Starts, misfit};
+use super::{Answer, write};
+
+/// Number of intervals between samples where no interval is given.
+const INTERVALS: i64 = 1000;
+/// Limit on the numbers of a file.
+const MOST_NUMBERS: f64 = 3e7;
 
 #[derive(Debug, Args)]
 pub struct Orbit {
@@ -20,14 +31,27 @@ pub struct Orbit {
     pub time: Rational,
     /// Start by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]', moved to the level set if
     /// it is off it; drawn by default
-    #[arg(long, value_name = "STATE")]
+    #[arg(long, value_name = "STATE", conflicts_with_all = ["start", "starts"])]
     pub state: Option<String>,
+    #[command(flatten)]
+    pub starts: Starts,
     /// Arithmetic: 16 or 32 digits
     #[arg(long, value_enum, default_value_t = Digits::Float)]
     pub precision: Digits,
     /// Number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
+    /// Interval of time between the samples of --out; by default a thousandth of the time
+    #[arg(long, value_name = "TIME", requires = "out")]
+    pub every: Option<Rational>,
+    /// Columns of --out: t, formulas of the case, and names of its claims: --columns 't, x, energy, F2'.
+    /// By default t and the state. A picture shows the others over the first, which may be t
+    #[arg(long, value_name = "FORMULAS", requires = "out", allow_hyphen_values = true)]
+    pub columns: Option<String>,
+    #[command(flatten)]
+    pub ink: Ink,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arithmetic of a motion.
@@ -51,21 +75,170 @@ impl Digits {
 pub fn run(options: &Orbit) -> Result<Answer, String> {
     let subject = &options.subject;
     let case = subject.open()?;
-    let state = match &options.state {
-        None => None,
-        Some(text) => Some(verdict::read_state(&case, text).map_err(|error| wrong_state(&error))?),
-    };
     let told = |error: FlowError| subject.told(&error);
-    let start = Start::new(&case, state.as_deref(), subject.seed, options.index).map_err(told)?;
+    if case.model.system.has_arbitrary_function() {
+        return Err(told(FlowError::Arbitrary));
+    }
+    let inputs: Vec<_> =
+        [subject.case.as_path()].into_iter().chain(options.starts.inputs()).collect();
+    let out = options.ink.output(Ending::ALL, &inputs)?;
+    let columns = columns(&case, options)?;
+    let (names, starts): (Vec<_>, Vec<_>) = starts(&case, options)?.into_iter().unzip();
+    let every = interval(options, starts.len(), columns.titles().len())?;
+    let sampling = Sampling { columns: &columns, every };
+    let sampling = out.is_some().then_some(&sampling);
     let precision = options.precision.precision();
-    let time = Pair::from_rational(&options.time);
-    let found = liouville_flow::orbit(&case, start, time, precision).map_err(told)?;
-    let text = match subject.json {
-        true => {
-            let json = orbit::json(&case, &found, precision);
-            json.map_err(|error| format!("error: {error}"))? + "\n"
+    let bar = progress(starts.len() as u64, "orbits");
+    let followed = (&options.time, precision);
+    let threads = options.threads.count();
+    let found = liouville_flow::orbits(&case, &starts, followed, sampling, threads, &|| bar.inc(1));
+    bar.finish_and_clear();
+    if let Some(out) = &out {
+        save(&case, options, out, &columns, &found)?;
+    }
+    let ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
+    // Single motions may end early; if all do, the command fails.
+    if let Some(problem) = ended.clone().next()
+        && ended.count() == found.len()
+    {
+        let rows: usize = found.iter().map(|one| one.rows.len()).sum();
+        let saved = out.filter(|_| rows > 0);
+        let saved =
+            saved.map(|out| format!("\nnote: {} has what comes before", out.path.display()));
+        return Err(subject.told(problem) + &saved.unwrap_or_default());
+    }
+    let text = match (subject.json, &found[..]) {
+        (true, [SampledOrbit { orbit: Ok(one), .. }]) => {
+            orbit::json(&case, one, precision).map_err(|error| format!("error: {error}"))? + "\n"
         }
-        false => orbit::text(&case, &found, precision),
+        (true, all) => {
+            let all = all.iter().map(|one| &one.orbit);
+            orbit::json_of_several(&case, &names, all, precision)
+                .map_err(|error| format!("error: {error}"))?
+                + "\n"
+        }
+        (false, [SampledOrbit { orbit: Ok(one), .. }]) => orbit::text(&case, one, precision),
+        (false, all) => orbit::text_of_several(&case, &names, all.iter().map(|one| &one.orbit)),
     };
-    Ok(Answer { text, code: 0 })
+    let rows: usize = found.iter().map(|one| one.rows.len()).sum();
+    let saved = out.filter(|out| !subject.json && !out.ending.is_picture()).map(|out| {
+        format!(
+            "{}: {rows} rows of {}\n",
+            out.path.display(),
+            titles(&columns, found.len()).join(", ")
+        )
+    });
+    Ok(Answer { text: text + &saved.unwrap_or_default(), code: 0 })
+}
+
+fn columns(case: &Case, options: &Orbit) -> Result<Columns, String> {
+    let text = options.columns.as_deref();
+    let read = match text {
+        Some(text) => Columns::read(Lexicon::new(case), text),
+        None => Columns::whole_state(Lexicon::new(case)),
+    };
+    read.map_err(|mistake| wrong_formula("--columns", text.unwrap_or_default(), &mistake))
+}
+
+/// Starts with their names.
+fn starts(case: &Case, options: &Orbit) -> Result<Vec<(String, Result<Start, FlowError>)>, String> {
+    let subject = &options.subject;
+    let launches =
+        Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
+    let one = |begin: &Begin| launches.start(begin);
+    if let Some(text) = &options.state {
+        let state = verdict::read_state(case, text).map_err(|error| wrong_state(&error))?;
+        return Ok(vec![("state".to_string(), one(&Begin::State(state)))]);
+    }
+    let given = options.starts.read(case)?;
+    if given.is_empty() {
+        return Ok(vec![("drawn".to_string(), one(&Begin::Drawn(options.index)))]);
+    }
+    let start = |(name, given): (String, Given)| match given {
+        Given::State(state) => Ok((name, one(&Begin::State(state)))),
+        Given::Values(values) => on_section(case, options, &values).map(|start| (name, start)),
+    };
+    given.into_iter().map(start).collect()
+}
+
+/// Start at a point (l, L/G) of the case's section.
+fn on_section(
+    case: &Case,
+    options: &Orbit,
+    values: &[Rational],
+) -> Result<Result<Start, FlowError>, String> {
+    let plan = case.section.as_ref();
+    let (Some(plan), [l, z]) = (plan, values) else {
+        let otherwise = plan.map(|_| "l,L/G on the section of the case");
+        return Err(misfit(case, values.len(), otherwise));
+    };
+    let at = [l.to_f64().0, z.to_f64().0];
+    let seed = options.subject.seed;
+    let found = liouville_flow::section_starts(case, &plan.g0, &plan.energy, &[at], seed);
+    let mut found = found.map_err(|error| options.subject.told(&error))?;
+    Ok(found.pop().unwrap_or(Err(FlowError::NoStart)))
+}
+
+/// Interval between samples.
+fn interval(options: &Orbit, starts: usize, columns: usize) -> Result<Rational, String> {
+    let size = options.time.abs();
+    let every = match &options.every {
+        Some(every) => every.clone(),
+        None => &size * &Rational::new(1, INTERVALS),
+    };
+    if options.every.is_some() && every.to_f64().0 <= 0.0 {
+        return Err("error: --every: write a number above 0, the time between samples".to_string());
+    }
+    let rows = size.to_f64().0 / every.to_f64().0;
+    let numbers = rows * starts as f64 * columns as f64;
+    match options.ink.out.is_some() && numbers > MOST_NUMBERS {
+        true => Err(format!(
+            "error: {numbers:.1e} numbers are too many for one file, which holds {MOST_NUMBERS:.0e}\n\
+             help: give a longer --every, a shorter --time, or fewer --columns"
+        )),
+        false => Ok(every),
+    }
+}
+
+/// Titles of the columns; of several motions the first column is the number of the start.
+fn titles(columns: &Columns, count: usize) -> Vec<String> {
+    let start = (count > 1).then(|| "start".to_string());
+    start.into_iter().chain(columns.titles().iter().cloned()).collect()
+}
+
+fn save(
+    case: &Case,
+    options: &Orbit,
+    out: &Output,
+    columns: &Columns,
+    found: &[SampledOrbit],
+) -> Result<(), String> {
+    let bytes = match out.ending.is_picture() {
+        true => {
+            let rows: Vec<_> = found.iter().map(|one| &one.rows[..]).collect();
+            let picture = orbit::picture(&case.title, columns.titles(), &rows, options.ink.width);
+            options.ink.drawn(
+                &picture.ok_or_else(|| {
+                    "error: a picture needs two columns\nhelp: write --columns 't, x'".to_string()
+                })?,
+                out.ending,
+            )?
+        }
+        false => {
+            let rows = found.iter().enumerate().flat_map(|(index, one)| {
+                one.rows.iter().map(move |row| match found.len() {
+                    1 => row.clone(),
+                    _ => [&[super::motion::whole(index)], &row[..]].concat(),
+                })
+            });
+            let data = Data {
+                columns: titles(columns, found.len()),
+                whole: usize::from(found.len() > 1),
+                rows: rows.collect(),
+                precision: options.precision.precision(),
+            };
+            rendered(&data, out.ending)
+        }
+    };
+    write(&out.path, "--out", bytes)
 }

@@ -2,13 +2,17 @@
 
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
+use liouville::number::pair::Pair;
+use liouville_cli::report::data::Data;
+use liouville_cli::report::exponents;
 use liouville_cli::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
-use liouville_cli::report::{exponents, picture};
-use liouville_flow::{FlowError, SectionOrbit, SectionRequest};
+use liouville_flow::{FlowError, Precision, SectionOrbit, SectionRequest};
 
-use super::motion::{Drawing, Ink, Plane, Subject, Threads, parse_count, parse_start};
+use super::motion::{Ink, Plane, Subject, Threads, parse_count, parse_start, rendered, whole};
+use super::output::{Ending, Output};
 use super::progress::progress;
-use super::{Answer, write};
+use super::starts::{Given, Starts};
+use super::{Answer, surface, write};
 
 /// Default numbers of orbits and of crossings.
 const ORBITS: usize = 40;
@@ -23,7 +27,15 @@ pub struct Section {
     pub subject: Subject,
     #[command(flatten)]
     pub plane: Plane,
-    /// Number of orbits to start, spread over the sphere
+    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
+    /// rolling body
+    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
+    pub section: Option<String>,
+    /// Values recorded at crossings of --section, by formulas: --axes 'y, z'. By default the first
+    /// two components of the state that the surface leaves free
+    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
+    pub axes: Option<String>,
+    /// Number of orbits to start, spread over the sphere; with --section, of states drawn
     #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
     /// Number of crossings of each orbit to draw
@@ -32,10 +44,9 @@ pub struct Section {
     /// Number of crossings to leave out at the beginning of each orbit
     #[arg(long, value_parser = parse_count)]
     pub skip: Option<usize>,
-    /// Start l,L/G in place of those of the case; may be repeated
-    #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
-    pub start: Vec<[f64; 2]>,
-    /// Crossings to draw: up (g grows), down, both
+    #[command(flatten)]
+    pub starts: Starts,
+    /// Crossings to draw: up (g or the surface's left side less its right one grows), down, both
     #[arg(long)]
     pub direction: Option<Direction>,
     /// Follow the motion backwards in time
@@ -79,9 +90,15 @@ fn parse_point(text: &str) -> Result<([f64; 2], usize), String> {
 pub fn run(options: &Section) -> Result<Answer, String> {
     let subject = &options.subject;
     let case = subject.open()?;
+    if options.section.is_some() {
+        return surface::run(&case, options);
+    }
     let told = |error: FlowError| subject.told(&error);
+    let out = options.output()?;
+    if !liouville_flow::has_andoyer_section(&case.model) {
+        return Err(told(FlowError::NoAndoyer));
+    }
     let request = request(&case, options)?;
-    let out = options.ink.out()?;
     let bar = progress(request.starts.len() as u64, "orbits");
     let threads = options.threads.count();
     let orbits = liouville_flow::section(&case, &request, threads, &|| bar.inc(1)).map_err(told)?;
@@ -92,22 +109,23 @@ pub fn run(options: &Section) -> Result<Answer, String> {
         None => None,
         Some(name) => Some(liouville_flow::values_at_starts(&case, &request, name).map_err(told)?),
     };
-    if let Some((path, drawing)) = out {
-        let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.ink.width);
-        draw_lines(&mut drawn, &images(&case, &request, options, threads).map_err(told)?);
-        let near = options.separatrices.iter();
-        let curves: Result<Vec<_>, FlowError> = near
-            .map(|(near, period)| {
-                liouville_flow::separatrices(&case, &request, *near, *period, threads)
-            })
-            .collect();
-        draw_separatrices(&mut drawn, &curves.map_err(told)?);
-        let bytes = match drawing {
-            Drawing::Svg => picture::svg(&drawn).into_bytes(),
-            Drawing::Png => picture::png(&drawn, options.ink.paper())
-                .map_err(|error| format!("error: {error}"))?,
+    if let Some(out) = &out {
+        let bytes = match out.ending.is_picture() {
+            false => rendered(&data(&orbits), out.ending),
+            true => {
+                let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.ink.width);
+                draw_lines(&mut drawn, &images(&case, &request, options, threads).map_err(told)?);
+                let near = options.separatrices.iter();
+                let curves: Result<Vec<_>, FlowError> = near
+                    .map(|(near, period)| {
+                        liouville_flow::separatrices(&case, &request, *near, *period, threads)
+                    })
+                    .collect();
+                draw_separatrices(&mut drawn, &curves.map_err(told)?);
+                options.ink.drawn(&drawn, out.ending)?
+            }
         };
-        write(path, "--out", bytes)?;
+        write(&out.path, "--out", bytes)?;
     }
     let areas = liouville_flow::area_forms(&case, &request).map_err(told)?;
     let classes = match options.classes {
@@ -196,17 +214,18 @@ fn images(
 fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
     let plan = case.section.as_ref();
     let (g0, energy) = options.plane.of(case)?;
+    let given = given(case, options)?;
     let spread = match (options.orbits, plan) {
         (Some(count), _) => count,
-        (None, _) if !options.start.is_empty() => 0,
+        (None, _) if !given.is_empty() => 0,
         (None, Some(plan)) => {
             plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 })
         }
         (None, None) => ORBITS,
     };
     let mut starts = match plan {
-        Some(plan) if options.start.is_empty() => plan.starts.clone(),
-        _ => options.start.clone(),
+        Some(plan) if given.is_empty() => plan.starts.clone(),
+        _ => given,
     };
     starts.extend(liouville_flow::spread(spread));
     Ok(SectionRequest {
@@ -220,4 +239,45 @@ fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
         seed: options.subject.seed,
         index: 0,
     })
+}
+
+/// Points (l, L/G) of the options.
+fn given(case: &Case, options: &Section) -> Result<Vec<[f64; 2]>, String> {
+    let point = |(name, given): (String, Given)| match given {
+        Given::Values(values) if values.len() == 2 => {
+            Ok([values[0].to_f64().0, values[1].to_f64().0])
+        }
+        _ => Err(format!(
+            "error: `{name}` is no point of the section\n\
+             help: write l and L/G with a comma between, such as 1.2,-0.04, or give a surface by \
+             --section"
+        )),
+    };
+    options.starts.read(case)?.into_iter().map(point).collect()
+}
+
+/// Crossings as data.
+fn data(orbits: &[SectionOrbit]) -> Data {
+    let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
+        orbit.crossings.iter().map(move |crossing| {
+            let direction = if crossing.rising { 1.0 } else { -1.0 };
+            let numbers = [direction, crossing.time, crossing.at[0], crossing.at[1]];
+            [&[whole(index)], &numbers.map(Pair::from_f64)[..]].concat()
+        })
+    });
+    Data {
+        columns: ["start", "direction", "t", "l", "L/G"].map(str::to_string).to_vec(),
+        whole: 2,
+        rows: rows.collect(),
+        precision: Precision::Float,
+    }
+}
+
+impl Section {
+    /// File to write.
+    pub fn output(&self) -> Result<Option<Output>, String> {
+        let inputs: Vec<_> =
+            [self.subject.case.as_path()].into_iter().chain(self.starts.inputs()).collect();
+        self.ink.output(Ending::ALL, &inputs)
+    }
 }

@@ -29,11 +29,14 @@ pub fn png(picture: &Picture, paper: Paper) -> Result<Vec<u8>, png::EncodingErro
             }
             Tint::Faint => LINE,
         };
-        canvas.dots(&frame, &layer.dots, index);
+        match layer.joined {
+            true => canvas.line(&frame, &layer.dots, index),
+            false => canvas.dots(&frame, &layer.dots, index),
+        }
     }
     canvas.dots(&frame, &picture.overlay, INK);
     for mark in &picture.marks {
-        canvas.ring(frame.x(mark.l), frame.y(mark.z));
+        canvas.ring(frame.x(mark.x), frame.y(mark.y));
     }
     canvas.axes(&frame);
     let shades = (0..SHADES).map(|shade| colour(f64::from(shade) / f64::from(SHADES - 1)));
@@ -54,7 +57,23 @@ impl Canvas {
 
     fn dots(&mut self, frame: &Frame, dots: &[Dot], index: u8) {
         for dot in dots {
-            self.set(frame.x(dot.l) as i64, frame.y(dot.z) as i64, index);
+            self.set(frame.x(dot.x) as i64, frame.y(dot.y) as i64, index);
+        }
+    }
+
+    /// Draws a line through points; it is broken where one is undefined.
+    fn line(&mut self, frame: &Frame, dots: &[Dot], index: u8) {
+        for pair in dots.windows(2) {
+            let [from, to] = [&pair[0], &pair[1]].map(|dot| (frame.x(dot.x), frame.y(dot.y)));
+            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+            let steps = dx.abs().max(dy.abs()).ceil();
+            if !steps.is_finite() {
+                continue;
+            }
+            for step in 0..=steps as u32 {
+                let share = if steps > 0.0 { f64::from(step) / steps } else { 0.0 };
+                self.set((from.0 + share * dx) as i64, (from.1 + share * dy) as i64, index);
+            }
         }
     }
 

@@ -28,6 +28,24 @@ impl Scale {
         Self::new("L/G", -1.0, 1.0)
     }
 
+    /// Axis over some values, with a margin; over -1 to 1 where there are none.
+    pub fn over(name: &str, values: impl Iterator<Item = f64>) -> Self {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.filter(|value| value.is_finite()) {
+            (low, high) = (low.min(value), high.max(value));
+        }
+        if low > high {
+            return Self::new(name, -1.0, 1.0);
+        }
+        let size = low.abs().max(high.abs());
+        let margin = match high - low > 1e-9 * size {
+            true => 0.03 * (high - low),
+            false if size > 0.0 => 1e-3 * size,
+            false => 1.0,
+        };
+        Self::new(name, low - margin, high + margin)
+    }
+
     /// Axis with ticks at round numbers.
     pub fn new(name: &str, from: f64, to: f64) -> Self {
         let rough = (to - from).abs() / STEPS;
@@ -74,6 +92,18 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn axes_cover_their_values() {
+        for values in
+            [vec![], vec![2.0], vec![0.0, 0.0], vec![1.0, f64::NAN, 3.0], vec![5e12, 5e12]]
+        {
+            let scale = Scale::over("x", values.iter().copied());
+            let known = values.iter().filter(|x| x.is_finite());
+            assert!(known.clone().all(|x| (0.0..=1.0).contains(&scale.share(*x))), "{values:?}");
+            assert!(!scale.ticks.is_empty(), "{values:?}");
+        }
+    }
 
     #[test]
     fn ticks_are_round_numbers_within_the_ends() {

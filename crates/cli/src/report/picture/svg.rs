@@ -61,11 +61,15 @@ fn drawn(out: &mut String, picture: &Picture, frame: &Frame) {
             Tint::Shade(shade) => hex(colour(shade)),
             Tint::Faint => "#888".to_string(),
         };
-        path(out, frame, &layer.dots, &format!("stroke=\"{stroke}\""));
+        let attributes = format!("stroke=\"{stroke}\"");
+        match layer.joined {
+            true => line(out, frame, &layer.dots, &attributes),
+            false => path(out, frame, &layer.dots, &attributes),
+        }
     }
     path(out, frame, &picture.overlay, "class=\"over\" stroke=\"currentColor\"");
     for mark in &picture.marks {
-        let (x, y) = (frame.x(mark.l), frame.y(mark.z));
+        let (x, y) = (frame.x(mark.x), frame.y(mark.y));
         let _ = writeln!(
             out,
             "<circle class=\"mark\" fill=\"none\" stroke=\"currentColor\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>"
@@ -127,7 +131,7 @@ fn path(out: &mut String, frame: &Frame, dots: &[Dot], attributes: &str) {
     // Positions in tenths of a pixel.
     let place = |dot: &Dot| {
         let tenths = |x: f64| (x * 10.0).round() as i64;
-        (tenths(frame.x(dot.l)), tenths(frame.y(dot.z)))
+        (tenths(frame.x(dot.x)), tenths(frame.y(dot.y)))
     };
     let mut seen: Vec<(i64, i64)> = dots.iter().map(place).collect();
     seen.sort_unstable();
@@ -137,6 +141,31 @@ fn path(out: &mut String, frame: &Frame, dots: &[Dot], attributes: &str) {
         let (dx, dy) = (x - last.0, y - last.1);
         let _ = write!(out, "m{} {}h0", tenth(dx), tenth(dy));
         last = (x, y);
+    }
+    out.push_str("\"/>\n");
+}
+
+/// Draws a line through points; it is broken where one is undefined.
+fn line(out: &mut String, frame: &Frame, dots: &[Dot], attributes: &str) {
+    let _ = write!(out, "<path fill=\"none\" {attributes} d=\"");
+    let mut last: Option<(i64, i64)> = None;
+    for dot in dots {
+        if !(dot.x.is_finite() && dot.y.is_finite()) {
+            last = None;
+            continue;
+        }
+        let tenths = |x: f64| (x * 10.0).round() as i64;
+        let at = (tenths(frame.x(dot.x)), tenths(frame.y(dot.y)));
+        match last {
+            Some(before) if before == at => continue,
+            Some((x, y)) => {
+                let _ = write!(out, "l{} {}", tenth(at.0 - x), tenth(at.1 - y));
+            }
+            None => {
+                let _ = write!(out, "M{} {}", tenth(at.0), tenth(at.1));
+            }
+        }
+        last = Some(at);
     }
     out.push_str("\"/>\n");
 }

@@ -1,0 +1,142 @@
+//! Report of `periodic`: closed orbits with their multipliers, each with an estimate of its error.
+
+use serde_json::{Value, json};
+
+use liouville::case::Case;
+use liouville_flow::{Cycle, CycleKind, Measured, Multiplier, PeriodicPoint};
+
+/// A closed orbit, with the point of the section that it goes through if one was asked for.
+pub struct Found {
+    /// Periodic point of a rolling body's section.
+    pub point: Option<PeriodicPoint>,
+    /// Number of crossings after which the orbit closes, where they were counted.
+    pub crossings: Option<usize>,
+    /// Orbit.
+    pub cycle: Cycle,
+}
+
+/// Formats a number with its error: the digits that the error leaves, and one more.
+fn shown(x: Measured) -> String {
+    let digits = libm::ceil(-libm::log10(x.error)) + 1.0;
+    if !(x.error > 0.0 && digits.is_finite()) {
+        return format!("{:?}", x.value);
+    }
+    if x.value.abs() >= 1e15 || (x.value != 0.0 && x.value.abs() < 1e-6) {
+        let size = libm::floor(libm::log10(x.value.abs()));
+        let digits = (digits + size).clamp(0.0, 16.0) as usize;
+        return format!("{:.digits$e} ± {:.0e}", x.value, x.error);
+    }
+    let digits = digits.clamp(0.0, 17.0) as usize;
+    format!("{:.digits$} ± {:.0e}", x.value, x.error)
+}
+
+fn kind(kind: Option<CycleKind>) -> &'static str {
+    kind.map_or("undecided", CycleKind::name)
+}
+
+/// What the errors allow to say of the stability, in words.
+fn verdict(cycle: &Cycle) -> String {
+    match cycle.kind {
+        Some(CycleKind::Elliptic) => "elliptic: the moduli are 1 within their errors".to_string(),
+        Some(other) => other.name().to_string(),
+        None if cycle.multipliers.is_empty() => "no multipliers besides 1".to_string(),
+        None => "kind undecided: a multiplier has the modulus 1 within its error".to_string(),
+    }
+}
+
+/// Renders a closed orbit in a few lines.
+pub fn text(case: &Case, found: &Found) -> String {
+    let cycle = &found.cycle;
+    let mut out = String::new();
+    match (&found.point, found.crossings) {
+        (Some(point), _) => out.push_str(&format!(
+            "({:.12}, {:.12}) of period {}: {}\n",
+            point.at[0],
+            point.at[1],
+            point.period,
+            verdict(cycle)
+        )),
+        (None, Some(count)) => {
+            out.push_str(&format!("closed orbit of {count} crossings: {}\n", verdict(cycle)));
+        }
+        (None, None) => out.push_str(&format!("closed orbit: {}\n", verdict(cycle))),
+    }
+    let mut state = cycle.start.state.iter();
+    for variable in &case.model.state {
+        let values = state.by_ref().take(variable.len());
+        let values: Vec<String> = values.map(|x| format!("{:?}", x.hi)).collect();
+        out.push_str(&format!("  {} = {}\n", variable.name, values.join(", ")));
+    }
+    let period = shown(cycle.period);
+    out.push_str(&format!("  returns after t = {period}, to {:.1e}\n", cycle.residual));
+    for multiplier in &cycle.multipliers {
+        if multiplier.im < 0.0 {
+            continue;
+        }
+        out.push_str(&format!("  multiplier{}\n", written(multiplier)));
+    }
+    let volume = cycle.volume;
+    let product = product(volume);
+    out.push_str(&format!("  product {}, ∮ div v dt = {}\n", shown(product), shown(volume)));
+    out
+}
+
+fn written(multiplier: &Multiplier) -> String {
+    let error = multiplier.error;
+    if multiplier.im == 0.0 {
+        return format!(" {}", shown(Measured { value: multiplier.re, error }));
+    }
+    let modulus = Measured { value: multiplier.modulus(), error: multiplier.modulus_error };
+    let angle = libm::atan2(multiplier.im, multiplier.re);
+    let angle = Measured { value: angle, error: error / multiplier.modulus() };
+    format!("s: modulus {}, argument ±{}", shown(modulus), shown(angle))
+}
+
+/// Product of all multipliers, e^∮ div v.
+fn product(volume: Measured) -> Measured {
+    let value = libm::exp(volume.value);
+    Measured { value, error: value * (volume.error + f64::EPSILON) }
+}
+
+/// Renders a closed orbit as JSON.
+pub fn entry(found: &Found) -> Value {
+    let cycle = &found.cycle;
+    let multiplier = |one: &Multiplier| {
+        json!({
+            "re": one.re,
+            "im": one.im,
+            "error": one.error,
+            "modulus": one.modulus(),
+            "modulus_error": one.modulus_error,
+        })
+    };
+    let product = product(cycle.volume);
+    json!({
+        "at": found.point.map(|point| point.at),
+        "period": found.crossings,
+        "state": cycle.start.state.iter().map(|x| x.hi).collect::<Vec<_>>(),
+        "kind": kind(cycle.kind),
+        "time": cycle.period.value,
+        "time_error": cycle.period.error,
+        "residual": cycle.residual,
+        "multipliers": cycle.multipliers.iter().map(multiplier).collect::<Vec<_>>(),
+        "product": product.value,
+        "product_error": product.error,
+        "volume": cycle.volume.value,
+        "volume_error": cycle.volume.error,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_are_known() {
+        let text = |value, error| shown(Measured { value, error });
+        assert_eq!(text(148.166_473_353_152_24, 3e-11), "148.166473353152 ± 3e-11");
+        assert_eq!(text(0.5, 0.2), "0.50 ± 2e-1");
+        assert_eq!(text(1.0, 0.0), "1.0", "no error, all digits");
+        assert_eq!(text(0.0, 1e-15), "0.0000000000000000 ± 1e-15");
+    }
+}

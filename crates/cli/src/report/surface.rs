@@ -1,0 +1,111 @@
+//! Report of `section` by a surface: the crossings as JSON, a summary as text, and the picture.
+
+use serde_json::{Value, json};
+
+use super::picture::{Dot, Layer, Picture, Scale, Tint};
+use super::section::shade;
+use liouville::case::{Case, Direction};
+use liouville_flow::{SurfaceOrbit, SurfaceRequest};
+
+/// Crossings of a surface with their request.
+pub struct SurfaceReport<'r> {
+    /// Case of the section.
+    pub case: &'r Case,
+    /// Request of the section.
+    pub request: &'r SurfaceRequest<'r>,
+    /// Names of the starts.
+    pub names: &'r [String],
+    /// Motions, one for each start.
+    pub orbits: &'r [SurfaceOrbit],
+}
+
+impl SurfaceReport<'_> {
+    fn count(&self, of: impl Fn(&SurfaceOrbit) -> usize) -> usize {
+        self.orbits.iter().map(of).sum()
+    }
+
+    /// Renders a summary of a few lines.
+    pub fn text(&self) -> String {
+        let crossings = self.count(|orbit| orbit.crossings.len());
+        let steps: u64 = self.orbits.iter().map(|orbit| orbit.steps).sum();
+        let mut out = format!(
+            "{}\nsection {}: {} orbits, {crossings} crossings, {steps} steps\n",
+            self.case.title,
+            self.request.surface.text(),
+            self.orbits.len()
+        );
+        let drifts = self.orbits.iter().filter_map(|orbit| orbit.drift);
+        if let Some(worst) = drifts.reduce(|a, b| if b > a || b.is_nan() { b } else { a }) {
+            out.push_str(&format!("largest change of the energy {worst:.1e}\n"));
+        }
+        let falling = self.count(|orbit| orbit.crossings.iter().filter(|c| !c.rising).count());
+        let (others, tangencies) =
+            (self.count(|orbit| orbit.others), self.count(|orbit| orbit.tangencies));
+        match self.request.direction {
+            Direction::Both if falling > 0 && falling < crossings => {
+                out.push_str(&format!("{falling} of the crossings are downwards\n"));
+            }
+            Direction::Up | Direction::Down if others > 0 => {
+                out.push_str(&format!("{others} crossings in the other direction are left out\n"));
+            }
+            _ => {}
+        }
+        if tangencies > 0 {
+            out.push_str(&format!("{tangencies} times the surface was touched, not crossed\n"));
+        }
+        for (name, orbit) in self.names.iter().zip(self.orbits) {
+            if let Some(problem) = &orbit.problem {
+                let found = orbit.crossings.len();
+                out.push_str(&format!("{name}: ended after {found} crossings: {problem}\n"));
+            }
+        }
+        out
+    }
+
+    /// Renders all crossings as JSON.
+    pub fn json(&self) -> Result<String, serde_json::Error> {
+        let orbits = self.names.iter().zip(self.orbits).map(|(name, orbit)| {
+            let crossing = |met: &liouville_flow::SurfaceCrossing| json!({ "at": met.at, "t": met.time, "rising": met.rising });
+            json!({
+                "start": name,
+                "crossings": orbit.crossings.iter().map(crossing).collect::<Vec<_>>(),
+                "others": orbit.others,
+                "tangencies": orbit.tangencies,
+                "steps": orbit.steps,
+                "drift": orbit.drift,
+                "problem": orbit.problem.as_ref().map(ToString::to_string),
+            })
+        });
+        serde_json::to_string(&json!({
+            "title": self.case.title,
+            "section": self.request.surface.text(),
+            "axes": self.request.axes.titles(),
+            "orbits": orbits.collect::<Vec<Value>>(),
+        }))
+    }
+}
+
+/// Draws the first two axes of crossings, a colour for each motion.
+pub fn picture(title: &str, axes: &[String], orbits: &[SurfaceOrbit], width: u32) -> Picture {
+    let value = |at: &[f64], place: usize| at.get(place).copied().unwrap_or(f64::NAN);
+    let scale = |place: usize| {
+        let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
+        let name = axes.get(place).map_or("", String::as_str);
+        Scale::over(name, crossings.map(|met| value(&met.at, place)))
+    };
+    let layer = |(index, orbit): (usize, &SurfaceOrbit)| {
+        let dots = orbit.crossings.iter();
+        let dots = dots.map(|met| Dot { x: value(&met.at, 0), y: value(&met.at, 1) });
+        let dots = dots.filter(|dot| dot.x.is_finite() && dot.y.is_finite());
+        Layer { tint: Tint::Shade(shade(index)), dots: dots.collect(), joined: false }
+    };
+    Picture {
+        title: title.to_string(),
+        across: scale(0),
+        up: scale(1),
+        layers: orbits.iter().enumerate().map(layer).collect(),
+        overlay: Vec::new(),
+        marks: Vec::new(),
+        width,
+    }
+}
