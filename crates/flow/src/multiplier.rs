@@ -136,7 +136,7 @@ pub(super) fn all(
     let size = ROUNDINGS * f64::EPSILON * pair.amax();
     let changed = |salt: usize| {
         pair.map_with_location(|row, column, x| {
-            let sign = if (row * 7 + column * 3 + salt) % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if (row * 7 + column * 3 + salt).is_multiple_of(2) { 1.0 } else { -1.0 };
             x + sign * size * (1.0 + ((row + 2 * column + salt) % 3) as f64) / 3.0
         })
     };

@@ -167,8 +167,8 @@ impl<T: Number> Stepper<T> {
 
     /// Whether a motion stands still: its velocity is exactly 0.
     pub fn rests(&self, lane: usize) -> bool {
-        let rows = 0..self.state.len();
-        rows.into_iter().all(|row| self.series.component(row)[1].lane(lane).leading() == 0.0)
+        let speed = |row: usize| self.series.component(row)[1].lane(lane).leading();
+        (0..self.state.len()).all(|row| speed(row) == 0.0)
     }
 
     /// Takes the steps.

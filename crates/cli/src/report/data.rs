@@ -41,7 +41,7 @@ impl Data {
         let shape = format!("({}, {})", self.rows.len(), self.columns.len());
         let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
         // Magic, version and length take ten bytes; the data begin at a multiple of 64.
-        while (10 + header.len() + 1) % 64 != 0 {
+        while !(10 + header.len() + 1).is_multiple_of(64) {
             header.push(' ');
         }
         header.push('\n');
