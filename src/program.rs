@@ -170,8 +170,9 @@ mod tests {
     #[test]
     fn inputs_and_functions_are_named() {
         let case = Case::parse(
-            "title = 't'\n[parameters]\nk = '1..2'\n[state]\nx = '-2..2'\nω = 'vector'\n\
-             [field]\n\"x'\" = 'k*x'\n\"ω'\" = 'x*ω'\n[[claim]]\nname = 'F'\nintegral = 'ln(x)'\n",
+            "title = 't'\n[parameters]\nk = '1..2'\n[state]\nx = '-2..2'\n\
+             omega = 'vector(-1..1)'\n[field]\n\"x'\" = 'k*x'\n\"omega'\" = 'x*ω'\n\
+             [[claim]]\nname = 'F'\nintegral = 'ln(x)'\n",
             &[],
         )
         .unwrap_or_else(|error| panic!("{error}"));
