@@ -173,17 +173,20 @@ fn least<R>(work: impl Fn() -> Result<R, GrowthError>) -> Result<(Duration, R), 
     }
 }
 
+/// A quantity of a measurement.
+type Measure = fn(&Point) -> f64;
+
 /// Fits the exponents to the larger half of the sizes.
 fn exponents(points: &[Point], by_size: bool) -> Exponents {
     let larger = &points[points.len() / 2..];
     let larger = if larger.len() < 2 { points } else { larger };
-    let fit = |x: fn(&Point) -> f64, y: fn(&Point) -> f64| {
+    let fit = |x: Measure, y: Measure| {
         let logarithms = larger.iter().map(|point| (x(point).ln(), y(point).ln()));
         slope(&logarithms.collect::<Vec<_>>())
     };
-    let (size, operations): (fn(&Point) -> f64, fn(&Point) -> f64) =
+    let (size, operations): (Measure, Measure) =
         (|point| point.size as f64, |point| point.operations as f64);
-    let whole: fn(&Point) -> f64 = |point| point.record + point.judge;
+    let whole: Measure = |point| point.record + point.judge;
     Exponents {
         operations: fit(size, operations).filter(|_| !by_size),
         record: fit(operations, |point| point.record).filter(|_| !by_size),
