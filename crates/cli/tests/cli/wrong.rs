@@ -191,7 +191,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
         ("algebra", lagrangian("nonholonomic", quasi), "is not a known algebra", "so(3)"),
-        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [variables]"),
+        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [poisson]"),
         (
             "two",
             turning("[[claim]]\nintegral = 'x'\ndensity = '1'"),
