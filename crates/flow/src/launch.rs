@@ -16,6 +16,8 @@ use liouville::scalar::Scalar;
 
 /// Number of drawn states from which Newton's method is tried.
 const TRIES: u64 = 64;
+/// Distance from a zero, relative to the state, at which a condition holds.
+const HOLDS: f64 = 1e-14;
 
 /// Beginning of a motion, as a user gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,5 +144,14 @@ fn moved(
 ) -> Result<Start, FlowError> {
     let mut state: Vec<Pair> = state.iter().map(Pair::from_rational).collect();
     let moved = conditions.correct(&mut state, &[])?;
-    Ok(Start { parameters, state, moved })
+    // Where conditions contradict each other the steps may shrink elsewhere than at a zero.
+    let norm = |parts: &[Pair]| parts.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+    let size = norm(&state).max(1.0);
+    let (values, gradients) = conditions.at(&state);
+    let holds =
+        |(value, gradient): (&Pair, &Vec<Pair>)| value.hi.abs() <= HOLDS * size * norm(gradient);
+    match values.iter().zip(&gradients).all(holds) {
+        true => Ok(Start { parameters, state, moved }),
+        false => Err(FlowError::NoStart),
+    }
 }

@@ -11,6 +11,9 @@ use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::pair::{Pair, Pairs};
 use liouville::number::rational::Rational;
 
+/// Start of an orbit, or the reason why there is none.
+type Launched = Result<Start, FlowError>;
+
 /// Request for a section.
 #[derive(Clone, Debug)]
 pub struct SectionRequest {
@@ -92,25 +95,23 @@ pub fn section(
         has_side: true,
     };
     let tracks = task.run(threads, &|| |_: Pair, state: &[Pair]| coordinates(state), progress);
-    let orbit =
-        |((track, start), at): ((Track<[f64; 2]>, &Result<Start, FlowError>), &[f64; 2])| {
-            let drift = match (start, &track.end) {
-                (Ok(start), Some(end)) => energy_drift(&case.model, start, end)?,
-                _ => 0.0,
-            };
-            let crossings = track.crossings.into_iter();
-            let crossing =
-                |met: Met<_>| Crossing { at: met.at, time: met.time, rising: met.rising };
-            Ok(SectionOrbit {
-                start: *at,
-                crossings: crossings.map(crossing).collect(),
-                others: track.others,
-                tangencies: track.tangencies,
-                steps: track.steps,
-                drift,
-                problem: track.problem,
-            })
+    let orbit = |((track, start), at): ((Track<[f64; 2]>, &Launched), &[f64; 2])| {
+        let drift = match (start, &track.end) {
+            (Ok(start), Some(end)) => energy_drift(&case.model, start, end)?,
+            _ => 0.0,
         };
+        let crossings = track.crossings.into_iter();
+        let crossing = |met: Met<_>| Crossing { at: met.at, time: met.time, rising: met.rising };
+        Ok(SectionOrbit {
+            start: *at,
+            crossings: crossings.map(crossing).collect(),
+            others: track.others,
+            tangencies: track.tangencies,
+            steps: track.steps,
+            drift,
+            problem: track.problem,
+        })
+    };
     tracks.into_iter().zip(&starts).zip(&request.starts).map(orbit).collect()
 }
 

@@ -90,6 +90,9 @@ impl Start {
     }
 }
 
+/// Functions of a point over which gradients are recorded.
+type Further<'f> = dyn Fn(&Phase<'_, Dual<Expr>>) -> Vec<Dual<Expr>> + 'f;
+
 /// Level functions of a model, possibly further ones, and their gradients.
 pub(super) struct Level {
     tape: Tape,
@@ -116,7 +119,7 @@ impl Level {
     pub fn with(
         model: &Model,
         parameters: &[Rational],
-        further: &dyn Fn(&Phase<'_, Dual<Expr>>) -> Vec<Dual<Expr>>,
+        further: &Further<'_>,
     ) -> Result<Self, FlowError> {
         let dimension = model.dimension();
         let mut equations = 0;

@@ -173,7 +173,7 @@ fn sections_at_an_energy_start_from_their_axes() {
 fn spectra_sum_to_the_divergence() {
     let folder = folder("spectra", &[("lorenz.toml", LORENZ)]);
     let case = path(&folder, "lorenz.toml");
-    let spectrum = |case: &str, start: &str, time: &str| {
+    let spectrum = |case: &str, start: &str, time: &str, bound: f64| {
         let arguments =
             ["motion", "exponents", case, "--start", start, "--spectrum", "--time", time, "--json"];
         let report = json(&arguments, 0);
@@ -183,13 +183,14 @@ fn spectra_sum_to_the_divergence() {
             exponents.map(|one| one["mean"].as_f64().expect("a number")).collect();
         let divergence = found["divergence"]["mean"].as_f64().expect("a number");
         let gap = exponents.iter().sum::<f64>() - divergence;
-        assert!(gap.abs() < 1e-9, "{exponents:?} against {divergence}");
+        assert!(gap.abs() < bound, "{exponents:?} against {divergence}");
         exponents
     };
-    let lorenz = spectrum(&case, "1,1,20", "1000");
+    let lorenz = spectrum(&case, "1,1,20", "1000", 1e-9);
     assert!((lorenz[0] - 0.9056).abs() < 0.02 && lorenz[1].abs() < 0.01, "{lorenz:?}");
-    // On a level of four dimensions, with contracting directions.
-    assert_eq!(spectrum("figures/fig-8", "3.4,0.3", "400").len(), 4);
+    // On a level of four dimensions the volumes differ by a function of the state, |∇F₀ ∧ ∇F₁|, whose
+    // logarithm changes by less than 2.5 between the ends of 360 units of time.
+    assert_eq!(spectrum("figures/fig-8", "3.4,0.3", "400", 2.5 / 360.0).len(), 4);
 }
 
 #[test]
