@@ -19,6 +19,7 @@ mod conditions;
 mod counts;
 mod densities;
 mod echelon;
+mod error;
 mod expansion;
 mod halt;
 mod integrals;
@@ -39,119 +40,20 @@ mod terms;
 use serde::Serialize;
 
 use self::ask::Claimed;
-use liouville::case::{Case, ClaimError};
-use liouville::formula::{Formula, FormulaError};
-use liouville::graph::Fault;
+use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::mechanics::{Meaning, Model};
-use liouville::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
+use liouville::verdict::{ClaimReport, Evidence, Options, Verdict};
 
 pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
+pub use error::SearchError;
 pub use halt::Halt;
 pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
 pub use second_opinion::SecondOpinion;
-
-/// The reason why a search is impossible.
-#[derive(Debug, thiserror::Error)]
-pub enum SearchError {
-    /// Positions and velocities cannot be separated, or the field has no series in them.
-    #[error("integrals cannot be counted: {0}")]
-    Unsplit(&'static str),
-    /// The rates are not polynomials of degree 2 in the velocities.
-    #[error("integrals cannot be counted: the rates are not quadratic in the velocities")]
-    NotQuadratic,
-    /// The equations for the coefficients are not of finite type, unlike those for Killing tensors.
-    #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
-    NotSpanned,
-    /// The field has functions that prime fields lack, or is defined nowhere.
-    #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
-    NoSeries,
-    /// A minor is not a fraction of low degree in a parameter.
-    #[error("the equations are not fractions of low degree in the parameter")]
-    NoFraction,
-    /// A term given by the user cannot be read.
-    #[error("the term `{0}` is not a scalar in the names of the case")]
-    NoTerm(String),
-    /// The case has no claim of this name.
-    #[error("the case has no claim `{0}`")]
-    NoClaim(String),
-    /// The count did not become stable.
-    #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
-    Unsettled(u32),
-    /// The elimination takes more steps than the effort allows.
-    #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
-    Long {
-        /// Number of unknowns.
-        unknowns: usize,
-        /// Limit that was reached.
-        seconds: f64,
-    },
-    /// The elimination takes more memory than the effort allows.
-    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
-    Large {
-        /// Number of unknowns.
-        unknowns: usize,
-        /// Limit that was reached.
-        megabytes: u64,
-    },
-    /// The system is a map.
-    #[error("the case is a map, and a search needs a flow")]
-    Discrete,
-    /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
-    #[error("the search was stopped")]
-    Stopped,
-    /// States cannot be parametrised in a prime field.
-    #[error("the level set has no parametrisation")]
-    NoChart,
-    /// No point at which all terms have a value was found.
-    #[error("the terms have no common value modulo a prime: they contain exp, ln, sin, cos or x^y")]
-    NoPoints,
-    /// Recording failed.
-    #[error(transparent)]
-    Fault(#[from] Fault),
-    /// The candidate is not a valid claim for this case.
-    #[error("the candidate is not a valid claim for this case: {0}")]
-    Unfit(#[from] ClaimError),
-    /// A formula cannot be made of others.
-    #[error("the formula of a candidate cannot be written: {0}")]
-    Unwritten(#[from] FormulaError),
-    /// Judging failed.
-    #[error(transparent)]
-    Judge(#[from] JudgeError),
-}
-
-impl SearchError {
-    /// Whether the error concerns counts only, and not the rest of a search.
-    fn is_of_count(&self) -> bool {
-        use SearchError::{Large, Long, NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
-        let is_costly = matches!(self, Long { .. } | Large { .. });
-        is_costly
-            || matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
-    }
-
-    /// Suggests a remedy.
-    pub fn help(&self) -> &'static str {
-        match self {
-            SearchError::Judge(error) => error.help(),
-            SearchError::NoChart => "give [level.chart], or level equations that can be solved",
-            SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
-            SearchError::Unsettled(_) => "ask for a lower --degree",
-            SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
-            SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
-            SearchError::NoSeries | SearchError::NoPoints => {
-                "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
-                 the cosine of φ"
-            }
-            SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::NotSpanned => {
-                "search with --ansatz=4, which needs no velocities"
-            }
-            _ => "`liouville check` judges what you claim by hand",
-        }
-    }
-}
 
 /// Scope and limits of a search.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use super::axis::{self, Axis};
 use super::data;
-use super::question::{Definition, define, defined};
+use super::definitions::{Definition, define, defined};
 use liouville::case::Case;
 use liouville::claim::{Claim, Entry, Identity, Integral, Statement};
 use liouville::formula::{Scope, Type};

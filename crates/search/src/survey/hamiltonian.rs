@@ -10,7 +10,8 @@
 //!
 //! BMB 2013, (2.14)-(2.19), (2.28), for any potential and without a rotor.
 
-use super::question::{Definition, Finding, Question, define, defined, merged, used_by};
+use super::definitions::{Definition, define, defined, merged, used_by};
+use super::question::{Finding, Question};
 use super::shown::Typesetter;
 use liouville::case::Case;
 use liouville::claim::{Claim, Entry};

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::question::{Definition, Finding, defined, merged};
+use super::definitions::{Definition, defined, merged};
+use super::question::Finding;
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;

@@ -14,6 +14,7 @@
 
 mod axis;
 mod data;
+mod definitions;
 mod description;
 mod family;
 mod geometry;
@@ -38,11 +39,12 @@ use liouville::case::{Case, Expect};
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
 
+pub use definitions::Definition;
 pub use description::Description;
 pub use geometry::Fact;
 pub use hierarchy::{Class, Integrals, Measure, Standing};
 pub use independence::Count;
-pub use question::{Definition, Finding, FixedSet};
+pub use question::{Finding, FixedSet};
 pub use shown::Shown;
 pub use sphere::SphereMap;
 pub use unknown::Unknown;

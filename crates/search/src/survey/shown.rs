@@ -1,6 +1,6 @@
 //! Typesetting of the formulas of a finding.
 
-use super::question::Definition;
+use super::definitions::Definition;
 use liouville::formula::{Formula, Layout, Scope, Symbol, Type};
 use liouville::mechanics::Vocabulary;
 

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::question::{Finding, define};
+use super::definitions::define;
+use super::question::Finding;
 use crate::{CountReport, Effort, Excluded, Found, search};
 use liouville::case::Case;
 use liouville::case::Expect;
