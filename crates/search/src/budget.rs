@@ -77,7 +77,7 @@ mod tests {
         let mut echelon = Echelon::new(100, m);
         let effort = Effort::default();
         let budget = |seconds: f64, megabytes: u64| {
-            let ansatz = crate::Ansatz { megabytes, ..effort.ansatz.clone() };
+            let ansatz = crate::Ansatz { megabytes, ..effort.ansatz };
             Effort { seconds, ansatz, ..effort.clone() }
         };
         for row in 0..100u64 {
