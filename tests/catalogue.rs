@@ -1,5 +1,6 @@
 //! Claims of the catalogue, each a separate test: `cargo test -- unbalanced` runs those of the
-//! unbalanced balls.
+//! unbalanced balls, `cargo test -- "(3.19)"` those of the equation, `cargo test -- "Table 1, row 4"`
+//! those of the row.
 //!
 //! A claim passes when its verdict is the one its file expects. A case is judged once, for the
 //! first of its claims that runs.
@@ -9,7 +10,7 @@ use std::process::ExitCode;
 use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use liouville::case::Case;
+use liouville::case::{Case, is_case_file, labels};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_search::judge;
 
@@ -28,12 +29,10 @@ fn main() -> ExitCode {
             Ok(case) => {
                 let judged = Arc::new(Judged { case, report: OnceLock::new() });
                 claims += judged.case.claims.len() + judged.case.absences.len();
-                let names = judged.case.claims.iter().map(|claim| &claim.name);
-                let absent = judged.case.absences.iter().map(|claim| &claim.name);
-                for (index, claim) in names.chain(absent).enumerate() {
+                for (index, (claim, labels)) in judged.titles().into_iter().enumerate() {
                     let judged = Arc::clone(&judged);
                     let test = move || judged.check(index);
-                    trials.push(Trial::test(format!("{name} :: {claim}"), test));
+                    trials.push(Trial::test(format!("{name} :: {claim} [{labels}]"), test));
                 }
             }
         }
@@ -53,6 +52,17 @@ struct Judged {
 }
 
 impl Judged {
+    /// Names of the claims, each with the equations, theorems and cells of tables that it states.
+    fn titles(&self) -> Vec<(String, String)> {
+        let case = &self.case;
+        let title = |name: &String, source: &str, cell: &Option<String>| {
+            (name.clone(), labels(source, case.column.as_ref(), cell.as_deref()).join("; "))
+        };
+        let claims = case.claims.iter().map(|own| title(&own.name, &own.source, &own.cell));
+        let absent = case.absences.iter().map(|own| title(&own.name, &own.source, &own.cell));
+        claims.chain(absent).collect()
+    }
+
     fn check(&self, index: usize) -> Result<(), Failed> {
         let report = self.report.get_or_init(|| judge(&self.case, &Options::default()));
         let report = report.as_ref().map_err(|error| Failed::from(error.to_string()))?;
@@ -77,7 +87,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     for entry in entries {
         if entry.is_dir() {
             found.extend(files(&entry));
-        } else if entry.extension().is_some_and(|extension| extension == "toml") {
+        } else if is_case_file(&entry) {
             found.push(entry);
         }
     }

@@ -1,4 +1,5 @@
 //! The guide's examples: every complete case in it is judged, and agrees.
+//! `crates/cli/tests/documents.rs` runs the README and the tutorial.
 
 use liouville::case::Case;
 use liouville::verdict::{Options, judge};
@@ -28,9 +29,4 @@ fn check_all(path: &str, at_least: usize) {
 #[test]
 fn the_cases_of_the_guide_run() {
     check_all("docs/writing-a-case.md", 2);
-}
-
-#[test]
-fn the_case_of_the_readme_runs() {
-    check_all("README.md", 1);
 }

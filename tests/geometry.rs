@@ -126,7 +126,7 @@ fn wrong_brackets_are_refused() {
     let bare = KEPLER.split("[poisson]").next().expect("a head");
     refused(bare, "bracket = ['H', 'L']", "needs a bracket", "[poisson]");
     let bare = KEPLER.split("[variables]").next().expect("a head");
-    refused(bare, "bracket = ['H', 'L']", "the case has none", "add [variables]");
+    refused(bare, "bracket = ['H', 'L']", "the case has none", "[variables] for new variables");
 }
 
 const ROTOR: &str = "title = 'rotation'\n[parameters]\na = 'vector(-1..1)'\nb = 'vector(-1..1)'\n[state]\n\

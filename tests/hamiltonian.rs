@@ -158,7 +158,7 @@ fn a_built_in_system_has_no_function_of_its_own() {
                 shape = 'ball'\n[hamiltonian]\nfunction = '1'\n";
     let error = Case::parse(text, &[]).expect_err("it has equations of motion");
     let told = |mistake: &liouville::case::Mistake| {
-        mistake.line.is_some() && mistake.message().contains("a field of one's own")
+        mistake.line.is_some() && mistake.message().contains("gives a vector field")
     };
     assert!(error.mistakes().iter().any(told), "{error}");
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use liouville::case::Case;
+use liouville::case::{Case, is_case_file};
 use proptest::prelude::*;
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -10,7 +10,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.path();
         if path.is_dir() {
             files(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "toml") {
+        } else if is_case_file(&path) {
             found.push(path);
         }
     }

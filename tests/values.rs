@@ -156,7 +156,7 @@ fn claims_that_do_not_fit_are_refused() {
     let found = refusal(&case, Claim::integral(&x).with("weight", 1));
     assert!(found.contains("no `weight`"), "{found}");
     let found = refusal(&case, Claim::of("integrals", &x));
-    assert!(found.contains("no such kind"), "{found}");
+    assert!(found.contains("kind of claim is unknown"), "{found}");
     let found = refusal(&case, Claim::hamiltonian(&x));
     assert!(found.contains("new variables"), "{found}");
     let found = refusal(&case, Claim::symmetry_field(vec![("y".to_string(), x.clone())]));
@@ -231,7 +231,7 @@ fn builders_return_the_first_mistake() {
         (Model::field().build(), "no state variables"),
         (Model::field().variable("x", "-2..2").build(), "the rate is missing"),
         (Model::field().state("x", "-2..2", "y").build(), "unknown name `y`"),
-        (Model::field().state("x", "2", "1").build(), "needs the range"),
+        (Model::field().state("x", "2", "1").build(), "needs a range"),
         (Model::field().state("x", 1_i64..1, "1").build(), "is empty"),
         (Model::field().state("x", "-2..2", "[1, 2, 3]").build(), "is a vector"),
         (Model::field().parameter("x", 1).state("x", "-2..2", "1").build(), "taken already"),
@@ -239,7 +239,7 @@ fn builders_return_the_first_mistake() {
         (Model::field().rate("x", "1").build(), "not a state variable"),
         (Model::field().support("1").build(), "no body"),
         (Model::rubber_plane().support("|γ|").build(), "unknown name `m`"),
-        (Model::rubber_plane().level("ω1", "0").build(), "is known"),
+        (Model::rubber_plane().level("ω1", "0").build(), "is fixed"),
     ];
     for (built, expected) in messages {
         let error = built.map(|_| ()).expect_err(expected).to_string();

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use liouville::case::{Case, Setting};
+use liouville::case::{Case, Setting, is_case_file};
 use liouville::verdict::{
     ClaimReport, Method, Options, Verdict, Witness, evaluate, judge, read_state,
 };
@@ -13,7 +13,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.path();
         if path.is_dir() {
             files(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "toml") {
+        } else if is_case_file(&path) {
             found.push(path);
         }
     }

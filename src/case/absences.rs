@@ -1,4 +1,4 @@
-//! Claims of absence: what a case says not to be there.
+//! Claims of absence in a case file.
 
 use super::claims::{Context, cell, expect, name, statements};
 use super::entries::Entries;

@@ -1,4 +1,4 @@
-//! Further claims about the same system, for questions of the tool itself.
+//! Further claims about the same system, for questions of the program itself.
 
 use toml::de::DeTable;
 

@@ -4,6 +4,7 @@ use super::arbitrary::Arbitrary;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::kinds::Rolling;
+use super::mistakes::Mistakes;
 use super::parameters::has;
 use super::section::{Section, Text};
 use crate::formula::{Formula, Type};
@@ -30,6 +31,9 @@ pub(super) fn formula_or(
         }
         None => {
             let remedy = match vocabulary.find(default).map(|entry| entry.kind) {
+                Some(found) if kind == Type::MATRIX => {
+                    format!("`{default}` is a {found}: write three moments, {default} = [1, 2, 3]")
+                }
                 Some(found) => format!("`{default}` is a {found}, and should be a {kind}"),
                 None => format!("declare the {kind} `{default}` in [parameters], or give `{key}`"),
             };
@@ -144,7 +148,7 @@ fn shape(
         formula(text, vocabulary, what, Some(kind), Reach::Configuration)
     };
     if let Some(text) = named {
-        let support = named_shape(&text, vocabulary)?;
+        let support = named_shape(&text, vocabulary, section.mistakes())?;
         return Ok(Shape::Support(read(&support, "the support function", Type::Scalar)?));
     }
     if let Some(text) = contact {
@@ -165,7 +169,7 @@ fn shape(
 }
 
 /// Support function of a named shape.
-fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, Mistake> {
+fn named_shape(text: &Text, vocabulary: &Vocabulary, mistakes: &Mistakes) -> Result<Text, Mistake> {
     let (needs, kind, support) = match text.value.as_str() {
         "ball" => ("R", Type::Scalar, "R*|γ|"),
         "ellipsoid" => ("B", Type::MATRIX, "√(γ,B*γ)"),
@@ -175,21 +179,31 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary) -> Result<Text, Mistake> {
                 text.span.clone(),
                 Problem::Other {
                     message: format!("unknown shape `{}`", text.value),
-                    remedy:
-                        "ball, ellipsoid and disk have names; anything else is a support = \"h(γ)\""
-                            .to_string(),
+                    remedy: match text.value.as_str() {
+                        "sphere" => "write \"ball\"; its mass centre may be off its middle by c",
+                        "disc" | "coin" | "hoop" | "ring" => "write \"disk\"",
+                        _ => {
+                            "ball, ellipsoid and disk have names; anything else is a \
+                             support = \"h(γ)\""
+                        }
+                    }
+                    .to_string(),
                 },
             ));
         }
     };
-    if !has(vocabulary, needs, kind) {
-        return Err(Mistake::at(
-            text.span.clone(),
-            Problem::Other {
-                message: format!("a {} needs the {kind} `{needs}`", text.value),
-                remedy: format!("declare `{needs}` under [parameters]"),
-            },
-        ));
+    if !has(vocabulary, needs, kind) && !mistakes.has_failed(needs) {
+        let remedy = match (vocabulary.find(needs), kind) {
+            (None, _) => format!("declare `{needs}` under [parameters]"),
+            (Some(entry), Type::Scalar) => {
+                format!("`{needs}` is a {}: write a number or a range \"1..3\"", entry.kind)
+            }
+            (Some(entry), _) => {
+                format!("`{needs}` is a {}: write {needs} = \"diag(1..3)\"", entry.kind)
+            }
+        };
+        let message = format!("a {} needs the {kind} `{needs}`", text.value);
+        return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     }
     if let Some(entry) = vocabulary.find("c").filter(|entry| entry.kind != Type::VECTOR) {
         let message = format!("`c`, the place of the mass centre, is a {}", entry.kind);

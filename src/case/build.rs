@@ -13,8 +13,8 @@ use super::state::TIME;
 use super::systems::{Parts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
-    homogeneous, lists, map, one_sided, poincare, shadows, toml_errors, variables, velocities,
-    weights,
+    homogeneous, lists, map, one_sided, poincare, remarks, shadows, toml_errors, variables,
+    velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
 
@@ -136,7 +136,7 @@ fn read(
     let (system, mut parts) = reading.read()?;
     if let (Some(section), true) = (root.table("hamiltonian"), system != "field") {
         root.mistakes().add(section.complaint(Problem::Other {
-            message: "[hamiltonian] makes a field of one's own".to_string(),
+            message: "[hamiltonian] gives a vector field".to_string(),
             remedy: "write system = \"field\", or remove [hamiltonian]".to_string(),
         }));
     }
@@ -176,6 +176,8 @@ fn read(
     let alike = parts.alike.iter().cloned();
     let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
     let Parts { model, chart, free_draws, .. } = parts;
+    let is_without_claims = claims.is_empty() && motions.is_empty() && absences.is_empty();
+    let remarks = remarks::remarks(root, &system, &model, &claims, is_without_claims);
     Some(Case {
         title: title?.value,
         source,
@@ -191,10 +193,11 @@ fn read(
         one_sided,
         notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
+        remarks,
     })
 }
 
-/// Refuses a table of rates beside a map, and a table of images beside a field.
+/// Rejects a table of rates in a map, and a table of images in a field.
 fn one_of_field_and_map(root: &Section<'_>, system: &str) {
     let (unread, message, remedy) = match system {
         "map" => (
@@ -202,7 +205,7 @@ fn one_of_field_and_map(root: &Section<'_>, system: &str) {
             "a map has images, and no rates",
             "remove [field], or write system = \"field\" and remove [map]",
         ),
-        _ => ("map", "[map] makes a map of one's own", "write system = \"map\", or remove [map]"),
+        _ => ("map", "[map] gives a map", "write system = \"map\", or remove [map]"),
     };
     if let Some(section) = root.table(unread) {
         let (message, remedy) = (message.to_string(), remedy.to_string());
@@ -291,7 +294,7 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
         root.mistakes().add(Mistake::at(
             section.span.clone(),
             Problem::Other {
-                message: "the level set of this system is known".to_string(),
+                message: "the level set of this system is fixed".to_string(),
                 remedy: "remove [level]".to_string(),
             },
         ));

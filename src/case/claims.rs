@@ -15,6 +15,15 @@ const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 /// Keys common to all claims about motion.
 const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
 
+/// Keys of a claim: each statement, with the keys that may stand beside it.
+pub fn claim_keys() -> Vec<(&'static str, Vec<&'static str>)> {
+    let stated = STATEMENTS.iter().map(|key| (*key, [&COMMON, Kind::companions(key)].concat()));
+    let motions = MOTIONS.iter();
+    let motions = motions.map(|key| (*key, [&COMMON_OF_MOTIONS, Motion::companions(key)].concat()));
+    let absences = ABSENCES.iter().map(|key| (*key, COMMON.to_vec()));
+    stated.chain(motions).chain(absences).collect()
+}
+
 /// Whether this is a claim about motion.
 pub fn is_about_motion(section: &Section<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())
@@ -81,8 +90,8 @@ pub fn read(
 fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
     let span = place_of(section, key);
     let message =
-        format!("`{name}` stands in a size, an index or a power of a matrix, and cannot change");
-    let remedy = "use another parameter in the place of the one".to_string();
+        format!("`{name}` is used in a size, an index or a power of a matrix, and cannot change");
+    let remedy = "use a different parameter".to_string();
     Mistake::at(span, Problem::Other { message, remedy })
 }
 
@@ -109,7 +118,7 @@ pub fn read_motion(
         _ => return Err(statements(section, 2)),
     };
     if model.system.is_map() && context.is_whole {
-        let message = format!("`{key}` speaks of a motion in time, and the case is a map");
+        let message = format!("`{key}` is a claim about a motion in time, and the case is a map");
         let remedy = "claim it of a field, or claim an invariant of the map".to_string();
         let span = place_of(section, key);
         return Err(Mistake::at(span, Problem::Sense { message, remedy }));
@@ -177,7 +186,7 @@ pub fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<Str
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
-            return Err(other(&text, message, "give each claim a name of its own"));
+            return Err(other(&text, message, "give each claim a different name"));
         }
         return Ok(text.value);
     }
@@ -240,7 +249,7 @@ pub fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
         found => Err(other(
             &text,
             format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
-            "write what the claim should come out as",
+            "write the expected verdict",
         )),
     }
 }

@@ -19,7 +19,8 @@ pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
     let (real, imaginary) = (written[..place].trim(), written[behind..].trim());
     let Some(factor) = factor_of_i(imaginary) else {
         let message = "the term after ± is not a multiple of i".to_string();
-        let remedy = "write a ± b*i for two conjugate numbers, and two real ones apart".to_string();
+        let remedy = "write a ± b*i for two conjugate numbers, and list two real ones separately"
+            .to_string();
         let span = text.locate(behind..written.len());
         return Err(Mistake::at(span, Problem::Other { message, remedy }));
     };

@@ -119,7 +119,7 @@ impl Reader for Entries<'_, '_> {
             return Ok(None);
         }
         let Ok(Some(table)) = self.section.section(key) else {
-            let message = format!("`{key}` does not say what is excluded");
+            let message = format!("`{key}` does not state a degree");
             return Err(self.complaint(key, message, remedy));
         };
         table.allow(&[inner]);

@@ -92,7 +92,7 @@ pub enum Problem {
         remedy: String,
     },
     /// Names are defined in terms of each other.
-    #[error("`{0}` is defined by itself: {1}")]
+    #[error("`{0}` is defined in terms of itself: {1}")]
     Cycle(String, String),
     /// The value has the wrong type.
     #[error("`{key}` should be {expected}")]
@@ -101,6 +101,8 @@ pub enum Problem {
         key: String,
         /// Description of the expected value.
         expected: String,
+        /// Suggested correction.
+        remedy: String,
     },
     /// The name is not an identifier, or is taken.
     #[error("`{name}` cannot be a name here: {reason}")]
@@ -229,20 +231,20 @@ impl Mistake {
             | Problem::Incomplete { remedy, .. }
             | Problem::Sense { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
-            Problem::Cycle(..) => Some("write one of them out".to_string()),
+            Problem::Cycle(..) => Some("define one of them without the others".to_string()),
             Problem::BadName { .. } => Some("give it another name".to_string()),
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
-            Problem::Io(_) | Problem::NotAFile => Some(
-                "give a case file: TOML in UTF-8; docs/writing-a-case.md shows how".to_string(),
-            ),
-            Problem::WrongType { key, .. } => {
-                Some(format!("docs/writing-a-case.md shows what `{key}` takes"))
+            Problem::Io(_) | Problem::NotAFile => {
+                Some("give a case file: TOML in UTF-8; `liouville new` writes one".to_string())
             }
+            Problem::WrongType { remedy, .. } => Some(remedy.clone()),
+            Problem::WrongKind { expected, found, .. } => Some(of_kind(*expected, *found)),
             Problem::Reach { name, .. } if name == "r" => {
                 Some("the support function h is −(r,γ)".to_string())
             }
-            Problem::Empty => Some("docs/writing-a-case.md shows the smallest case".to_string()),
+            Problem::Reach { allowed, .. } => Some(format!("write it by {allowed}")),
+            Problem::Empty => Some("`liouville new` writes a case to start from".to_string()),
             Problem::Parameter(_) => Some(
                 "write a number (1.5, \"3/7\"), a list ([1, 2, 3]), a range (\"0.5..2\"), \
                  vector(-1..1), vector(4, -1..1), matrix(4, 4, -1..1), symmetric(4, -1..1), \
@@ -250,9 +252,29 @@ impl Mistake {
                  axisymmetric(0.5..5), full(0.5..5), rotation, \"one of 1, 2, 3\", or a formula"
                     .to_string(),
             ),
-            _ => None,
+            Problem::TooLarge(..) => Some("divide the claims among several files".to_string()),
         }
     }
+}
+
+/// Advice for a formula of another type than expected.
+fn of_kind(expected: Type, found: Type) -> String {
+    let advice = match (expected, found) {
+        (Type::Scalar, Type::Vector(_)) => {
+            "write a scalar: a component `a[1]`, a norm `|a|` or a product `(a,b)`"
+        }
+        (Type::Scalar, Type::Matrix(..)) => {
+            "write a scalar: an entry `A[1,2]`, `tr(A)` or `det(A)`"
+        }
+        (Type::Vector(_), Type::Scalar) => "write a vector, such as `[0, 0, 1]` or `2*γ`",
+        (Type::Vector(_), Type::Matrix(..)) => "write a vector, such as `A*v`",
+        (Type::Matrix(..), Type::Scalar) => "write a matrix, such as `2*E` or `diag(1, 2, 3)`",
+        (Type::Matrix(..), Type::Vector(_)) => {
+            "write a matrix, such as `diag(1, 2, 3)` or `hat(v)`"
+        }
+        _ => "write it in that size",
+    };
+    advice.to_string()
 }
 
 impl std::fmt::Display for Mistake {

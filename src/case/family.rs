@@ -118,7 +118,7 @@ fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, 
     let Some(list) = text.strip_prefix(',') else {
         return match text.is_empty() {
             true => Ok(Vec::new()),
-            false => Err(wrong(format!("`{text}` has no meaning behind the name"), FORM)),
+            false => Err(wrong(format!("`{text}` has no meaning after the name"), FORM)),
         };
     };
     let range = |part: &str| {

@@ -1,4 +1,4 @@
-//! The tables `[field]` and `[level]`: rates, and the equations that they keep.
+//! The tables `[field]` and `[level]`: rates, and the equations that the motion preserves.
 
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
@@ -67,8 +67,11 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         Unreadable::Message(message, remedy) => (message, remedy.to_string()),
         Unreadable::Unknown(_) => {
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
-            let remedy = format!("[state] has {}; write \"x'\" = \"…\"", names.join(", "));
-            (format!("`{}` is the rate of no state variable", excerpt(key)), remedy)
+            let remedy = match names.as_slice() {
+                [] => "declare the variable in [state] first".to_string(),
+                _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
+            };
+            (format!("`{}` is not the rate of a state variable", excerpt(key)), remedy)
         }
     };
     Problem::Other { message, remedy }
@@ -148,7 +151,7 @@ pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<L
     Some(read.map(equation).collect())
 }
 
-/// Reads both sides of an equation, each a formula of its own.
+/// Reads the two sides of an equation, each as a formula.
 pub fn both_sides(text: &str, vocabulary: &Vocabulary) -> Option<(Formula, Formula)> {
     let (left, right, _) = sides(text)?;
     let read = |side| Formula::parse(side, vocabulary).ok();
@@ -210,10 +213,9 @@ fn equation(
     let Some((left, right, second)) = sides(&text.value) else {
         let message = format!("each of `{key}` has two sides");
         let remedy = match key {
-            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"",
-            _ => "write \"(γ,γ) = 1\"",
+            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"".to_string(),
+            _ => format!("write \"{} = 1\", or another value", excerpt(text.value.trim())),
         };
-        let remedy = remedy.to_string();
         return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     };
     for (side, start) in [(left, 0), (right, second)] {

@@ -49,10 +49,20 @@ pub(super) struct Rolling {
     pub curved: bool,
 }
 
+/// Names of all systems.
+pub const SYSTEM_NAMES: [&str; SYSTEMS.len()] = {
+    let mut names = [""; SYSTEMS.len()];
+    let mut index = 0;
+    while index < names.len() {
+        names[index] = SYSTEMS[index].0;
+        index += 1;
+    }
+    names
+};
+
 /// Lists the names of all systems.
 pub(super) fn names() -> String {
-    let [others @ .., (last, _)] = &SYSTEMS;
-    let others: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
+    let [others @ .., last] = &SYSTEM_NAMES;
     format!("{} or {last}", others.join(", "))
 }
 

@@ -70,7 +70,7 @@ fn counted(
         return Ok(());
     }
     let message =
-        format!("{} multipliers stand beside {constraints} constraints", multipliers.len());
+        format!("{} multipliers are given for {constraints} constraints", multipliers.len());
     let remedy = match vakonomic {
         true => "name a state variable for each constraint: multipliers = [\"λ\"]",
         false => "a nonholonomic system has none: their values are the names μ1, μ2, …",
@@ -105,7 +105,7 @@ fn roles(
                 let name = &variable.name;
                 if !section.mistakes().has_failed(&format!("{name}'")) {
                     section.mistakes().add(section.complaint(Problem::Other {
-                        message: format!("`{name}` is neither a velocity nor has it one"),
+                        message: format!("`{name}` is not a velocity, and has none"),
                         remedy: format!(
                             "declare `{name}'` in [state], or give its rate in [field], or name it \
                              in quasi-velocities or multipliers"
@@ -242,7 +242,7 @@ fn force(
     });
     let Some(velocity) = velocity else {
         let message = format!("`{key}` is not a coordinate or quasi-velocity");
-        return Err(other(text, message, "name what the force acts on"));
+        return Err(other(text, message, "name the coordinate on which the force acts"));
     };
     let first: usize = variables[..velocity].iter().map(Variable::len).sum();
     let kind = variables[velocity].kind;

@@ -47,7 +47,7 @@ impl Mistakes {
             None => mistake,
             Some(name) => {
                 let message = format!("`{name}` contains a rate, which [field] defines");
-                let remedy = "write the formula out, without rates".to_string();
+                let remedy = "write the formula without rates".to_string();
                 Mistake::new(mistake.span, Problem::Other { message, remedy })
             }
         }

@@ -16,10 +16,12 @@ mod error;
 mod family;
 mod feedback;
 mod field;
+mod foreign;
 mod formulas;
 mod hamiltonian;
 mod homogeneous;
 mod kinds;
+mod labels;
 mod lagrangian;
 mod lines;
 mod lists;
@@ -29,6 +31,7 @@ mod one_sided;
 mod order;
 mod parameters;
 mod poincare;
+mod remarks;
 mod section;
 mod shadows;
 mod shapes;
@@ -52,13 +55,26 @@ use crate::mechanics::{Chart, Draw, Model};
 
 pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
+pub use claims::claim_keys;
 pub use error::{CaseError, Mistake, Problem};
+pub use kinds::SYSTEM_NAMES;
+pub use labels::{is_labelled, labels, matches};
 pub use lines::Line;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
 pub use value::{FormulaSource, ValueSpec};
 pub use values::ClaimError;
+
+/// Name of the list of papers in a folder of cases, which is not a case itself.
+const PAPERS: &str = "papers.toml";
+
+/// Whether a file of a folder is a case: its name ends in `.toml`, and is not `papers.toml`, the
+/// list of statements of papers with the claims that state them.
+pub fn is_case_file(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml")
+        && path.file_name().is_some_and(|name| name != PAPERS)
+}
 
 /// Limit on the size of a case file, above that of any real one.
 const MAX_BYTES: u64 = 4 << 20;
@@ -93,8 +109,10 @@ pub struct Case {
     pub one_sided: Option<OneSided>,
     /// Notes of the author on the verdicts.
     pub notes: Vec<String>,
-    /// Warnings about what the file may say unintentionally.
+    /// Warnings about statements that may be unintended.
     pub warnings: Vec<String>,
+    /// Remarks on what the file may say by mistake, such as parameters without use.
+    pub remarks: Vec<String>,
 }
 
 /// A column of one of the paper's tables.
@@ -161,7 +179,7 @@ pub struct MotionClaim {
     pub note: Option<String>,
 }
 
-/// A claim of absence with what is expected of it.
+/// A claim of absence with the expected verdict.
 #[derive(Clone, Debug)]
 pub struct AbsenceClaim {
     /// Its name; unique in the case.

@@ -23,7 +23,7 @@ pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
     let section = root.table("one-sided")?;
     if !matches!(model.system, System::Field(_)) {
         root.mistakes().add(section.complaint(Problem::Other {
-            message: "a one-sided constraint belongs to a field of one's own".to_string(),
+            message: "a one-sided constraint needs a vector field given in the file".to_string(),
             remedy: "write the free motion under [field], with system = \"field\"".to_string(),
         }));
         return None;
@@ -33,7 +33,7 @@ pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
         let text = section.required(key, remedy)?;
         formula(&text, names, &format!("`{key}`"), Some(Type::Scalar), Reach::Phase)
     };
-    let remedy = "add function = \"(ω,e)\", which is not to be negative";
+    let remedy = "add function = \"(ω,e)\", which must not be negative";
     let function = section.keep(scalar("function", remedy));
     let remedy = "add reaction = \"λ\", positive in contact";
     let reaction = section.keep(scalar("reaction", remedy));

@@ -1,4 +1,4 @@
-//! Resolution of parameters and abbreviations, which stand in any order: each is read after those
+//! Resolution of parameters and abbreviations, in any order: each is read after those
 //! that it uses.
 
 use std::ops::Range;

@@ -57,6 +57,9 @@ impl<'r, 's> Reading<'r, 's> {
         let text = || self.root.as_text(&name, value);
         let written = shapes::given(value, &self.vocabulary).map_err(|refusal| match refusal {
             Refusal::Message(message) => Mistake::at(value.span(), Problem::Parameter(message)),
+            Refusal::Form(message, remedy) => {
+                Mistake::at(value.span(), Problem::Sense { message, remedy })
+            }
             Refusal::Size(error, start) => {
                 let inner = start + error.span().start..start + error.span().end;
                 let place = text().map_or(value.span(), |text| text.locate(inner));
@@ -153,7 +156,8 @@ pub fn origin_of(formula: Formula) -> Origin {
 /// The mistake of a setting that cannot be read.
 fn refused(setting: &Setting, error: &FormulaError) -> Mistake {
     let constant = "give a constant: 5/4, [1,2,3], [[…],[…],[…]]";
-    set_to(setting, error.message(), error.help().unwrap_or(constant))
+    let help = error.help().filter(|_| error.unknown_name().is_none());
+    set_to(setting, error.message(), help.unwrap_or(constant))
 }
 
 fn set_to(setting: &Setting, problem: &str, remedy: &str) -> Mistake {

@@ -10,7 +10,7 @@ use crate::number::rational::Rational;
 /// Default number of images of a line, as in the paper's figures.
 const DEFAULT_IMAGES: usize = 10;
 
-/// Limit on orbits, crossings and images, above what a picture can show.
+/// Limit on orbits, crossings and images: more than a picture can show.
 const MOST: u32 = 1_000_000;
 
 /// An angle.

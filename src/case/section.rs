@@ -149,8 +149,26 @@ impl<'a> Section<'a> {
 
     /// The mistake of a value of the wrong type.
     pub fn wrong_type(&self, key: &str, expected: &str, span: Range<usize>) -> Mistake {
+        let remedy = self.remedy(key, expected, &span);
         let (key, expected) = (key.to_string(), expected.to_string());
-        Mistake::at(span, Problem::WrongType { key, expected })
+        Mistake::at(span, Problem::WrongType { key, expected, remedy })
+    }
+
+    /// Suggested correction of a value of the wrong type.
+    fn remedy(&self, key: &str, expected: &str, span: &Range<usize>) -> String {
+        let raw = excerpt(self.source.get(span.clone()).unwrap_or_default());
+        let plain = raw.replace(['"', '\''], "");
+        match expected {
+            _ if expected.starts_with("an array of tables") => {
+                format!("write [[{key}]] above its entries")
+            }
+            "a table" => format!("write {key} = {{ x = \"…\" }}"),
+            "a string" if key == "expect" => "write \"holds\", \"fails\" or \"open\"".to_string(),
+            "a string" if !plain.contains('\n') => format!("write {key} = \"{plain}\""),
+            "a string" => format!("write {key} = \"…\""),
+            "true or false" => format!("write {key} = true or {key} = false, without quotes"),
+            _ => format!("write {key} = 2, or another whole number, without quotes"),
+        }
     }
 
     /// First place of a text in the file, letter by letter.
@@ -258,6 +276,13 @@ impl<'a> Section<'a> {
     /// Notes a mistake for each key that was not read.
     pub fn finish(&self) -> bool {
         self.allow(&self.asked.borrow())
+    }
+
+    /// Keys of the file that were not asked for.
+    pub fn unread(&self) -> Vec<String> {
+        let asked = self.asked.borrow();
+        let keys = self.entries().into_iter().map(|(key, _)| key.get_ref().to_string());
+        keys.filter(|key| !asked.contains(&key.as_str())).collect()
     }
 
     /// Notes a mistake for each key that is not known: a misspelt key is the likeliest reason for

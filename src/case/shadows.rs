@@ -42,7 +42,7 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
 
 /// Warning about a hidden name.
 pub fn warning(name: &str) -> String {
-    format!("`{name}` has a meaning of its own here, and this file gives it another")
+    format!("`{name}` already has a meaning here, and this file gives it another")
 }
 
 /// Warnings about names that look alike.
@@ -52,7 +52,10 @@ pub fn look_alikes(vocabulary: &Vocabulary) -> Vec<String> {
     for (_, entry) in vocabulary.iter() {
         let first = *seen.entry(skeleton(&entry.name)).or_insert(&entry.name);
         if first != entry.name {
-            warnings.push(format!("`{first}` and `{}` look alike, and are two names", entry.name));
+            warnings.push(format!(
+                "`{first}` and `{}` look alike, but are different names",
+                entry.name
+            ));
         }
     }
     warnings

@@ -1,9 +1,12 @@
 //! Forms of a value of `[parameters]` or `[state]`: a number, a list, a range with a shape, a
 //! formula.
 
+use std::cmp::Ordering;
+
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::foreign;
 use super::section::numbers;
 use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
 use crate::mechanics::{Draw, Range, Recipe};
@@ -25,6 +28,8 @@ pub enum Given {
 pub enum Refusal {
     /// The value has none of the possible forms.
     Message(String),
+    /// The value is written in another form: a message and a remedy.
+    Form(String, String),
     /// A size in the value cannot be read; it begins at this byte of the text.
     Size(FormulaError, usize),
 }
@@ -71,7 +76,7 @@ pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, R
                     let kind = sized(Type::Matrix(rows.len(), width))?;
                     Ok(Given::Fixed(kind, read_all(&rows.concat())?))
                 }
-                None => Err("a matrix is a list of rows, each with as many numbers".to_string())?,
+                None => Err("a matrix is a list of rows of equal length".to_string())?,
             }
         }
         DeValue::String(text) => described(text, scope),
@@ -122,6 +127,9 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
     if let Some(list) = text.strip_prefix("one of ") {
         let values: Vec<String> = list.split(',').map(|item| item.trim().to_string()).collect();
         return Ok(Given::Drawn(Recipe::Scalar(Draw::OneOf(read_all(&values)?))));
+    }
+    if let Some((message, remedy)) = foreign::range(text) {
+        return Err(Refusal::Form(message, remedy));
     }
     let (shape, inner) = match text.split_once('(') {
         Some((shape, rest)) if text.ends_with(')') => (shape.trim(), &rest[..rest.len() - 1]),
@@ -207,14 +215,21 @@ fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<Recipe, Refusal> {
     Ok(recipe)
 }
 
-fn range(low: &str, high: &str) -> Result<Range, String> {
+fn range(low: &str, high: &str) -> Result<Range, Refusal> {
     let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
     let range = Range { low: read(low)?, high: read(high)? };
     let (width, _) = (&range.high - &range.low).to_f64();
-    match range.low < range.high {
-        false => Err(format!("the range {}..{} is empty", range.low, range.high)),
-        true if width.is_normal() => Ok(range),
-        true => Err("this range is beyond the numbers that f64 can hold".to_string()),
+    let message = || format!("the range {}..{} is empty", range.low, range.high);
+    match range.low.cmp(&range.high) {
+        Ordering::Equal => {
+            Err(Refusal::Form(message(), format!("write {} for one value", range.low)))
+        }
+        Ordering::Greater => {
+            let remedy = format!("the lower end comes first: {}..{}", range.high, range.low);
+            Err(Refusal::Form(message(), remedy))
+        }
+        Ordering::Less if width.is_normal() => Ok(range),
+        Ordering::Less => Err("this range is beyond the range of f64".to_string())?,
     }
 }
 

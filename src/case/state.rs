@@ -95,6 +95,9 @@ fn variable(
     };
     let given = given(value, vocabulary).map_err(|refusal| match refusal {
         Refusal::Message(message) => wrong(message),
+        Refusal::Form(message, remedy) => {
+            Mistake::at(value.span(), Problem::Other { message, remedy })
+        }
         Refusal::Size(error, start) => {
             let inner = start + error.span().start..start + error.span().end;
             let text = section.as_text(name, value);
@@ -106,6 +109,6 @@ fn variable(
         Given::Drawn(_) => wrong(format!(
             "`{name}` has components that depend on each other: states are drawn component by component"
         )),
-        _ => wrong(format!("`{name}` needs the range that its states are drawn from")),
+        _ => wrong(format!("`{name}` needs a range from which its states are drawn")),
     })
 }

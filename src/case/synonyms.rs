@@ -1,7 +1,7 @@
 //! Synonyms of keys.
 
 /// Alternative names of keys.
-const SYNONYMS: [(&str, &[&str]); 14] = [
+const SYNONYMS: [(&str, &[&str]); 21] = [
     ("parameters", &["params", "param", "parameter", "constants", "constant"]),
     ("state", &["states", "vars", "phase", "coordinates", "unknowns"]),
     ("field", &["equations", "rates", "ode", "dynamics", "motion", "vector-field"]),
@@ -14,6 +14,13 @@ const SYNONYMS: [(&str, &[&str]); 14] = [
     ("invariant-relation", &["invariant-manifold", "darboux", "darboux-polynomial"]),
     ("expect", &["expected", "verdict", "result"]),
     ("where", &["place", "domain", "on"]),
+    ("body", &["bodies", "rigid-body", "solid"]),
+    ("lagrangian", &["lagrange", "L"]),
+    ("hamiltonian", &["hamilton", "H"]),
+    ("level", &["levels", "constraint", "constraints", "level-set"]),
+    ("equations", &["equation", "constraints"]),
+    ("constraints", &["nonholonomic", "equations"]),
+    ("gyrostat", &["rotor", "gyro"]),
     ("kinetic", &["T", "kinetic-energy"]),
     ("potential", &["U", "V", "potential-energy"]),
 ];

@@ -14,8 +14,13 @@ pub fn mistakes(text: &str, errors: &[toml::de::Error]) -> Vec<Mistake> {
         // one slip makes several errors on its line
         if !seen.contains(&line) {
             seen.push(line);
-            let help = span.as_ref().and_then(|span| help(text, span.start));
-            let message = error.message().to_string();
+            let help = match error.message() {
+                "duplicate key" => {
+                    Some("remove one of the two, or give it another name".to_string())
+                }
+                _ => span.as_ref().and_then(|span| help(text, span.start)),
+            };
+            let message = reworded(error.message(), help.as_deref());
             all.push(Mistake::new(span, Problem::Toml { message, help }));
         }
     }
@@ -28,16 +33,42 @@ fn help(text: &str, place: usize) -> Option<String> {
     let start = before.rfind('\n').map_or(0, |at| at + 1);
     let line = text[start..].lines().next()?;
     let place = place - start;
+    if let Some(table) = line.trim().strip_prefix('[') {
+        let name = table.trim_matches(['[', ']', ' ']);
+        let is_name = !name.is_empty() && !name.contains([',', '=', '"', '\'']);
+        return is_name.then(|| match table.starts_with('[') {
+            true => format!("write [[{name}]] on a line of its own"),
+            false => format!("write [{name}] on a line of its own"),
+        });
+    }
     if line.contains(['“', '”', '„', '‘', '«', '»']) {
         return Some("write straight quotes: \"…\"".to_string());
     }
-    let (key, value) = parts(line)?;
+    let Some((key, value)) = parts(line) else {
+        let is_foreign = line.trim_start().starts_with(['{', '<', '}']);
+        return Some(match is_foreign {
+            true => "a case file is TOML: `liouville new` writes one".to_string(),
+            false => "write key = \"value\"".to_string(),
+        });
+    };
+    let is_open = |quote: char| value.starts_with(quote) && value.matches(quote).count() == 1;
+    if is_open('"') || is_open('\'') {
+        return Some(format!("close the quotes: {key} = {value}{}", &value[..1]));
+    }
+    if let Some((whole, digits)) = value.split_once(',')
+        && [whole, digits].iter().all(|part| part.parse::<u64>().is_ok())
+    {
+        return Some(format!("a decimal number has a point: {key} = {whole}.{digits}"));
+    }
     let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     let is_quoted = |text: &str| text.starts_with(['"', '\'']);
     let key_is_wrong = !is_quoted(key) && !key.chars().all(bare);
     let is_table = value.starts_with(['[', '{']);
     let is_plain = value.parse::<f64>().is_ok() || matches!(value, "true" | "false");
     let value_is_wrong = !is_quoted(value) && !is_table && !is_plain && !value.is_empty();
+    if let Some(name) = key.strip_prefix('d').and_then(|rest| rest.strip_suffix("/dt")) {
+        return Some(format!("a rate is written \"{name}'\" = \"…\""));
+    }
     let quoted = |text: &str| format!("\"{}\"", text.trim().trim_matches('"'));
     match (key_is_wrong, value_is_wrong) {
         (true, false) if key.chars().all(|c| bare(c) || c.is_alphabetic()) => Some(
@@ -46,12 +77,39 @@ fn help(text: &str, place: usize) -> Option<String> {
         ),
         (true, false) => Some(format!("quote the key: {} = {value}", quoted(key))),
         (true, true) => Some(format!("quote both: {} = {}", quoted(key), quoted(value))),
-        (false, true) => Some(format!("quote the formula: {key} = {}", quoted(value))),
+        (false, true) => Some(format!("quote the value: {key} = {}", quoted(value))),
         (false, false) if value.is_empty() && place >= key.len() => {
             Some(format!("write a value: {key} = \"…\""))
         }
         (false, false) => None,
     }
+}
+
+/// Message of the TOML reader in the words of case files.
+fn reworded(message: &str, help: Option<&str>) -> String {
+    let quotes = help.is_some_and(|help| help.starts_with("quote"));
+    let word = match message {
+        "duplicate key" => "this key is given already in this table",
+        _ if message.starts_with("string values must be quoted")
+            && help.is_some_and(|help| help.starts_with("write a value")) =>
+        {
+            "this key has no value"
+        }
+        _ if message.starts_with("string values must be quoted")
+            || message.starts_with("invalid fraction") && quotes =>
+        {
+            "this value needs quotes"
+        }
+        _ if message.starts_with("invalid unquoted key") => "this key needs quotes",
+        _ if help.is_some_and(|help| help.starts_with("close the quotes")) => {
+            "these quotes are not closed"
+        }
+        _ if help.is_some_and(|help| help.starts_with("a decimal number")) => {
+            "a comma cannot stand in a number"
+        }
+        _ => message,
+    };
+    word.to_string()
 }
 
 /// Key and value of a line, without a comment.
@@ -88,9 +146,12 @@ mod tests {
         let mended = |line: &str| help(line, 0).unwrap_or_default();
         assert_eq!(mended("x' = \"y\""), "quote the key: \"x'\" = \"y\"");
         assert_eq!(mended("x' = y − x"), "quote both: \"x'\" = \"y − x\"");
-        assert_eq!(mended("x = -2..2   # a range"), "quote the formula: x = \"-2..2\"");
-        assert_eq!(mended("integral = energy"), "quote the formula: integral = \"energy\"");
-        assert_eq!(mended("\"x'\" = y"), "quote the formula: \"x'\" = \"y\"");
+        assert_eq!(mended("x = -2..2   # a range"), "quote the value: x = \"-2..2\"");
+        assert_eq!(mended("integral = energy"), "quote the value: integral = \"energy\"");
+        assert_eq!(mended("\"x'\" = y"), "quote the value: \"x'\" = \"y\"");
+        assert_eq!(mended("a = \"x"), "close the quotes: a = \"x\"");
+        assert_eq!(mended("m = 0,5"), "a decimal number has a point: m = 0.5");
+        assert_eq!(mended("[[claim]"), "write [[claim]] on a line of its own");
         assert_eq!(mended("title = “Top”"), "write straight quotes: \"…\"");
         assert!(mended("μ = 1").contains("the letter's name"), "{}", mended("μ = 1"));
         assert_eq!(help("title = ", 8).as_deref(), Some("write a value: title = \"…\""));

@@ -90,6 +90,7 @@ impl ValueSpec {
             ValueSpec::Formula(formula) => Ok(Given::Formula(formula.to_string())),
             ValueSpec::Text(text) => described(text, scope).map_err(|refusal| match refusal {
                 Refusal::Message(message) => message,
+                Refusal::Form(message, remedy) => format!("{message}: {remedy}"),
                 Refusal::Size(error, _) => error.to_string(),
             }),
         }

@@ -6,11 +6,11 @@ use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS
 use crate::formula::{Formula, FormulaError, Type, canonical_name};
 use crate::mechanics::{Model, Reach, Vocabulary};
 
-/// The reason why a case does not take a value: a claim, a name or a bracket.
+/// The reason why a case rejects a value: a claim, a name or a bracket.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what}: {message}: {remedy}")]
 pub struct ClaimError {
-    /// Claim or name that is refused.
+    /// Claim, name or bracket that is rejected.
     pub what: String,
     /// Description of the reason.
     pub message: String,
@@ -34,8 +34,8 @@ impl Case {
     /// Returns the same system with these claims, and no others.
     ///
     /// # Errors
-    /// A claim is about another kind of system, its formulas are in the names of another case, or
-    /// are not of the types that the kind of claim demands.
+    /// A claim is about another kind of system, or its formulas are in the names of another case or
+    /// do not have the types that the kind of claim requires.
     pub fn with_claims(&self, claims: &[Claim]) -> Result<Self, ClaimError> {
         let mut taken = self.without_claims();
         for claim in claims {
@@ -60,17 +60,13 @@ impl Case {
         values.check_keys()?;
         let kind = Kind::read(claim.key(), &values).unwrap_or_else(|| {
             let remedy = format!("use one of {}", STATEMENTS.join(", "));
-            Err(values.complaint(
-                claim.key(),
-                "there is no such kind of claim".to_string(),
-                &remedy,
-            ))
+            Err(values.complaint(claim.key(), "this kind of claim is unknown".to_string(), &remedy))
         })?;
         let formulas = kind.formulas();
         let rigid = |index: &usize| model.is_rigid(*index, &formulas);
         if let Some(index) = kind.changes().into_iter().find(rigid) {
             let name = &model.parameters[index].name;
-            let message = format!("`{name}` stands in a size or an index, and cannot change");
+            let message = format!("`{name}` is used in a size or an index, and cannot change");
             return Err(values.complaint(kind.name(), message, "change another parameter"));
         }
         if let Some(objection) = kind.objection(model) {
@@ -110,7 +106,7 @@ impl Case {
         ))
     }
 
-    /// Defines a name for a formula; a name that is taken is hidden by it.
+    /// Defines a name for a formula; it hides an earlier meaning of the name.
     pub fn define(&mut self, name: &str, formula: &Formula) -> Result<(), ClaimError> {
         let canonical = canonical_name(name).ok_or_else(|| {
             ClaimError::new(name, "this is not a name", "write letters, then digits, primes or _")
@@ -127,7 +123,11 @@ impl Case {
 /// The error for a formula in the names of another case.
 pub(super) fn stranger(what: &str, name: &str) -> ClaimError {
     let message = format!("`{name}` is not a name of this case with the same meaning");
-    ClaimError::new(what, message, "make formulas from the names of the case that takes them")
+    ClaimError::new(
+        what,
+        message,
+        "build the formula from the names of the case in which it is used",
+    )
 }
 
 /// A claim as a value, read like the table of a file.
@@ -137,7 +137,7 @@ struct Values<'v> {
 }
 
 impl Values<'_> {
-    /// Fails for a key that says nothing here.
+    /// Fails for a key that this kind of claim does not have.
     fn check_keys(&self) -> Result<(), ClaimError> {
         let companions = Kind::companions(self.claim.key());
         let mut others = self.claim.entries().iter().map(|(key, _)| *key).skip(1);
@@ -145,7 +145,7 @@ impl Values<'_> {
             None => Ok(()),
             Some(key) => {
                 let remedy = match companions {
-                    [] => "it stands alone".to_string(),
+                    [] => "it has no further keys".to_string(),
                     known => format!("its keys are {}", known.join(", ")),
                 };
                 let message = format!("the claim has no `{key}`");
@@ -154,13 +154,13 @@ impl Values<'_> {
         }
     }
 
-    /// Name that is set, or the text of the statement, numbered where it is taken.
+    /// Returns the name that is set, or the text of the statement, with a number if it is taken.
     fn name(&self, kind: &Kind, before: &[PlacedClaim]) -> Result<String, ClaimError> {
         let is_taken = |name: &String| before.iter().any(|claim| claim.name == *name);
         if let Some(name) = self.claim.name().map(str::to_string) {
             if is_taken(&name) {
                 let message = format!("two claims are called `{name}`");
-                return Err(self.complaint(kind.name(), message, "give each a name of its own"));
+                return Err(self.complaint(kind.name(), message, "give each a different name"));
             }
             return Ok(name);
         }
@@ -187,7 +187,7 @@ impl Values<'_> {
         }
     }
 
-    /// Checks that a formula is in the names of `scope`, and of the type that is asked for.
+    /// Checks that a formula is in the names of `scope`, and of the required type.
     fn fits(
         &self,
         key: &str,

@@ -91,7 +91,7 @@ fn brackets(root: &Section<'_>, target: &Model) -> Option<Vec<Poisson>> {
     }
     if named.len() < entries.len() {
         section.mistakes().add(section.complaint(Problem::Other {
-            message: "blocks stand beside brackets with names".to_string(),
+            message: "blocks cannot be mixed with named brackets".to_string(),
             remedy: "give every bracket a name: [poisson.P], [poisson.Q]".to_string(),
         }));
         return None;
@@ -288,7 +288,7 @@ impl Case {
     }
 
     /// Returns the same case with a bracket of its variables, by blocks for pairs of them; a pair
-    /// and its opposite are given once, and what is not given is 0.
+    /// and its opposite are given once, and entries not given are 0.
     ///
     /// # Errors
     /// The case has no variables, or a block is of the wrong type, given twice, or in other names

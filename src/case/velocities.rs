@@ -7,7 +7,7 @@ use super::error::{Mistake, Problem};
 use super::section::Section;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
-use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System};
+use crate::mechanics::{Algebra, Lagrangian, Model, Phase, Role, System};
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
@@ -21,6 +21,15 @@ pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> 
                       or give all rates in [field] of a system of your own";
         let problem = Problem::Sense { message, remedy: remedy.to_string() };
         return Err(Mistake::new(place_of_rate(root, name), problem));
+    }
+    if let Some(index) = nonlinear.still.first() {
+        let text = model.level.get(*index).map_or("", |equation| equation.text.as_str());
+        let span = root.find(text).map(|start| start..start + text.len());
+        let message = "this constraint contains no velocity".to_string();
+        let remedy = "write its derivative, such as x*x' + y*y' = 0 for x² + y² = 1, or choose \
+                      coordinates that satisfy it";
+        let problem = Problem::Sense { message, remedy: remedy.to_string() };
+        return Err(Mistake::new(span, problem));
     }
     let warning = |index: &usize| {
         format!(
@@ -39,12 +48,18 @@ struct Nonlinear {
     rates: Vec<usize>,
     /// Nonholonomic constraints, by their numbers.
     constraints: Vec<usize>,
+    /// Nonholonomic constraints without velocities, by their numbers.
+    still: Vec<usize>,
 }
 
 impl Nonlinear {
     /// Finds the nonlinear formulas: f is linear in w when no ∂f/∂w_i contains a velocity as it is
     /// recorded.
     fn of(lagrangian: &Lagrangian, model: &Model) -> Self {
+        let is_carried = |role: &Role| matches!(role, Role::Carried(_));
+        if lagrangian.constraints.is_empty() && !lagrangian.roles.iter().any(is_carried) {
+            return Self::default();
+        }
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let velocities = lagrangian.velocities(&model.state);
         let recorded = record(parameters + dimension, |inputs| {
@@ -63,9 +78,10 @@ impl Nonlinear {
             (slopes, lagrangian.lagrangian(&at, lagrangian.vakonomic))
         });
         let Ok((graph, (slopes, function))) = recorded else { return Self::default() };
-        let bends = |slope: Expr| {
-            velocities.iter().any(|velocity| graph.depends_on(slope, parameters + velocity))
-        };
+        let mut is_velocity = vec![false; parameters + dimension];
+        velocities.iter().for_each(|velocity| is_velocity[parameters + velocity] = true);
+        let is_velocity = |input: &usize| is_velocity.get(*input) == Some(&true);
+        let bends = |slope: Expr| graph.inputs_of(slope).iter().any(is_velocity);
         // A variable that is only carried along, and that L does not contain, may have any rate.
         let counts = |component: usize| {
             lagrangian.algebra == Algebra::Frame
@@ -77,7 +93,16 @@ impl Nonlinear {
         let constraints = (0..lagrangian.constraints.len())
             .filter(|k| !lagrangian.vakonomic && slopes.iter().any(|(_, all)| bends(all[*k])))
             .collect();
-        Self { rates, constraints }
+        let is_still = |k: &usize| {
+            slopes
+                .iter()
+                .all(|(_, all)| graph.constant_value(all[*k]).is_some_and(|value| value.is_zero()))
+        };
+        let still = match lagrangian.vakonomic || slopes.is_empty() {
+            true => Vec::new(),
+            false => (0..lagrangian.constraints.len()).filter(is_still).collect(),
+        };
+        Self { rates, constraints, still }
     }
 }
 

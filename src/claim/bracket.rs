@@ -72,7 +72,7 @@ impl Statement for Bracket {
         let names = &variables(from, Self::NAME)?.model.vocabulary;
         let given = from.list_in(Self::NAME, names)?.ok_or_else(|| from.missing(Self::NAME))?;
         let [first, second]: [Formula; 2] = given.try_into().map_err(|given: Vec<Formula>| {
-            let message = format!("a bracket is of two functions, and {} are given", given.len());
+            let message = format!("a bracket needs two functions, and {} are given", given.len());
             from.complaint(Self::NAME, message, "write bracket = [\"F\", \"G\"]")
         })?;
         let kinds = (first.value_type(), second.value_type());

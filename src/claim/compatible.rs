@@ -45,7 +45,10 @@ impl Statement for Compatible {
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let names = from.texts(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let [first, second] = <[String; 2]>::try_from(names).map_err(|names| {
-            let message = format!("two brackets are compatible, and {} are given", names.len());
+            let message = format!(
+                "a claim of compatibility needs two brackets, and {} are given",
+                names.len()
+            );
             from.complaint(Self::NAME, message, "write compatible = [\"P\", \"Q\"]")
         })?;
         let text = format!("[{first}, {second}] = 0");

@@ -48,7 +48,9 @@ impl Components {
             let entry = model.vocabulary.find(&name);
             let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
                 let message = format!("`{name}` is not a state variable");
-                return Err(from.complaint(key, message, "name state variables"));
+                let names: Vec<&str> = model.state.iter().map(|own| own.name.as_str()).collect();
+                let remedy = format!("the state variables are {}", names.join(", "));
+                return Err(from.complaint(key, message, &remedy));
             };
             if model.state[index].kind != formula.value_type() {
                 return Err(from.unlike(key, model.state[index].kind, formula.value_type()));

@@ -2,7 +2,7 @@
 
 use crate::graph::Expr;
 
-/// A condition without which a claim that holds says less than its words.
+/// A condition without which a claim that holds says less than it seems to.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// Required property.

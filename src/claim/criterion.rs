@@ -51,10 +51,10 @@ impl Statement for AnalyticDensity {
         objection(model, Self::NAME).or_else(|| {
             (!model.extension.is_empty()).then(|| Objection {
                 message: format!(
-                    "`{}` is decided by a criterion that knows no variables that [state] adds",
+                    "the criterion that decides `{}` does not cover variables added by [state]",
                     Self::NAME
                 ),
-                remedy: "ask in a case without them, or state a density instead: density = \"ρ\"",
+                remedy: "state it in a case without them, or state a density instead: density = \"ρ\"",
             })
         })
     }
@@ -73,7 +73,7 @@ impl Statement for AnalyticDensity {
         }
         let rest = rest::without_density(model)?;
         Some(format!(
-            "excluded are densities that are positive and C¹ near the rest {rest}, where C₁ is not 0"
+            "this excludes densities that are positive and C¹ near the equilibrium {rest}, where C₁ is not 0"
         ))
     }
 }
@@ -90,7 +90,7 @@ impl Statement for PositionDensity {
                      that [state] adds",
                     Self::NAME
                 ),
-                remedy: "ask in a case without them, or state a density instead: density = \"ρ\"",
+                remedy: "state it in a case without them, or state a density instead: density = \"ρ\"",
             })
         })
     }

@@ -81,9 +81,6 @@ impl Density {
 
     /// Computes ∇ln ρ.
     fn slope(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        jet.along_axes()
-            .iter()
-            .map(|moved| self.0.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
-            .collect()
+        jet.logarithmic_gradient(&self.0)
     }
 }

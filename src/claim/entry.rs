@@ -4,7 +4,7 @@ use super::Complex;
 use crate::formula::Formula;
 use crate::number::rational::Rational;
 
-/// What a claim says under one of its keys.
+/// Entry of a claim under one of its keys.
 #[derive(Clone, Debug)]
 pub enum Entry {
     /// A formula.
@@ -13,7 +13,7 @@ pub enum Entry {
     List(Vec<Formula>),
     /// Both sides of an equation.
     Equation(Formula, Formula),
-    /// Formulas by the names that they are given for.
+    /// Formulas with the names to which they belong.
     Table(Vec<(String, Formula)>),
     /// Tables by the names of their keys.
     Tables(Vec<(&'static str, Vec<(String, Formula)>)>),

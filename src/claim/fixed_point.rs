@@ -33,7 +33,7 @@ impl Statement for FixedPoint {
         let eigenvalues: usize = spectrum.iter().flatten().map(count).sum();
         if eigenvalues > model.dimension() {
             let message = format!("{eigenvalues} eigenvalues are too many");
-            let remedy = "list those that are not 0, each as often as it occurs";
+            let remedy = "list the nonzero eigenvalues, each with its multiplicity";
             return Err(from.complaint("spectrum", message, remedy));
         }
         let parts = spectrum.iter().flatten().flat_map(|(a, b)| [a].into_iter().chain(b));
@@ -83,10 +83,10 @@ fn read_polynomial<R: Reader>(from: &R) -> Result<Option<Vec<Formula>>, R::Error
     let dimension = model.dimension();
     if polynomial.len() != dimension {
         let message = format!(
-            "{} coefficients are given, and λ^{dimension} has {dimension} below it",
+            "{} coefficients are given, but λ^{dimension} + … needs {dimension}",
             polynomial.len()
         );
-        let remedy = "list those of all lower powers, the highest first, and 0 where one is 0";
+        let remedy = "list the coefficients of all lower powers, highest first, zeros included";
         return Err(from.complaint(key, message, remedy));
     }
     if let Some(other) = polynomial.iter().find(|formula| formula.value_type() != Type::Scalar) {

@@ -289,7 +289,7 @@ impl Statement for DensityInVariables {
         let (old, new) = (from.model().dimension(), variables.model.dimension());
         if old != new {
             let message = format!("{new} new variables take the place of {old}");
-            let remedy = "a density needs as many new variables as old ones";
+            let remedy = "a density needs equal numbers of new and old variables";
             return Err(from.complaint(Self::NAME, message, remedy));
         }
         scalar_in(from, Self::NAME).map(Self)

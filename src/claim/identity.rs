@@ -23,7 +23,7 @@ pub struct Rate {
     rate: Formula,
 }
 
-/// L_vF = κF, or F∘Φ = κF, so that F = 0 is kept.
+/// L_vF = κF, or F∘Φ = κF, so that F = 0 is invariant.
 #[derive(Clone, Debug)]
 pub struct Relation {
     function: Formula,
@@ -125,18 +125,17 @@ impl Statement for Relation {
         Some(Self { cofactor, ..self.clone() })
     }
 
-    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not keep x = 0.
+    /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not preserve x = 0.
     fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
         let inverse = jet.phase.scalar(&self.cofactor).recip();
-        let condition = |factor| {
-            Condition {
+        let condition = |factor| Condition {
             need: Need::ValueOnZeros { function, factor, inverse },
-            otherwise: "it is not known that the cofactor has a value where F = 0: cancel what it divides by"
-                .to_string(),
+            otherwise:
+                "it is not known that the cofactor has a value where F = 0: cancel its denominator"
+                    .to_string(),
             is_essential: true,
-        }
         };
         factor.into_iter().map(condition).collect()
     }
@@ -152,7 +151,9 @@ impl Statement for Relation {
         texts.dedup();
         (!texts.is_empty()).then(|| {
             let texts = texts.join("`, `");
-            format!("the cofactor divides by `{texts}`: F = 0 is kept only where that is not 0")
+            format!(
+                "the cofactor divides by `{texts}`: F = 0 is invariant only where that is not 0"
+            )
         })
     }
 

@@ -60,7 +60,7 @@ impl Statement for Independent {
         let needed = level.checked_sub(2)?;
         Some(format!(
             "{functions} independent functions on a level of dimension {level}; if they are integrals \
-             and there is a density, Euler and Jacobi's theorem needs {needed}"
+             and there is a density, the Euler–Jacobi theorem needs {needed}"
         ))
     }
 }

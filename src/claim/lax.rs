@@ -42,7 +42,7 @@ impl Statement for Lax {
                 "L" => matrix = Some(formula),
                 "A" => partner = Some(formula),
                 _ => {
-                    let message = format!("a Lax pair is of L and A, and has no `{name}`");
+                    let message = format!("a Lax pair consists of L and A, and has no `{name}`");
                     return Err(from.complaint(Self::NAME, message, remedy));
                 }
             }

@@ -18,7 +18,13 @@ pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result
         Some((Meaning::Parameter(index), Type::Scalar)) => Ok(index),
         _ => {
             let message = format!("`{name}` is not a scalar parameter");
-            Err(from.complaint(key, message, "name the parameter that goes to 0"))
+            let scalars = from.model().parameters.iter().filter(|own| own.kind == Type::Scalar);
+            let names: Vec<&str> = scalars.map(|own| own.name.as_str()).collect();
+            let remedy = match names.as_slice() {
+                [] => "declare it in [parameters], with a range".to_string(),
+                names => format!("name one of {}", names.join(", ")),
+            };
+            Err(from.complaint(key, message, &remedy))
         }
     }
 }

@@ -248,7 +248,8 @@ impl Kind {
     /// Returns the reason why this kind of claim does not apply to `model`, if any.
     pub fn objection(&self, model: &Model) -> Option<Objection> {
         if model.system.is_map() && !self.is_of_maps() {
-            let message = format!("`{}` speaks of a flow, and the case is a map", self.name());
+            let message =
+                format!("`{}` is a claim about a flow, and the case is a map", self.name());
             let remedy = "of a map, claim integral, density, symmetry, reversor, fixed-point, \
                           no-density-near, lyapunov, form, invariant-relation, identity, independent or limit";
             return Some(Objection { message, remedy });

@@ -77,6 +77,6 @@ impl Statement for NoDensityNear {
     }
 
     fn remark(&self, _: &Model) -> Option<String> {
-        Some("excluded are densities that are continuous, and positive at the point".to_string())
+        Some("this excludes densities that are continuous, and positive at the point".to_string())
     }
 }

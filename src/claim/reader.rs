@@ -3,7 +3,7 @@
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Vocabulary};
 
-/// A number by its real part, and a pair of conjugate ones by both parts.
+/// A real number, or the real and the imaginary part of a conjugate pair.
 pub type Complex = (Formula, Option<Formula>);
 
 /// The entries of one claim, independent of the file format.
@@ -56,8 +56,9 @@ pub trait Reader {
         scope: &Vocabulary,
     ) -> Result<Option<Vec<(String, Formula)>>, Self::Error>;
 
-    /// The number under `inner` in the table under `key`, which has no other keys, as it is written, a
-    /// string with its quotes; `remedy` is told where there is no such table.
+    /// Returns the number of `inner` in the table of `key`, which has no other keys, as written in
+    /// the file, a string with its quotes; if there is no such table, the complaint has this
+    /// `remedy`.
     fn text_inside(
         &self,
         key: &'static str,
@@ -65,7 +66,7 @@ pub trait Reader {
         remedy: &str,
     ) -> Result<Option<String>, Self::Error>;
 
-    /// A complaint about what stands under `inner` in the table under `key`.
+    /// Makes a complaint about the entry of `inner` in the table of `key`.
     fn complaint_inside(
         &self,
         key: &'static str,
@@ -74,7 +75,7 @@ pub trait Reader {
         remedy: &str,
     ) -> Self::Error;
 
-    /// The entries of a list of numbers that may be complex: a, or a and b for a ± b*i.
+    /// Returns the entries of a list of real or complex numbers: a, or a and b for a ± b*i.
     fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Self::Error>;
 
     /// Makes a complaint about an entry.
@@ -110,7 +111,7 @@ pub trait Reader {
             Some(found) if found == word => Ok(()),
             Some(found) => Err(self.complaint(
                 key,
-                format!("`{found}` is not what can be claimed here"),
+                format!("`{found}` cannot be claimed here"),
                 &format!("write \"{word}\", and expect = \"fails\" where it does not"),
             )),
             None => Err(self.missing(key)),
@@ -125,6 +126,6 @@ pub trait Reader {
     /// Makes the complaint that two formulas have different types.
     fn unlike(&self, key: &'static str, left: Type, right: Type) -> Self::Error {
         let message = format!("a {left} is compared with a {right}");
-        self.complaint(key, message, "compare what is of one kind")
+        self.complaint(key, message, "compare values of the same type")
     }
 }

@@ -1,6 +1,6 @@
 //! Rests of a spinning body near which no density exists.
 //!
-//! At ω = εγ₀ the normal stands still. If nothing turns the body at rest there, K(0,γ₀) = 0, and
+//! At ω = εγ₀ the normal is at rest. If no moment acts on the body at rest there, K(0,γ₀) = 0, and
 //! S×γ₀ = 0, then ω' = O(ε²), while div v = εC₁(γ₀): Liouville's equation, divided by ε → 0, asks
 //! for C₁(γ₀) = 0.
 

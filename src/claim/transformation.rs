@@ -44,7 +44,7 @@ impl Transformation {
         let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
         let images = from.table(key)?;
         if images.is_empty() {
-            let message = format!("`{key}` names nothing that is moved");
+            let message = format!("`{key}` names no variable to transform");
             return Err(from.complaint(key, message, "give an image: { \"γ\" = \"−γ\" }"));
         }
         for (name, image) in images {
@@ -111,7 +111,10 @@ impl Transformation {
 
 fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     let message = format!("`{name}` is neither a state variable nor a parameter");
-    from.complaint(key, message, "name state variables, and parameters if they change")
+    let names: Vec<&str> = from.model().state.iter().map(|own| own.name.as_str()).collect();
+    let remedy =
+        format!("the state variables are {}; parameters may change, too", names.join(", "));
+    from.complaint(key, message, &remedy)
 }
 
 /// Whether a scalar formula is recorded as 0.
@@ -263,7 +266,7 @@ impl Statement for Map {
         for (name, rate) in given.ok_or_else(|| from.missing("field"))? {
             let plain = name.strip_suffix('\'').unwrap_or(&name);
             let Some(index) = names.iter().position(|known| known == plain) else {
-                let message = format!("`{name}` is the rate of no new variable");
+                let message = format!("`{name}` is not the rate of a new variable");
                 return Err(from.complaint("field", message, "name the variables of `map`"));
             };
             if rate.value_type() != images[index].value_type() {

@@ -1,5 +1,5 @@
-//! Claims as values: a statement with its place, its name and its expectation, before a case takes
-//! it up.
+//! Claims as values: a statement with its domain, its name and its expectation, before it is added
+//! to a case.
 
 use super::entry::Entry;
 use super::{
@@ -9,7 +9,7 @@ use super::{
 };
 use crate::formula::Formula;
 
-/// Place of a claim relative to the level set of its case.
+/// Domain of a claim relative to the level set of its case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Locus {
     /// The level set.
@@ -26,8 +26,8 @@ pub enum Locus {
 /// A claim as a value, made by the constructor of its kind and judged by
 /// [`Case::judge`](crate::case::Case::judge).
 ///
-/// Nothing is checked before a case takes the claim: its formulas have to be in the names of the
-/// case, and of the types that the kind of claim demands.
+/// The claim is checked when it is added to a case: its formulas must be in the names of the case,
+/// and of the types that the kind of claim requires.
 ///
 /// ```
 /// use liouville::prelude::*;
@@ -66,8 +66,8 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Makes the claim of the kind of this key, one of [`STATEMENTS`](super::STATEMENTS), from what
-    /// case files write there.
+    /// Makes the claim whose kind has this key, one of [`STATEMENTS`](super::STATEMENTS), from the
+    /// entry that a case file has there.
     pub fn of(key: &'static str, entry: impl Into<Entry>) -> Self {
         Self {
             key,
@@ -81,107 +81,111 @@ impl Claim {
         }
     }
 
-    /// F is a first integral.
+    /// Claims that F is a first integral.
     pub fn integral(function: impl Into<Entry>) -> Self {
         Self::of(Integral::NAME, function)
     }
 
-    /// ρ is an invariant density.
+    /// Claims that ρ is an invariant density.
     pub fn density(density: impl Into<Entry>) -> Self {
         Self::of(Density::NAME, density)
     }
 
-    /// There is an analytic invariant density.
+    /// Claims that there is an analytic invariant density.
     pub fn analytic_density() -> Self {
         Self::of(AnalyticDensity::NAME, "exists")
     }
 
-    /// There is an invariant density of the configuration.
+    /// Claims that there is an invariant density of the configuration.
     pub fn position_density() -> Self {
         Self::of(PositionDensity::NAME, "exists")
     }
 
-    /// A = B.
+    /// Claims that A = B.
     pub fn identity(left: &Formula, right: &Formula) -> Self {
         Self::of(Identity::NAME, Entry::Equation(left.clone(), right.clone()))
     }
 
-    /// F' = G along the motion.
+    /// Claims that F' = G along the motion.
     pub fn rate(function: impl Into<Entry>, rate: impl Into<Entry>) -> Self {
         Self::of(Rate::NAME, function).with("equals", rate)
     }
 
-    /// F' = κF, so that F = 0 is kept.
+    /// Claims that F' = κF, so that F = 0 is invariant.
     pub fn invariant_relation(function: impl Into<Entry>, cofactor: impl Into<Entry>) -> Self {
         Self::of(Relation::NAME, function).with("cofactor", cofactor)
     }
 
-    /// F does not grow.
+    /// Claims that F does not grow along the motion.
     pub fn lyapunov(function: impl Into<Entry>) -> Self {
         Self::of(Lyapunov::NAME, function)
     }
 
-    /// The functions, and those of the level, have independent gradients.
+    /// Claims that the functions, and those of the level, have independent gradients.
     pub fn independent(functions: Vec<Formula>) -> Self {
         Self::of(Independent::NAME, functions)
     }
 
-    /// The field with these components commutes with the motion; variables left out do not change
-    /// along it.
+    /// Claims that the field with these components commutes with the motion; the components of
+    /// variables left out are 0.
     pub fn symmetry_field(components: Vec<(String, Formula)>) -> Self {
         Self::of(SymmetryField::NAME, components)
     }
 
-    /// The map with these images takes solutions to solutions; variables left out stay.
+    /// Claims that the map with these images takes solutions to solutions; variables left out are
+    /// unchanged.
     pub fn symmetry(images: Vec<(String, Formula)>) -> Self {
         Self::of(Symmetry::NAME, images)
     }
 
-    /// The map with these images reverses time, and is an involution; variables left out stay.
+    /// Claims that the map with these images reverses time and is an involution; variables left out
+    /// are unchanged.
     pub fn reversor(images: Vec<(String, Formula)>) -> Self {
         Self::of(Reversor::NAME, images)
     }
 
-    /// The form with these coefficients is kept: of `x` for … dx, of `x,y` for … dx∧dy.
+    /// Claims that the form with these coefficients is invariant: of `x` for … dx, of `x,y` for
+    /// … dx∧dy.
     pub fn form(coefficients: Vec<(String, Formula)>) -> Self {
         Self::of(Form::NAME, coefficients)
     }
 
-    /// The motion is Hamilton's, with H in the names of the case's variables and their bracket.
+    /// Claims that the motion is Hamiltonian with the function H, in the names of the case's
+    /// variables and with their bracket.
     pub fn hamiltonian(function: impl Into<Entry>) -> Self {
         Self::of(Hamiltonian::NAME, function)
     }
 
-    /// C is a Casimir function of the bracket, in the names of the case's variables.
+    /// Claims that C is a Casimir function of the bracket, in the names of the case's variables.
     pub fn casimir(function: impl Into<Entry>) -> Self {
         Self::of(Casimir::NAME, function)
     }
 
-    /// The bracket satisfies Jacobi's identity.
+    /// Claims that the bracket satisfies Jacobi's identity.
     pub fn jacobi_identity() -> Self {
         Self::of(JacobiIdentity::NAME, "holds")
     }
 
-    /// ρ dy is invariant in the case's variables y, in their names.
+    /// Claims that ρ dy is invariant, with ρ in the names of the case's variables y.
     pub fn density_in_variables(density: impl Into<Entry>) -> Self {
         Self::of(DensityInVariables::NAME, density)
     }
 
-    /// Adds what stands under a further key, such as the `weight` of a symmetry field.
+    /// Adds the entry of a further key, such as the `weight` of a symmetry field.
     #[must_use]
     pub fn with(mut self, key: &'static str, entry: impl Into<Entry>) -> Self {
         self.entries.push((key, entry.into()));
         self
     }
 
-    /// Sets the place of the claim, which is the level set otherwise.
+    /// Sets the domain of the claim; the default is the level set.
     #[must_use]
     pub fn at(mut self, locus: Locus) -> Self {
         self.locus = locus;
         self
     }
 
-    /// Sets the name of the claim, which is its text otherwise.
+    /// Sets the name of the claim; the default is its text.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
@@ -195,7 +199,7 @@ impl Claim {
         self
     }
 
-    /// Sets what is expected of the claim: that it holds, otherwise.
+    /// Sets the expected verdict; the default is that the claim holds.
     #[must_use]
     pub fn expected(mut self, expect: Expect) -> Self {
         self.expect = expect;
@@ -221,12 +225,12 @@ impl Claim {
         self.key
     }
 
-    /// Keys with what stands under them, that of the kind first.
+    /// Keys with their entries, that of the kind first.
     pub fn entries(&self) -> &[(&'static str, Entry)] {
         &self.entries
     }
 
-    /// What stands under a key.
+    /// Entry of a key.
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|(own, _)| *own == key).map(|(_, entry)| entry)
     }
@@ -241,7 +245,7 @@ impl Claim {
         &self.source
     }
 
-    /// Place.
+    /// Domain of the claim.
     pub fn locus(&self) -> &Locus {
         &self.locus
     }

@@ -153,7 +153,7 @@ impl<'t> Parser<'t> {
             let at_name = self.peek() == Kind::Name && self.kind_at(1) == Some(Kind::Comma);
             if !at_name && head.indices.is_empty() {
                 let place = self.token().span.clone();
-                let message = "an index and its range should stand here";
+                let message = "an index and its range are missing here";
                 return Err(FormulaError::new(place, message).with_help(usage(name)));
             }
             if !at_name {
@@ -164,7 +164,7 @@ impl<'t> Parser<'t> {
             self.advance();
             let range = self.position;
             if !self.passes(Kind::Range) {
-                let message = format!("the range of `{index}` should stand here");
+                let message = format!("the range of `{index}` is missing here");
                 let place = self.token().span.clone();
                 return Err(FormulaError::new(place, message).with_help(usage(name)));
             }
@@ -329,7 +329,7 @@ impl<'t> Parser<'t> {
         if self.written_out <= MOST_TOKENS {
             return Ok(());
         }
-        let error = FormulaError::new(open.clone(), "this has too many terms when written out");
-        Err(error.with_help(format!("at most {MOST_TOKENS} numbers, names and signs are read")))
+        let error = FormulaError::new(open.clone(), "this has too many terms when expanded");
+        Err(error.with_help(format!("at most {MOST_TOKENS} numbers, names and signs are allowed")))
     }
 }

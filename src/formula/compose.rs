@@ -256,7 +256,8 @@ impl Formula {
         draft.write(close);
         let span = 0..draft.text.len();
         if operands.is_empty() {
-            return Err(FormulaError::new(span, "there is nothing between these brackets"));
+            let error = FormulaError::new(span, "there is nothing between these brackets");
+            return Err(error.with_help("write a value between them, or remove them"));
         }
         draft.build(|builder| build(builder, &operands, span))
     }

@@ -31,7 +31,7 @@ impl Formula {
     pub fn modulus(&self) -> Composed {
         Self::listed("|", "", &[self], "|", |builder, parts, span| match parts {
             [a] => builder.modulus(a, span),
-            _ => Err(FormulaError::new(span, "bars stand around one value")),
+            _ => Err(FormulaError::new(span, "bars enclose one value")),
         })
     }
 

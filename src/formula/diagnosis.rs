@@ -26,12 +26,37 @@ impl Parser<'_> {
             let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("a cross product is written `{a} × …`"));
         }
+        if let Some(help) = self.adjacent(left, &token.kind, &b) {
+            return FormulaError::new(token.span.clone(), format!("`{b}` cannot stand here"))
+                .with_help(help);
+        }
         let types = (left.value_type, right.map(|right| right.value_type));
         if matches!(types, (Type::Vector(_), Some(Type::Vector(_)))) {
             let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("write `({a},{b})` or `{a} × {b}`"));
         }
         FormulaError::new(token.span, "missing `*`").with_help(format!("write `{a}*{b}`"))
+    }
+
+    /// Advice for a token that follows a value and is no factor of it.
+    fn adjacent(&self, left: &Operand, kind: &Kind, text: &str) -> Option<String> {
+        match (kind, text) {
+            (Kind::Name, "mod") => {
+                Some("`k mod n` stands in an index, as in `x[i+1 mod n]`".to_string())
+            }
+            (Kind::Name, "if" | "where" | "for" | "when") => Some(
+                "`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`"
+                    .to_string(),
+            ),
+            (Kind::Number, number) if number.starts_with('.') => {
+                let left = self.text(&left.span);
+                Some(match left.ends_with(|c: char| c.is_ascii_digit()) {
+                    true => "a number has one decimal point".to_string(),
+                    false => format!("a component is written `{}[1]`", excerpt(left)),
+                })
+            }
+            _ => None,
+        }
     }
 
     /// The error for a bar in place of an operator, given the error from reading on.
@@ -41,7 +66,7 @@ impl Parser<'_> {
             _ if after.contains('|') => error,
             // `|(a|`: the end of the bracket is missing, not that of the bar
             Some(bracket) if before.contains('|') => self.unclosed_before(&bracket, bar),
-            _ => FormulaError::new(bar.clone(), "this `|` has no partner"),
+            _ => FormulaError::new(bar.clone(), "this `|` is not matched"),
         }
     }
 
@@ -54,19 +79,28 @@ impl Parser<'_> {
                 let end = self.builder.text.trim_end().len();
                 let start =
                     self.builder.text[..end].char_indices().next_back().map_or(0, |(at, _)| at);
-                return FormulaError::new(start..end, "the formula breaks off after this");
+                let sign = self.builder.text.get(start..end).unwrap_or_default();
+                return FormulaError::new(start..end, "the formula breaks off after this")
+                    .with_help(format!("write what follows, or remove `{sign}`"));
             }
             _ => {
                 let found = self.text(&span);
-                let message =
-                    format!("a number, a name or a bracket should stand before `{found}`");
+                let message = format!("a number, a name or a bracket is missing before `{found}`");
                 FormulaError::new(span.clone(), message)
             }
         };
         let before = self.builder.text[..span.start].trim_end().chars().next_back();
         match (self.peek(), before) {
             (Kind::Times, Some('*')) => error.with_help("a power is written `a^b`"),
-            (Kind::Plus, _) => error.with_help("leave out a leading `+`"),
+            (Kind::Plus, None | Some('(' | '[' | ',')) => {
+                error.with_help("leave out a leading `+`")
+            }
+            (Kind::Plus | Kind::Minus | Kind::Times | Kind::Slash | Kind::Cross, Some(_)) => {
+                error.with_help("remove one of the two signs")
+            }
+            (Kind::Times | Kind::Slash | Kind::Cross | Kind::Outer | Kind::Caret, None) => {
+                error.with_help("write what stands before the sign, or remove it")
+            }
             (Kind::Comparison, None) if self.text(&span) == "<" => {
                 error.with_help("a dot product is written `(a,b)`")
             }
@@ -85,7 +119,12 @@ impl Parser<'_> {
         let message = format!("this `{sign}` is not closed");
         let error = FormulaError::new(open.clone(), message);
         if found.is_empty() {
-            error
+            let partner = match sign {
+                "(" => ")",
+                "[" => "]",
+                _ => sign,
+            };
+            error.with_help(format!("write `{partner}` where it ends"))
         } else {
             error.with_help(format!("it should close before `{found}`"))
         }
@@ -98,17 +137,31 @@ impl Parser<'_> {
         match self.peek() {
             Kind::Close | Kind::CloseSquare => {
                 FormulaError::new(span, format!("this `{found}` closes nothing"))
+                    .with_help("remove it, or open a bracket before it")
             }
             Kind::Comparison => {
                 FormulaError::new(span, format!("`{found}` has no meaning in a formula"))
                     .with_help(NO_EQUATION)
             }
             Kind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
-                .with_help("a range stands in `sum(i, 1..n, …)` and the like"),
-            Kind::Comma => FormulaError::new(span, "a comma stands between brackets only")
+                .with_help("a range is written in `sum(i, 1..n, …)` and similar forms"),
+            Kind::Comma if self.is_decimal(&span) => {
+                FormulaError::new(span, "a decimal number has a point, not a comma")
+                    .with_help("write 0.5 in place of 0,5")
+            }
+            Kind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
         }
+    }
+
+    /// Whether a comma stands between digits.
+    fn is_decimal(&self, comma: &Span) -> bool {
+        let (before, after) = (&self.builder.text[..comma.start], &self.builder.text[comma.end..]);
+        let number = before.rsplit(|c: char| !c.is_ascii_digit()).next().unwrap_or_default();
+        let start = before.len() - number.len();
+        let is_alone = !before[..start].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        !number.is_empty() && is_alone && after.starts_with(|c: char| c.is_ascii_digit())
     }
 
     /// The error for `a × b × c`, read up to its second sign.

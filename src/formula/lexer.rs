@@ -157,20 +157,39 @@ pub(super) fn superscript_number(text: &str) -> String {
 fn stray(c: char, span: Span, before: &str) -> FormulaError {
     let error = FormulaError::new(span, format!("`{c}` has no meaning in a formula"));
     match c {
-        '.' if before.trim_end().ends_with(|c: char| !c.is_ascii_digit()) => {
+        '.' if follows_a_name(before) => {
             error.with_help("a dot product is written `(a,b)`, a component `a[1]`")
         }
         '.' => error.with_help("a number has digits on both sides of its point, as in 3.5"),
-        '{' | '}' => error.with_help("group with ( )"),
+        '{' | '}' => error
+            .with_help("group with ( ); a bracket {F,G} is claimed by bracket = [\"F\", \"G\"]"),
+        '⟨' | '⟩' | '〈' | '〉' => error.with_help("a dot product is written `(a,b)`"),
+        '∧' => error.with_help("a cross product is written `a × b`"),
+        '⊙' | '∘' | '⊤' | '†' => error.with_help("products are `a*b`, `(a,b)` and `a × b`"),
+        '∇' => error.with_help(
+            "derivatives are taken for you: rate = \"F\" claims the rate of F, and −∇h is `r`",
+        ),
+        '$' => error.with_help("formulas are not LaTeX: leave the dollars out"),
+        '“' | '”' | '„' | '‘' | '’' | '"' => error.with_help("leave these quotes out"),
+        '±' => error.with_help("a parameter takes a range: \"0.9..1.1\""),
+        '_' => error.with_help("a component is written `a[1]`, a norm `|a|`"),
         '‖' => error.with_help("write a norm as |a|"),
         '⁻' | '⁺' => error.with_help("digits follow the sign, as in ⁻¹"),
         ';' => error.with_help("separate with `,`"),
         '\\' => error.with_help("formulas are not LaTeX: write `a/b`, `√a`, `γ`, `a*b`"),
-        '&' => error.with_help("write conditions one after the other, parted by commas"),
+        '&' => error.with_help("write conditions one after the other, separated by commas"),
         '!' => error.with_help("write n! as `product(k, 1..n, k)`"),
         '%' => error.with_help("write `k mod n`, in an index"),
-        _ => error,
+        _ => error
+            .with_help("formulas have names, numbers and the signs + − * / ^ √ × ⊗ ∫ | ( ) [ ]"),
     }
+}
+
+/// Whether a text ends with a name, or a bracket, in place of a number.
+fn follows_a_name(text: &str) -> bool {
+    let text = text.trim_end();
+    let bare = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    bare.ends_with(|c: char| c.is_alphabetic() || matches!(c, ')' | ']' | '\'' | '_'))
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 //! A density is a product of powers and exponentials. Its value may overflow or need a root that
 //! an exact number does not have, while `(ln ρ)' = Σ q f'/f` over its factors `f^q` does not.
 
+use std::collections::BTreeMap;
+
 use num_dual::Dual;
 
 use super::arena::{Arena, Function, NodeId, Operation};
@@ -13,6 +15,32 @@ use super::value::Value;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+/// A term of `(ln f)'`: a coefficient times the derivative of a node, times or over a value.
+struct Term<T> {
+    coefficient: T,
+    node: NodeId,
+    beside: Beside<T>,
+}
+
+/// What the derivative in a [`Term`] is multiplied or divided by.
+enum Beside<T> {
+    Nothing,
+    Factor(T),
+    Divisor(T),
+}
+
+impl<T: Scalar> Term<T> {
+    /// Computes the term from the derivative of its node.
+    fn at(&self, derivative: T) -> T {
+        let value = self.coefficient * derivative;
+        match self.beside {
+            Beside::Nothing => value,
+            Beside::Factor(factor) => value * factor,
+            Beside::Divisor(divisor) => value / divisor,
+        }
+    }
+}
+
 /// Returns `(ln f)'` of the arena's last node, along the direction in the dual parts of `lookup`.
 ///
 /// Zero if the formula is not a scalar.
@@ -21,13 +49,43 @@ pub(super) fn logarithmic_derivative<T: Scalar>(
     lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
 ) -> T {
     let values = values(arena, lookup);
-    let root = arena.nodes.len() - 1;
-    if arena.nodes[root].value_type != Type::Scalar {
-        return T::zero();
-    }
     let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(|| Dual::from(0.0));
-    let mut sum: Option<T> = None;
-    let mut add = |term: T| sum = Some(sum.map_or(term, |sum| sum + term));
+    let terms = terms(arena, |node| scalar(node).re).into_iter();
+    let terms = terms.map(|term| term.at(scalar(term.node).eps));
+    terms.reduce(|sum, term| sum + term).unwrap_or_else(T::zero)
+}
+
+/// Partial derivatives of some values that are not 0, each with the place of its variable.
+pub(super) type Gradients<'g, T> = &'g dyn Fn(&[T]) -> Option<Vec<Vec<(usize, T)>>>;
+
+/// Returns the partial derivatives of `ln f` that are not 0 from those of the factors, with the
+/// places of their variables.
+pub(super) fn logarithmic_gradient<T: Scalar>(
+    arena: &Arena,
+    lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+    gradients: Gradients<'_, T>,
+) -> Option<Vec<(usize, T)>> {
+    let values = values(arena, lookup);
+    let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(|| T::from(0.0));
+    let terms = terms(arena, scalar);
+    let nodes: Vec<T> = terms.iter().map(|term| scalar(term.node)).collect();
+    let mut row: BTreeMap<usize, T> = BTreeMap::new();
+    for (term, slopes) in terms.iter().zip(gradients(&nodes)?) {
+        for (place, slope) in slopes {
+            let part = term.at(slope);
+            row.entry(place).and_modify(|sum| *sum += part).or_insert(part);
+        }
+    }
+    Some(row.into_iter().collect())
+}
+
+/// Lists the terms of `(ln f)'` for the arena's last node; none if it is not a scalar.
+fn terms<T: Scalar>(arena: &Arena, scalar: impl Fn(NodeId) -> T) -> Vec<Term<T>> {
+    let root = arena.nodes.len() - 1;
+    let mut terms = Vec::new();
+    if arena.nodes[root].value_type != Type::Scalar {
+        return terms;
+    }
     // scalar factors form a tree: each is reached once
     let mut factors = vec![(root, T::one())];
     while let Some((node, coefficient)) = factors.pop() {
@@ -47,16 +105,18 @@ pub(super) fn logarithmic_derivative<T: Scalar>(
                 factors.push((*a, coefficient * T::rational(&Rational::new(1, 2))));
             }
             Operation::PowerOf(a, b) => {
-                let exponent = scalar(*b);
-                add(coefficient * exponent.eps * scalar(*a).re.ln());
-                factors.push((*a, coefficient * exponent.re));
+                let beside = Beside::Factor(scalar(*a).ln());
+                terms.push(Term { coefficient, node: *b, beside });
+                factors.push((*a, coefficient * scalar(*b)));
             }
-            Operation::Function(Function::Exp, a) => add(coefficient * scalar(*a).eps),
+            Operation::Function(Function::Exp, a) => {
+                terms.push(Term { coefficient, node: *a, beside: Beside::Nothing });
+            }
             _ => {
-                let factor = scalar(node);
-                add(coefficient * factor.eps / factor.re);
+                let beside = Beside::Divisor(scalar(node));
+                terms.push(Term { coefficient, node, beside });
             }
         }
     }
-    sum.unwrap_or_else(T::zero)
+    terms
 }

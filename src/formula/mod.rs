@@ -92,7 +92,7 @@ pub use functions::names as function_names;
 pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
-pub use names::canonical_name;
+pub use names::{ascii_name, canonical_name};
 pub(crate) use names::{names_in, skeleton};
 pub use scope::{Origin, Scope, Symbol};
 pub use spelling::nearest;
@@ -179,6 +179,19 @@ impl Formula {
         lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
     ) -> T {
         logarithm::logarithmic_derivative(&self.arena, lookup)
+    }
+
+    /// Partial derivatives of `ln|f|` that are not 0, each with the place of its variable, from
+    /// those that `gradients` finds for the factors; `None` where it finds none.
+    ///
+    /// # Panics
+    /// As [`evaluate`](Formula::evaluate).
+    pub(crate) fn logarithmic_gradient<T: Scalar>(
+        &self,
+        lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+        gradients: logarithm::Gradients<'_, T>,
+    ) -> Option<Vec<(usize, T)>> {
+        logarithm::logarithmic_gradient(&self.arena, lookup, gradients)
     }
 
     /// Returns A and `false` if the whole formula is √A or, as A = (v,v), the norm of a vector; x

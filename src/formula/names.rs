@@ -109,6 +109,11 @@ const ALIKE: [(char, &str); 44] = [
     ('ψ', "ѱ"),
 ];
 
+/// English names of the Greek letters.
+pub(super) fn spelled_names() -> impl Iterator<Item = &'static str> {
+    SPELLED.iter().map(|(name, _)| *name)
+}
+
 /// Canonical form of an identifier; `None` if the text is not one.
 ///
 /// Spelled-out Greek becomes letters; look-alike letters, primes and subscript digits become one; a
@@ -138,6 +143,50 @@ pub fn canonical_name(text: &str) -> Option<String> {
         Some((_, letter)) => Some(format!("{letter}{}", &plain[base..])),
         None => Some(plain),
     }
+}
+
+/// English names of the combining marks of [`COMPOSED`].
+const MARKS: [(char, &str); 11] = [
+    ('\u{300}', "grave"),
+    ('\u{301}', "acute"),
+    ('\u{302}', "hat"),
+    ('\u{303}', "tilde"),
+    ('\u{304}', "bar"),
+    ('\u{306}', "breve"),
+    ('\u{307}', "dot"),
+    ('\u{308}', "ddot"),
+    ('\u{30a}', "ring"),
+    ('\u{30c}', "check"),
+    ('\u{327}', "cedilla"),
+];
+
+/// Spelling of a canonical name in ASCII letters, digits and underscores: `γ3` → `gamma3`,
+/// `Ĩ12` → `Itilde12`, `r'` → `r_prime`. Different names may have one spelling.
+pub fn ascii_name(name: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    for c in name.chars() {
+        let spelled = SPELLED.iter().find(|(_, letter)| letter.chars().eq([c]));
+        let composed = COMPOSED.iter().find_map(|(mark, letters, results)| {
+            let place = results.chars().position(|result| result == c)?;
+            Some((letters.chars().nth(place)?, *mark))
+        });
+        let mark = |mark: char| MARKS.iter().find(|(own, _)| *own == mark).map(|(_, name)| *name);
+        match (c, spelled, composed) {
+            (c, ..) if c.is_ascii_alphanumeric() || c == '_' => out.push(c),
+            ('\'', ..) => out.push_str("_prime"),
+            ('∂', ..) => out.push('d'),
+            (_, _, Some((letter, over))) => {
+                out.push(letter);
+                out.push_str(mark(over).unwrap_or_default());
+            }
+            (_, Some((spelled, _)), _) => out.push_str(spelled),
+            _ => match mark(c) {
+                Some(mark) => out.push_str(mark),
+                None => out.push_str(&format!("u{:x}", c as u32)),
+            },
+        }
+    }
+    out
 }
 
 /// Canonical names that occur in a text.
@@ -234,6 +283,26 @@ mod tests {
         for (text, canonical) in pairs {
             assert_eq!(canonical_name(text).as_deref(), Some(canonical), "`{text}`");
             assert_eq!(canonical_name(canonical).as_deref(), Some(canonical), "idempotent");
+        }
+    }
+
+    #[test]
+    fn names_are_spelled_in_ascii() {
+        for (name, spelled) in [
+            ("γ3", "gamma3"),
+            ("Ω", "Omega"),
+            ("Ĩ12", "Itilde12"),
+            ("J\u{303}", "Jtilde"),
+            ("𝒥", "Jscript"),
+            ("r''", "r_prime_prime"),
+            ("ẋ_1", "xdot_1"),
+            ("∂U", "dU"),
+            ("ж", "u436"),
+        ] {
+            assert_eq!(ascii_name(name), spelled, "`{name}`");
+        }
+        for (mark, _, _) in COMPOSED {
+            assert!(MARKS.iter().any(|(own, _)| *own == mark), "mark {mark:?} has a name");
         }
     }
 

@@ -9,7 +9,13 @@ use super::parser::{Parsed, Parser};
 use super::scope::{Meaning, resolve};
 use super::typing::Operand;
 use super::{binders, functions};
-use crate::number::rational::Rational;
+use crate::number::rational::{Rational, RationalError};
+
+/// The error for a number that cannot be read.
+fn too_long(span: &Span, error: &RationalError) -> FormulaError {
+    FormulaError::new(span.clone(), error.to_string())
+        .with_help("round it, or write it as a product of powers")
+}
 
 impl Parser<'_> {
     pub(super) fn number(&mut self) -> Parsed {
@@ -21,16 +27,14 @@ impl Parser<'_> {
             .and_then(fraction)
             .unwrap_or(text)
             .parse()
-            .map_err(|error| FormulaError::new(span.clone(), format!("{error}")))?;
+            .map_err(|error| too_long(&span, &error))?;
         let node = self.builder.arena.push(Operation::Number(value), Type::Scalar, span.clone());
         Ok(self.builder.operand(node, span))
     }
 
     /// Value of a superscript.
     pub(super) fn superscript(&self, span: &Span) -> Result<Rational, FormulaError> {
-        superscript_number(self.text(span))
-            .parse()
-            .map_err(|error| FormulaError::new(span.clone(), format!("{error}")))
+        superscript_number(self.text(span)).parse().map_err(|error| too_long(span, &error))
     }
 
     /// Reads a name of the scope, one of its components, the identity, or a call.

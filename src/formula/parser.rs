@@ -79,7 +79,10 @@ impl<'t> Parser<'t> {
             written_out: 0,
         };
         match parser.peek() {
-            Kind::End => Err(FormulaError::new(0..text.len(), "the formula is empty")),
+            Kind::End => {
+                let error = FormulaError::new(0..text.len(), "the formula is empty");
+                Err(error.with_help("write a formula, such as `x² + y²`, or a number"))
+            }
             _ => Ok(parser),
         }
     }
@@ -117,7 +120,7 @@ impl<'t> Parser<'t> {
     fn nested(&mut self, span: &Span, read: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == MAX_DEPTH {
             let error = FormulaError::new(span.clone(), "this is nested too deeply");
-            return Err(error.with_help(format!("at most {MAX_DEPTH} levels are read")));
+            return Err(error.with_help(format!("at most {MAX_DEPTH} levels are allowed")));
         }
         self.depth += 1;
         let result = read(self);
@@ -273,7 +276,8 @@ impl<'t> Parser<'t> {
         let open = self.advance();
         if self.peek() == close {
             let span = open.start..self.advance().end;
-            return Err(FormulaError::new(span, "there is nothing between these brackets"));
+            let error = FormulaError::new(span, "there is nothing between these brackets");
+            return Err(error.with_help("write a value between them, or remove them"));
         }
         let mut items = Vec::new();
         loop {

@@ -15,7 +15,8 @@ impl Builder<'_> {
         let span = base.span.start..exponent.span.end;
         if exponent.value_type != Type::Scalar {
             let message = format!("an exponent is a scalar, this is a {}", exponent.value_type);
-            return Err(FormulaError::new(exponent.span.clone(), message));
+            let error = FormulaError::new(exponent.span.clone(), message);
+            return Err(error.with_help("write a component, `a[1]`, or the norm, `|a|`"));
         }
         match self.arena.take_constant(exponent.node) {
             Some(value) => self.constant_power(base, &value, exponent.span.clone(), span),
@@ -50,7 +51,7 @@ impl Builder<'_> {
                 Ok(self.push(Operation::Dot(base.node, base.node), Type::Scalar, span))
             }
             (Type::Vector(_), _) => {
-                let error = FormulaError::new(exponent, "a vector has no power but its square");
+                let error = FormulaError::new(exponent, "a vector has no power except its square");
                 Err(error
                     .with_help(format!("write a power of the norm, `|{}|`", self.written(base))))
             }
@@ -82,7 +83,8 @@ impl Builder<'_> {
     fn scalar_power(&mut self, base: &Operand, value: &Rational, span: Span) -> Built {
         let zero = self.arena.constant(base.node).is_some_and(Rational::is_zero);
         if zero && value.is_negative() {
-            return Err(FormulaError::new(span, "this divides by zero"));
+            let error = FormulaError::new(span, "this divides by zero");
+            return Err(error.with_help("write a divisor that is not 0"));
         }
         let fold = |n: &[&Rational]| {
             let exponent = i32::try_from(value.to_integer()?).ok()?;

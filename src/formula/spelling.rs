@@ -5,16 +5,16 @@ const LONGEST: usize = 40;
 
 /// Known name nearest to `name` by edit distance; `None` when nothing is near.
 ///
-/// Near means one edit for up to five letters, two beyond, and for a single letter only the
-/// other case, since any two letters are one edit apart.
+/// Near means one edit for up to five letters, two beyond, and for one or two letters only the
+/// other case, since any two letters are one edit apart. Primes are no letters.
 pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() > LONGEST {
         return None;
     }
-    let allowed = match letters.len() {
-        0 | 1 => 0,
-        2..=5 => 1,
+    let allowed = match name.trim_end_matches('\'').chars().count() {
+        0..=2 => 0,
+        3..=5 => 1,
         _ => 2,
     };
     among
@@ -24,6 +24,8 @@ pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&
             let near_in_length = letters.len().abs_diff(other.len()) <= allowed;
             let distance = if known.to_lowercase() == name.to_lowercase() {
                 0
+            } else if allowed == 0 && differ_by_number(known, name) {
+                return Some((1, known));
             } else if near_in_length && other.len() > 1 {
                 edit_distance(&letters, &other)
             } else {
@@ -33,6 +35,13 @@ pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&
         })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, known)| known)
+}
+
+/// Whether two names are a letter with different numbers, as g1 and g2.
+fn differ_by_number(one: &str, other: &str) -> bool {
+    let letter = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_string();
+    let numbered = |name: &str| name.ends_with(|c: char| c.is_ascii_digit());
+    numbered(one) && numbered(other) && letter(one) == letter(other)
 }
 
 /// Splits a name into the fewest known pieces (`mR` → `m`, `R`), if there are two or more.

@@ -42,7 +42,7 @@ impl Formula {
             return Err(FormulaError::new(whole, message));
         }
         if self.arena.fixed.contains(&symbol) {
-            let message = format!("`{name}` stands in an index or a size, and cannot be replaced");
+            let message = format!("`{name}` is used in an index or a size, and cannot be replaced");
             return Err(FormulaError::new(whole, message));
         }
         self.without_forms()?;

@@ -143,7 +143,7 @@ impl Builder<'_> {
             let (scalar, rows) = match (left, right) {
                 (Type::Scalar, Type::Matrix(n, m)) if n == m => (a, n),
                 (Type::Matrix(n, m), Type::Scalar) if n == m => (b, n),
-                _ => return Err(error),
+                _ => return Err(error.with_help(one_kind(left, right))),
             };
             let unit = if rows == 3 { "E".to_string() } else { format!("E({rows})") };
             return Err(error.with_help(format!("write `{}*{unit}`", self.written(scalar))));
@@ -208,7 +208,8 @@ impl Builder<'_> {
             }
         }
         if self.arena.constant(b.node).is_some_and(Rational::is_zero) {
-            return Err(FormulaError::new(b.span.clone(), "this divides by zero"));
+            let error = FormulaError::new(b.span.clone(), "this divides by zero");
+            return Err(error.with_help("write a divisor that is not 0"));
         }
         let operation = Operation::Divide(a.node, b.node);
         if a.value_type != Type::Scalar {
@@ -234,15 +235,23 @@ impl Builder<'_> {
             return Err(FormulaError::new(wrong.span.clone(), message));
         }
         let sign = if infix == Infix::Outer { "⊗" } else { "×" };
-        let message = format!(
-            "`{sign}` stands between two vectors, not a {} and a {}",
-            a.value_type, b.value_type
-        );
+        let message =
+            format!("`{sign}` takes two vectors, not a {} and a {}", a.value_type, b.value_type);
         let help = format!("write `{}*{}`", self.written(a), self.written(b));
         let error = FormulaError::new(span, message);
         Err(match types {
             (Type::Vector(_), Type::Matrix(..)) => error,
             _ => error.with_help(help),
         })
+    }
+}
+
+/// Advice for a sum of values of two kinds.
+fn one_kind(left: Type, right: Type) -> &'static str {
+    match (left, right) {
+        (Type::Scalar, Type::Vector(_)) | (Type::Vector(_), Type::Scalar) => {
+            "make a scalar of the vector: a component `a[1]`, a norm `|a|` or a product `(a,b)`"
+        }
+        _ => "write both in one kind and size",
     }
 }

@@ -58,7 +58,7 @@ impl Builder<'_> {
                 self.root(&square, span)?
             }
             Type::Matrix(..) => {
-                let error = FormulaError::new(span, "bars do not stand around a matrix");
+                let error = FormulaError::new(span, "bars cannot enclose a matrix");
                 return Err(error.with_help(format!("write `det({})`", self.written(a))));
             }
         })

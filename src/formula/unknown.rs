@@ -2,7 +2,7 @@
 
 use super::error::{FormulaError, Span, excerpt};
 use super::lexer::Kind;
-use super::names::canonical_name;
+use super::names::{canonical_name, spelled_names};
 use super::parser::Parser;
 use super::scope::resolve;
 use super::spelling::{nearest, split};
@@ -44,6 +44,13 @@ const ELSEWHERE: [(&[&str], &str); 22] = [
     ),
 ];
 
+/// Names of books, and the name here, where the system has it.
+const BOOKS: [(&[&str], &str); 3] = [
+    (&["H", "Ham", "hamiltonian", "Hamiltonian", "ℋ"], "energy"),
+    (&["w", "W", "Omega", "Ω"], "ω"),
+    (&["rdot", "vel"], "r'"),
+];
+
 impl Parser<'_> {
     /// The error for an unknown name.
     pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
@@ -73,6 +80,18 @@ impl Parser<'_> {
         if let Some(base) = name.strip_suffix("dot").filter(|base| known(&format!("{base}'"))) {
             return Some(format!("the rate of `{base}` is written `{base}'`"));
         }
+        if name.starts_with('∂') || self.builder.text[span.start..].starts_with("d/dt") {
+            return Some(
+                "derivatives are taken for you: rate = \"F\" claims the rate of F, and `x'` is \
+                 that of a state variable x"
+                    .to_string(),
+            );
+        }
+        if let Some((_, own)) =
+            BOOKS.iter().find(|(all, own)| !called && all.contains(&name) && known(own))
+        {
+            return Some(format!("did you mean `{own}`?"));
+        }
         if let Some(pieces) = split(name, known) {
             return Some(format!("write `{}`?", pieces.join("*")));
         }
@@ -83,6 +102,7 @@ impl Parser<'_> {
             if called { functions::names().chain(binders::names()).collect() } else { vec![] };
         let all = || names.iter().map(String::as_str).chain(own.iter().copied());
         let guess = [name, &canonical].into_iter().find_map(|name| nearest(name, all()));
+        let guess = guess.map(str::to_string).or_else(|| greek(name).filter(|name| known(name)));
         if let Some(guess) = guess {
             return Some(format!("did you mean `{guess}`?"));
         }
@@ -106,8 +126,18 @@ fn listed(names: Vec<String>) -> Option<String> {
     let shown: Vec<String> = names.into_iter().take(MOST_LISTED).collect();
     let rest = count - shown.len();
     match (count, rest) {
-        (0, _) => None,
-        (_, 0) => Some(format!("the names here are {}", shown.join(", "))),
-        _ => Some(format!("the names here are {} and {rest} more", shown.join(", "))),
+        (0, _) => Some("write a number, a range \"0.5..2\", or declare the name".to_string()),
+        (_, 0) => Some(format!("the names here are {}; {OWN}", shown.join(", "))),
+        _ => Some(format!("the names here are {} and {rest} more; {OWN}", shown.join(", "))),
     }
+}
+
+/// How names are added.
+const OWN: &str = "others are declared in [parameters] or [let]";
+
+/// Greek letter whose English name is misspelled at the start of a name, with what follows it.
+fn greek(name: &str) -> Option<String> {
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '_' | '\''));
+    let letter = nearest(stem, spelled_names())?;
+    canonical_name(&format!("{letter}{}", &name[stem.len()..]))
 }

@@ -1,12 +1,15 @@
 //! Values of formulas: scalars, vectors and matrices.
 
+use std::rc::Rc;
+
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 use super::kind::Type;
 
 /// A scalar, vector or matrix over the numbers `T`.
 ///
-/// Vectors of three components and 3×3 matrices always use the variants for ℝ³.
+/// Vectors of three components and 3×3 matrices always use the variants for ℝ³. Copies of the others
+/// share their components, since a formula may name a long vector many times.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value<T> {
     /// A number.
@@ -16,7 +19,7 @@ pub enum Value<T> {
     /// A 3×3 matrix.
     Matrix(Matrix3<T>),
     /// A vector of another length.
-    List(Box<[T]>),
+    List(Rc<[T]>),
     /// A matrix of another size.
     Table(Table<T>),
 }
@@ -26,7 +29,7 @@ pub enum Value<T> {
 pub struct Table<T> {
     rows: usize,
     columns: usize,
-    entries: Box<[T]>,
+    entries: Rc<[T]>,
 }
 
 impl<T> Table<T> {

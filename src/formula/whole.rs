@@ -12,7 +12,7 @@ impl Parser<'_> {
         let (mut left, start) = self.whole("a side of a condition")?;
         let mut holds = true;
         if self.peek() != Kind::Comparison {
-            let error = FormulaError::new(start, "a condition should stand here");
+            let error = FormulaError::new(start, "a condition is missing here");
             return Err(error.with_help("write `i = j`, `i ≠ j`, `i < j` or the like"));
         }
         while self.peek() == Kind::Comparison {

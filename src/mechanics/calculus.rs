@@ -10,6 +10,12 @@ use super::phase::Phase;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
+/// Dimension of phase space from which derivatives are taken by sweeps of the recording.
+///
+/// A lift along each coordinate repeats the whole computation, which for a few coordinates costs
+/// nothing worth mention, and for n of them n times what it should.
+pub(super) const MANY: usize = 20;
+
 /// A point of phase space with its lifts to dual numbers, made once for all derivatives.
 pub struct Jet<'m, T> {
     /// The point itself.
@@ -62,6 +68,17 @@ impl<'m, T: Scalar> Jet<'m, T> {
         f(self.along_field()).eps
     }
 
+    /// Computes the gradients of values at the point by sweeps of the recording; `None` where lifts
+    /// along the coordinates have to do it.
+    fn swept(&self, values: impl FnOnce(&Phase<'m, T>) -> Vec<T>) -> Option<Vec<Vec<T>>> {
+        let dimension = self.phase.model().dimension();
+        if dimension < MANY {
+            return None;
+        }
+        let rows = T::gradients_of(&values(&self.phase), &self.phase.state())?;
+        Some(rows.iter().map(|row| filled(row, dimension)).collect())
+    }
+
     /// Computes the partial derivatives of f with respect to the state's components.
     pub fn gradient(&self, f: impl Fn(&Phase<'m, Dual<T>>) -> Dual<T>) -> Vec<T> {
         self.along_axes().iter().map(|phase| f(phase).eps).collect()
@@ -74,6 +91,9 @@ impl<'m, T: Scalar> Jet<'m, T> {
 
     /// Computes the gradients of the components of F.
     pub fn gradients(&self, formula: &Formula) -> Vec<Vec<T>> {
+        if let Some(rows) = self.swept(|at| at.evaluate(formula).components()) {
+            return rows;
+        }
         let columns: Vec<Vec<T>> = self
             .along_axes()
             .iter()
@@ -83,10 +103,35 @@ impl<'m, T: Scalar> Jet<'m, T> {
         (0..count).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
     }
 
+    /// Computes the gradient of the logarithm of F, factor by factor.
+    pub fn logarithmic_gradient(&self, formula: &Formula) -> Vec<T> {
+        let dimension = self.phase.model().dimension();
+        if dimension >= MANY {
+            let state = self.phase.state();
+            let gradients = |values: &[T]| T::gradients_of(values, &state);
+            let found =
+                formula.logarithmic_gradient(&mut |symbol| self.phase.value(symbol), &gradients);
+            if let Some(row) = found {
+                return filled(&row, dimension);
+            }
+        }
+        self.along_axes()
+            .iter()
+            .map(|moved| formula.logarithmic_derivative(&mut |symbol| moved.value(symbol)))
+            .collect()
+    }
+
     /// Computes div v = Σ ∂v_i/∂x_i over all components of the state.
     pub fn divergence(&self) -> T {
-        let along = || self.along_axes().iter().enumerate();
-        *self.divergence.get_or_init(|| along().map(|(i, phase)| phase.field()[i].eps).sum())
+        *self.divergence.get_or_init(|| {
+            if self.phase.model().dimension() >= MANY
+                && let Some(terms) = T::diagonal_of(self.phase.field(), &self.phase.state())
+            {
+                return terms.into_iter().sum();
+            }
+            let along = self.along_axes().iter().enumerate();
+            along.map(|(i, phase)| phase.field()[i].eps).sum()
+        })
     }
 
     /// Computes Σ d(L_vF_i)(n_i) over the kept level functions, with dF_i(n_j) = δ_ij.
@@ -115,10 +160,11 @@ impl<'m, T: Scalar> Jet<'m, T> {
     /// Computes the gradients of the kept level functions.
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
         let all = self.level_gradients.get_or_init(|| {
-            let level = self.phase.model().level.iter();
-            level
-                .map(|equation| self.gradient(|at| at.level_function(&equation.function)))
-                .collect()
+            let level = || self.phase.model().level.iter().map(|equation| &equation.function);
+            let swept = self.swept(|at| level().map(|f| at.level_function(f)).collect());
+            swept.unwrap_or_else(|| {
+                level().map(|f| self.gradient(|at| at.level_function(f))).collect()
+            })
         });
         all.iter().zip(kept).filter(|(_, kept)| **kept).map(|(g, _)| g.clone()).collect()
     }
@@ -126,11 +172,22 @@ impl<'m, T: Scalar> Jet<'m, T> {
     /// Computes the gradient of the energy, where there is one.
     pub fn energy_gradient(&self) -> Option<&Vec<T>> {
         let make = || {
+            let energy = |at: &Phase<'m, T>| at.model().system.energy(at);
+            if let Some(mut rows) = self.swept(|at| energy(at).into_iter().collect()) {
+                return rows.pop();
+            }
             let slope = |at: &Phase<'m, Dual<T>>| Some(at.model().system.energy(at)?.eps);
             self.along_axes().iter().map(slope).collect()
         };
         self.energy_gradient.get_or_init(make).as_ref()
     }
+}
+
+/// Writes a row of derivatives out, with 0 for those that it leaves out.
+fn filled<T: Scalar>(row: &[(usize, T)], dimension: usize) -> Vec<T> {
+    let mut all = vec![T::zero(); dimension];
+    row.iter().for_each(|(place, value)| all[*place] = *value);
+    all
 }
 
 /// Selects the level functions given by `kept`.
@@ -250,17 +307,39 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     for k in 0..b.len() {
         let (above, below) = a.split_at_mut(k + 1);
         let (pivot_row, pivot_value) = (&above[k], b[k]);
+        let present: Vec<usize> = (k..b.len()).filter(|j| !pivot_row[*j].is_absent()).collect();
+        // A value that is defined nowhere makes all that it touches undefined, zeros too.
+        let vanishes = |x: T| (x * T::zero()).is_absent();
+        let is_plain = vanishes(pivot_row[k].recip())
+            && vanishes(pivot_value)
+            && present.iter().all(|j| vanishes(pivot_row[*j]));
         for (row, value) in below.iter_mut().zip(&mut b[k + 1..]) {
+            if is_plain && row[k].is_absent() {
+                continue;
+            }
             let factor = row[k] / pivot_row[k];
-            for (entry, pivot) in row.iter_mut().zip(pivot_row).skip(k) {
-                *entry -= factor * *pivot;
+            match vanishes(factor) {
+                true => present.iter().for_each(|j| row[*j] -= factor * pivot_row[*j]),
+                false => {
+                    for (entry, pivot) in row.iter_mut().zip(pivot_row).skip(k) {
+                        *entry -= factor * *pivot;
+                    }
+                }
             }
             *value -= factor * pivot_value;
         }
     }
+    let mut are_plain = true;
     for k in (0..b.len()).rev() {
-        let known = dot(&a[k][k + 1..], &b[k + 1..]);
+        let known: T = match are_plain {
+            true => {
+                let terms = a[k][k + 1..].iter().zip(&b[k + 1..]);
+                terms.filter(|(entry, _)| !entry.is_absent()).map(|(a, b)| *a * *b).sum()
+            }
+            false => dot(&a[k][k + 1..], &b[k + 1..]),
+        };
         b[k] = (b[k] - known) / a[k][k];
+        are_plain = are_plain && (b[k] * T::zero()).is_absent();
     }
     b
 }

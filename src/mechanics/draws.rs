@@ -7,6 +7,9 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::{Draw, Range};
+use super::streams::{NUMBERS, Streams, WIDTH};
+use crate::graph::{Work, with_widest_vectors};
+use crate::number::ball::{Balls, about};
 use crate::number::rational::Rational;
 
 /// Number of states with short decimals.
@@ -85,6 +88,13 @@ impl Draws {
         self.picked(seed, index, attempt, Source::nearest)
     }
 
+    /// Encloses the numbers of the states from `start` on, one block of lanes for each number:
+    /// those of [`Draws::nearest`].
+    pub fn fill<const N: usize>(&self, seed: u64, start: u64, columns: &mut [Balls<N>]) {
+        let streams = Streams::new(seed);
+        with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
+    }
+
     fn picked<T>(
         &self,
         seed: u64,
@@ -103,7 +113,59 @@ impl Draws {
     }
 }
 
+/// The numbers of a block of states.
+struct Fill<'f, const N: usize> {
+    sources: &'f [Source],
+    streams: Streams,
+    start: u64,
+    columns: &'f mut [Balls<N>],
+}
+
+impl<const N: usize> Work for Fill<'_, N> {
+    #[inline(always)]
+    fn run(self) {
+        for first in (0..N).step_by(WIDTH) {
+            let index = self.start + first as u64;
+            for (block, sources) in self.sources.chunks(NUMBERS).enumerate() {
+                let numbers = self.streams.numbers(index, block as u64);
+                let columns = self.columns[block * NUMBERS..].iter_mut();
+                for ((source, bits), column) in sources.iter().zip(&numbers).zip(columns) {
+                    let lanes = first..N.min(first + WIDTH);
+                    source.enclose(
+                        index,
+                        bits,
+                        &mut column.mid[lanes.clone()],
+                        &mut column.rad[lanes],
+                    );
+                }
+            }
+        }
+    }
+}
+
 impl Source {
+    /// Encloses the numbers of the states from `index` on, made of these bits.
+    #[inline(always)]
+    fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
+        if let (Source::Range { ends: [low, high], .. }, true) = (self, index >= SHORT) {
+            let mut values = [0.0; WIDTH];
+            let mut inside = true;
+            for (value, bits) in values.iter_mut().zip(bits) {
+                *value = at_share([*low, *high], *bits);
+                inside &= (*low < *value) & (*value < *high) & (*value != 0.0);
+            }
+            if inside {
+                mid.copy_from_slice(&values[..mid.len()]);
+                rad.fill(0.0);
+                return;
+            }
+        }
+        for (lane, (mid, rad)) in mid.iter_mut().zip(rad).enumerate() {
+            let is_short = index + (lane as u64) < SHORT;
+            (*mid, *rad) = about(self.nearest(bits[lane], is_short));
+        }
+    }
+
     fn new(draw: &Draw) -> Self {
         match draw {
             Draw::OneOf(values) => Source::List(values.clone()),
@@ -190,10 +252,18 @@ fn sign(bits: u64) -> i64 {
 
 /// Draws a number strictly between two ends and not 0, if f64 has one.
 fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
-    // 53 bits, and a half so that neither end is attained.
-    let share = ((bits >> 11) as f64 + 0.5) * (-53f64).exp2();
-    let value = low + (high - low) * share;
+    let value = at_share([low, high], bits);
     (low < value && value < high && value != 0.0).then_some(value)
+}
+
+/// Computes the number at a random share of the way between two ends.
+#[inline(always)]
+fn at_share([low, high]: [f64; 2], bits: u64) -> f64 {
+    /// The factor 2⁻⁵³.
+    const UNIT: f64 = f64::EPSILON / 2.0;
+    // 53 bits, and a half so that neither end is attained.
+    let share = ((bits >> 11) as f64 + 0.5) * UNIT;
+    low + (high - low) * share
 }
 
 impl Grid {
@@ -266,77 +336,4 @@ fn scale(bits: u64, count: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_stream_is_frozen() {
-        let draws = vec![Draw::Within(Range::between((1, 2), (2, 1))); 3];
-        let shown: Vec<String> =
-            Draws::new(&draws).state(7, 3).iter().map(|x| x.to_string()).collect();
-        assert_eq!(shown, FROZEN, "a change here changes every witness ever printed");
-    }
-
-    const FROZEN: [&str; 3] = ["0.772", "0.64", "1.967"];
-
-    #[test]
-    fn the_nearest_f64_is_that_of_the_number() {
-        let ends =
-            [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
-        let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
-        let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
-        let draws = Draws::new(&[&ranges[..], &[list]].concat());
-        for index in 0..2000 {
-            let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
-            assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
-        }
-    }
-
-    #[test]
-    fn draws_stay_inside_and_off_zero() {
-        let range = Range::between((-1, 1), (1, 1));
-        let draws = vec![Draw::Within(range.clone()); 2000];
-        for value in Draws::new(&draws).state(1, 0) {
-            assert!(value > range.low && value < range.high && !value.is_zero(), "{value}");
-        }
-        let narrow = Draw::Within(Range::between((1, 1_000_000), (2, 1_000_000)));
-        let value = Draws::new(&[narrow]).state(1, 0)[0].clone();
-        assert!(value > Rational::new(1, 1_000_000) && value < Rational::new(2, 1_000_000));
-    }
-
-    #[test]
-    fn later_states_have_all_digits() {
-        let range = Range::between((-2, 1), (2, 1));
-        let draws = Draws::new(&[Draw::Within(range.clone()), Draw::Sign]);
-        let lengths = |indices: std::ops::Range<u64>| {
-            indices.map(|index| draws.state(1, index)[0].bits()).max().unwrap_or(0)
-        };
-        assert!(lengths(0..64) < 30, "the first are short");
-        assert!(lengths(64..128) > 50, "the others are not");
-        let sign = |index| draws.state(1, index)[1].clone();
-        assert!((0..64).any(|k| sign(k) == Rational::from(1)), "some signs are positive");
-        assert!((0..64).any(|k| sign(k) == Rational::from(-1)), "some are not");
-        assert_ne!(draws.attempt(1, 3, 1), draws.state(1, 3), "another attempt");
-        assert_eq!(draws.attempt(1, 3, 0), draws.state(1, 3), "the first attempt");
-    }
-
-    #[test]
-    fn edges_are_near_the_ends_and_near_zero() {
-        let draws = Draws::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
-        let found: Vec<f64> = (0..64).map(|k| draws.edge(1, k)[0].to_f64().0).collect();
-        assert!(found.iter().all(|x| *x > -1.0 && *x < 1000.0), "inside: {found:?}");
-        assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
-        assert!(found.iter().any(|x| *x > 999.0), "near the upper end");
-        assert!(found.iter().any(|x| (2.0..998.0).contains(x)), "anywhere");
-        let nearest: Vec<f64> = (0..64).map(|k| draws.nearest_edge(1, k)[0].0).collect();
-        assert_eq!(nearest, found, "the same numbers");
-    }
-
-    #[test]
-    fn states_differ_and_do_not_depend_on_each_other() {
-        let draws = vec![Draw::Within(Range::between((0, 1), (1, 1))); 4];
-        let (four, two) = (Draws::new(&draws), Draws::new(&draws[..2]));
-        assert_ne!(four.state(1, 0), four.state(1, 1), "each state has numbers of its own");
-        assert_eq!(four.state(1, 5)[..2], two.state(1, 5)[..], "further draws change nothing");
-    }
-}
+mod tests;

@@ -1,6 +1,6 @@
 //! Hamilton's equations x' = P ∂H/∂x with bracket P and function H from the case file.
 
-use super::calculus::dot;
+use super::calculus::{MANY, dot};
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::model::Variable;
@@ -27,6 +27,24 @@ impl Hamiltonian {
         at.scalar(&self.function)
     }
 
+    /// Computes the partial derivatives of H with respect to the state's components.
+    fn gradient<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+        let dimension = at.model.dimension();
+        if dimension >= MANY
+            && let Some(rows) = T::gradients_of(&[self.energy_at(at)], &at.components())
+        {
+            let mut gradient = vec![T::zero(); dimension];
+            rows.iter().flatten().for_each(|(place, slope)| gradient[*place] = *slope);
+            return gradient;
+        }
+        let slope = |index: usize| {
+            let mut direction = vec![T::zero(); dimension];
+            direction[index] = T::one();
+            self.energy_at(&at.lift_state(&direction)).eps
+        };
+        (0..dimension).map(slope).collect()
+    }
+
     /// Computes P + Pᵀ, which vanishes where P is a bracket.
     pub fn symmetric_part<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let state = &phase.model().state;
@@ -44,13 +62,7 @@ impl Dynamics for Hamiltonian {
     /// Returns the rates of all components of the state.
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let state = &phase.model().state;
-        let gradient: Vec<T> = (0..phase.model().dimension())
-            .map(|index| {
-                let mut direction = vec![T::zero(); phase.model().dimension()];
-                direction[index] = T::one();
-                self.energy_at(&phase.configuration.lift_state(&direction)).eps
-            })
-            .collect();
+        let gradient = self.gradient(&phase.configuration);
         let rows = tensor(state, &self.blocks, phase);
         let mut rates: Vec<T> = rows.iter().map(|row| dot(row, &gradient)).collect();
         if let Some(clock) = self.clock {

@@ -25,6 +25,7 @@ mod rubber;
 mod rubber_measure;
 mod shortcuts;
 mod spinning;
+mod streams;
 mod system;
 mod variables;
 mod vocabulary;

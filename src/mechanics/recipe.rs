@@ -41,6 +41,18 @@ pub enum Draw {
 }
 
 impl Draw {
+    /// Returns the range or the list as case files write it.
+    fn text(&self) -> String {
+        match self {
+            Draw::Within(range) | Draw::Of(_, range) => format!("{}..{}", range.low, range.high),
+            Draw::OneOf(values) => {
+                let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+                format!("one of {}", values.join(", "))
+            }
+            Draw::Sign => "one of 1, -1".to_string(),
+        }
+    }
+
     /// Returns the value of a draw that has no other.
     pub fn only(&self) -> Option<Rational> {
         match self {
@@ -101,6 +113,31 @@ impl Recipe {
             | Recipe::Diagonal(rows, _)
             | Recipe::Spherical(rows, _) => Type::Matrix(*rows, *rows),
             _ => Type::MATRIX,
+        }
+    }
+
+    /// Returns the value as case files write it.
+    pub fn text(&self) -> String {
+        let sized = |word: &str, sizes: &[usize], draw: &Draw| match sizes {
+            [3] | [3, 3] => format!("{word}({})", draw.text()),
+            sizes => {
+                let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
+                format!("{word}({}, {})", sizes.join(", "), draw.text())
+            }
+        };
+        let ranged = |word: &str, range: &Range| format!("{word}({}..{})", range.low, range.high);
+        match self {
+            Recipe::Scalar(draw) => draw.text(),
+            Recipe::Vector(length, draw) => sized("vector", &[*length], draw),
+            Recipe::Matrix(rows, columns, draw) => sized("matrix", &[*rows, *columns], draw),
+            Recipe::Symmetric(rows, draw) => sized("symmetric", &[*rows], draw),
+            Recipe::Skew(rows, draw) => sized("skew", &[*rows], draw),
+            Recipe::Diagonal(rows, draw) => sized("diag", &[*rows], draw),
+            Recipe::Spherical(rows, draw) => sized("spherical", &[*rows], draw),
+            Recipe::Inertia(range) => ranged("inertia", range),
+            Recipe::AxisymmetricInertia(range) => ranged("axisymmetric", range),
+            Recipe::FullInertia(range) => ranged("full", range),
+            Recipe::Rotation => "rotation".to_string(),
         }
     }
 

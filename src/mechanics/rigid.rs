@@ -139,7 +139,7 @@ impl RigidBody {
         self.shape.formula().into_iter().chain(potential).collect()
     }
 
-    /// Computes (γ, rot r) where r is typed.
+    /// Computes (γ, rot r) where the file gives r.
     pub(super) fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         if self.is_homogeneous() {
             return None;

@@ -26,7 +26,9 @@ pub fn report(
         };
         if verdict == Verdict::Confirmed {
             verdict = Verdict::Undecided;
-            evidence.reason = Some("to rounding it does not hold, without a proof".to_string());
+            evidence.reason = Some(
+                "the numbers indicate that it does not hold, but there is no proof".to_string(),
+            );
         }
         evidence.holds.clear();
     }
@@ -69,7 +71,7 @@ pub fn report(
     let enough = options.trust != Trust::Proof || verdict == Verdict::Proved;
     if holds && !enough {
         let silence = evidence.silence.as_deref().unwrap_or("none was found");
-        evidence.reason = Some(format!("a proof was asked for: {silence}"));
+        evidence.reason = Some(format!("a proof is required: {silence}"));
     }
     let agrees = match claim.expect {
         Expect::Open => true,
@@ -77,7 +79,7 @@ pub fn report(
         Expect::Fails => verdict == Verdict::Refuted,
     };
     if holds && claim.only_there && elsewhere {
-        evidence.reason = Some("it was claimed to hold there only".to_string());
+        evidence.reason = Some("the claim says that it holds only there".to_string());
     }
     if claim.kind.is_at_images() {
         for name in &mut evidence.holds {

@@ -124,10 +124,11 @@ impl fmt::Display for Proof {
     }
 }
 
-/// Method by which a claim was decided: a rung of the ladder, or what decides claims without one.
+/// Method by which a claim was decided: a rung of the ladder, or a method for claims without
+/// residual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum Method {
-    /// No rung has looked at the claim.
+    /// No rung has examined the claim.
     #[default]
     #[serde(rename = "")]
     Unsettled,
@@ -253,11 +254,11 @@ pub struct Evidence {
     /// Measured quantities, for claims about motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measured: Vec<Measurement>,
-    /// For claims of absence that hold: what is excluded, for which parameters. For closed orbits:
-    /// what is proved.
+    /// For claims of absence that hold: the excluded functions, and the parameters for which they
+    /// are excluded. For closed orbits: the proved statement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
-    /// For claims of absence that fail: what there is, proved.
+    /// For claims of absence that fail: a proved integral or density that contradicts the claim.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exhibit: Option<String>,
     /// Results of all rungs, in order.

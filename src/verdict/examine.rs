@@ -3,6 +3,7 @@
 use super::bench::Bench;
 use super::evidence::{Method, Verdict, Witness};
 use super::finding::{Finding, undecide};
+use super::pass::Total;
 use super::recorded::{Recorded, Span};
 use super::run::Values;
 use super::sampler::Sampler;
@@ -29,10 +30,7 @@ impl Bench<'_> {
         bits: u32,
         finding: &mut Finding,
     ) {
-        if finding.evidence.method == Method::Unsettled {
-            let numerical = sampler.is_numerical();
-            finding.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
-        }
+        settle_method(sampler, finding);
         if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, finding) {
             return;
         }
@@ -59,7 +57,21 @@ impl Bench<'_> {
         evidence.max_residual = Some(before(evidence.max_residual).max(largest));
         evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
         let method = evidence.method;
-        finding.rung(method, format!("0 enclosed at {states} states, at most {largest:.1e}"));
+        finding.rung(method, enclosed(states, largest));
+    }
+
+    /// Adds to the evidence what further blocks of states show together, as [`Self::examine`] does
+    /// with one after another.
+    pub(super) fn add(&self, sampler: &Sampler, total: Option<Total>, finding: &mut Finding) {
+        let Some(Total { all, last }) = total else { return };
+        settle_method(sampler, finding);
+        let evidence = &mut finding.evidence;
+        evidence.samples += all.states;
+        let larger = |old: Option<f64>, new: f64| Some(old.unwrap_or(0.0).max(new));
+        evidence.max_residual = larger(evidence.max_residual, all.largest);
+        evidence.max_scaled_residual = larger(evidence.max_scaled_residual, all.scaled);
+        let method = evidence.method;
+        finding.rung(method, enclosed(last.states, last.largest));
     }
 
     /// Refutes a claim by the first state whose enclosure excludes zero, if any.
@@ -100,6 +112,19 @@ impl Bench<'_> {
         }
         false
     }
+}
+
+/// Notes that balls are used, where nothing else was.
+fn settle_method(sampler: &Sampler, finding: &mut Finding) {
+    if finding.evidence.method == Method::Unsettled {
+        let numerical = sampler.is_numerical();
+        finding.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
+    }
+}
+
+/// Says what a block that refutes nothing shows.
+fn enclosed(states: usize, largest: f64) -> String {
+    format!("0 enclosed at {states} states, at most {largest:.1e}")
 }
 
 /// Decides a claim that no state refuted.

@@ -230,7 +230,7 @@ mod tests {
             let path = entry.path();
             if path.is_dir() {
                 visit(&path, found);
-            } else if path.extension().is_some_and(|extension| extension == "toml") {
+            } else if crate::case::is_case_file(&path) {
                 let case = Case::read(&path, &[]).1.expect("a case");
                 let outcomes = outcomes_of_false_claims(&case).into_iter();
                 let shown = path.display();

@@ -1,4 +1,4 @@
-//! Premises of all claims: states are on the level, and the motion stays there.
+//! Premises of all claims: states lie on the level, and the motion stays there.
 
 use super::bench::Bench;
 use super::field::{Field, Query};
@@ -70,7 +70,7 @@ impl Bench<'_> {
                 }
             }
         }
-        format!("less than {} bits tell from 0", BITS[BITS.len() - 1])
+        format!("less than {} bits resolve", BITS[BITS.len() - 1])
     }
 
     /// Returns the values that must vanish for states to be on the level and to stay there.

@@ -10,7 +10,7 @@ use super::recorded::{Common, Recorded};
 use super::sampler::LANES;
 use crate::case::Case;
 use crate::claim::Place;
-use crate::graph::{Fault, record};
+use crate::graph::{Fault, Graph, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::Jet;
 
@@ -52,6 +52,8 @@ pub struct CaseReport {
     pub claims: Vec<ClaimReport>,
     /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
+    /// Remarks on what the file may say by mistake.
+    pub remarks: Vec<String>,
     /// Results of the mutants, if requested.
     pub mutants: Option<MutationReport>,
     /// Number of claims about motion that were left out.
@@ -92,7 +94,7 @@ pub enum JudgeError {
     #[error("the level equation `{0}` depends on those before it, or on no state variable")]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
-    #[error("an ∫ in `{0}` has an integrand of more than its variable")]
+    #[error("an ∫ in `{0}` has an integrand that depends on more than its variable")]
     Quadrature(String),
     /// The inertia tensor is not symmetric.
     #[error("the inertia tensor is not symmetric")]
@@ -104,7 +106,7 @@ pub enum JudgeError {
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
     /// A report on a map.
-    #[error("the case is a map, and reports are made on flows")]
+    #[error("the case is a map, and a report needs a flow")]
     Discrete,
     /// The level set is left by a map.
     #[error("the level set is not invariant: at the image of a state `{equation}` is off by {by}")]
@@ -129,7 +131,7 @@ impl JudgeError {
     pub fn help(&self) -> &'static str {
         match self {
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
-            JudgeError::Overflow(_) => "look at the ranges of [parameters] and [state]",
+            JudgeError::Overflow(_) => "check the ranges of [parameters] and [state]",
             JudgeError::OffLevel { .. } => "correct the formulas of [level.chart]",
             JudgeError::PartialChart { .. } => {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
@@ -147,8 +149,8 @@ impl JudgeError {
                  ranges of [state]"
             }
             JudgeError::Singular(_) => {
-                "look for a division by zero, the root of a negative number, or a singular inertia \
-                 tensor in [parameters]"
+                "look for a division by zero, the root of a negative number, a singular inertia \
+                 tensor, or a kinetic energy that leaves out a velocity"
             }
             JudgeError::Discrete => {
                 "claim the invariants of a map, and let `liouville check` judge them"
@@ -165,18 +167,40 @@ impl JudgeError {
     }
 }
 
-/// Judges all claims of a case except those about motion and those of absence, which need to follow
-/// motions and to count invariants.
-pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+/// Size of what a judgement records before any state is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordedSize {
+    /// Number of operations of the residuals of all claims together.
+    pub operations: usize,
+    /// Number of nodes of the graph.
+    pub nodes: usize,
+}
+
+/// Records a case as [`judge`] does, and returns the size of the recording.
+pub fn recorded_size(case: &Case) -> Result<RecordedSize, Fault> {
+    let (graph, (recorded, _)) = recording(case)?;
+    let residuals: Vec<_> = recorded.iter().flat_map(|item| item.residual.clone()).collect();
+    Ok(RecordedSize { operations: graph.operations(&residuals), nodes: graph.len() })
+}
+
+/// Records all claims of a case, and what every case needs.
+fn recording(case: &Case) -> Result<(Graph, (Vec<Recorded<'_>>, Common)), Fault> {
     let model = &case.model;
-    let inputs = model.free_components() + model.dimension();
-    let (graph, (recorded, common)) = record(inputs, |inputs| {
+    record(model.free_components() + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = Jet::new(Phase::new(model, parameters, state));
         let recorded: Vec<Recorded<'_>> =
             case.claims.iter().map(|claim| Recorded::new(claim, &jet)).collect();
         (recorded, Common::of(&jet))
-    })?;
+    })
+}
+
+/// Judges all claims of a case except those about motion and those of absence, which need to follow
+/// motions and to count invariants.
+pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    let model = &case.model;
+    let inputs = model.free_components() + model.dimension();
+    let (graph, (recorded, common)) = recording(case)?;
     let bench = Bench::new(case, &common, options, &graph, inputs);
     let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
@@ -199,5 +223,6 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
-    Ok(CaseReport { claims, warnings, mutants, motions_left, absences_left })
+    let remarks = case.remarks.clone();
+    Ok(CaseReport { claims, warnings, remarks, mutants, motions_left, absences_left })
 }

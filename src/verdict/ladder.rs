@@ -16,7 +16,7 @@ use super::field::{Answer, Field, Query, TOO_MANY_COMBINATIONS, combinations};
 use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
 use super::judge::{JudgeError, Trust};
 use super::recorded::{Layout, Recorded, Span};
-use super::run::{Run, waves};
+use super::run::Run;
 use super::sampler::{LANES, Sampler};
 use crate::claim::Place;
 use crate::number::ball::Ball;
@@ -183,7 +183,7 @@ impl Bench<'_> {
             let answer = match (&ground, answer) {
                 (Some(Answer::Zero(ground)), Answer::Zero(own)) => Answer::Zero(ground.and(own)),
                 (_, Answer::Zero(_)) => Answer::Silent(
-                    "it is not proved that states are on the level, and stay".to_string(),
+                    "it is not proved that the states lie on the level and stay there".to_string(),
                 ),
                 (_, answer) => answer,
             };
@@ -216,46 +216,14 @@ impl Bench<'_> {
                     finding.partial = Some(reason);
                 }
                 Answer::Void => {
-                    let reason = "there is no state at which all that is written has a value";
+                    let reason =
+                        "there is no state at which all formulas of the claim have a value";
                     finding.rung(Method::PrimeField, reason.to_string());
                     finding.evidence.silence = Some(reason.to_string());
                 }
             }
         }
         Ok(())
-    }
-
-    /// Evaluates balls over f64 at the other blocks, for claims that the fields did not decide.
-    fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let mut laid_out: Option<(Run, Layout, usize)> = None;
-        for blocks in waves(1..self.blocks()) {
-            let mut left: Vec<_> = open
-                .iter_mut()
-                .filter(|(_, finding)| {
-                    finding.settled.is_none() && !finding.is_nonzero() && !finding.is_zero
-                })
-                .collect();
-            if left.is_empty() {
-                return;
-            }
-            if laid_out.as_ref().is_none_or(|(_, _, count)| *count != left.len()) {
-                let (run, layout) =
-                    self.lay_out(sampler, left.iter().map(|(item, _)| *item), false);
-                laid_out = Some((run, layout, left.len()));
-            }
-            let Some((run, layout, _)) = &laid_out else { return };
-            let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
-            for (block, values) in blocks.zip(values) {
-                let start = block * LANES as u64;
-                for ((_, finding), span) in left.iter_mut().zip(&layout.spans) {
-                    if finding.settled.is_none() {
-                        let existing = layout.existing(&values, span);
-                        let seen = Seen { values: &values, existing: &existing };
-                        self.examine(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
-                    }
-                }
-            }
-        }
     }
 
     /// Evaluates balls in increasing precision, for claims that are still open.

@@ -15,12 +15,14 @@ mod examine;
 mod existence;
 mod field;
 mod finding;
+mod further;
 mod ground;
 mod judge;
 mod ladder;
 mod mutants;
 mod newton;
 mod novelty;
+mod pass;
 mod physics;
 mod point;
 mod recorded;
@@ -29,6 +31,7 @@ mod sampler;
 mod second_opinion;
 mod signs;
 mod state;
+mod statement;
 mod values;
 mod wider;
 mod witness;
@@ -36,12 +39,13 @@ mod witness;
 pub use evidence::{
     ClaimReport, Evidence, Independence, Measurement, Method, Proof, Rung, Sign, Verdict, Witness,
 };
-pub use judge::{CaseReport, JudgeError, Options, Trust, judge};
+pub use judge::{CaseReport, JudgeError, Options, RecordedSize, Trust, judge, recorded_size};
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
 pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
 pub use sampler::{LANES, Sampler};
 pub use state::{StateError, read_state};
+pub use statement::{Composed, Statement, statements};
 pub use values::ClaimsError;
 
 use crate::number::rational::Rational;

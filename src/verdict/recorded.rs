@@ -181,6 +181,7 @@ impl Layout {
 }
 
 /// Positions of a claim's outputs in a tape; outputs that are not needed have an empty range.
+#[derive(Clone)]
 pub struct Span {
     pub residual: Range<usize>,
     pub requirement: Range<usize>,

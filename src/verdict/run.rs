@@ -9,6 +9,8 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::{Domain, Enclosing};
 
 use super::antiderivative_value;
+use super::pass::{Passed, passed};
+use super::recorded::Layout;
 use super::sampler::{LANES, Maker, Sampler};
 
 /// Balls over f64, the first domain of the ladder.
@@ -47,15 +49,18 @@ impl<D: Domain> Values<D> {
     }
 }
 
-/// Largest number of blocks computed together: enough for many threads, few enough to keep.
-const MOST_BLOCKS: u64 = 64;
+/// Largest number of blocks whose values are computed together: enough for many threads, few enough
+/// to keep.
+pub const MOST_KEPT: u64 = 64;
+/// Largest number of blocks that are passed together, of which little is kept.
+pub const MOST_PASSED: u64 = 4096;
 
 /// Divides blocks into waves of increasing length, so that claims decided early cost little.
-pub fn waves(blocks: Range<u64>) -> impl Iterator<Item = Range<u64>> {
+pub fn waves(blocks: Range<u64>, most: u64) -> impl Iterator<Item = Range<u64>> {
     let (mut next, mut length) = (blocks.start, 1);
     std::iter::from_fn(move || {
         let wave = next..blocks.end.min(next + length);
-        (next, length) = (wave.end, MOST_BLOCKS.min(2 * length));
+        (next, length) = (wave.end, most.min(2 * length));
         (!wave.is_empty()).then_some(wave)
     })
 }
@@ -94,15 +99,37 @@ impl Run {
         blocks.into_par_iter().map_init(memory, one).collect()
     }
 
+    /// Passes some blocks of states, on all threads; returns what each block shows of each claim, in
+    /// the order of the blocks, or nothing where the states take more than one run of a tape.
+    pub fn pass(
+        &self,
+        sampler: &Sampler,
+        blocks: Range<u64>,
+        layout: &Layout,
+    ) -> Option<Vec<Vec<Passed>>> {
+        let free = self.free(&Ball::<LANES>);
+        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<LANES>));
+        let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
+            let states: Vec<&Balls<LANES>> = maker.straight(block * LANES as u64)?.collect();
+            evaluator.run(states.iter().copied().chain(&free));
+            Some(passed(&states, evaluator, layout))
+        };
+        blocks.into_par_iter().map_init(memory, one).collect()
+    }
+
+    /// Returns the values of antiderivatives, which are inputs behind the state.
+    fn free<D: Domain>(&self, domain: &D) -> Vec<D::Block> {
+        (0..self.antiderivatives).map(|k| domain.constant(&antiderivative_value(k))).collect()
+    }
+
     fn with<D: Domain>(
         &self,
         evaluator: &mut Evaluator<'_, D>,
         domain: &D,
         states: &[D::Block],
     ) -> Values<D> {
-        let free = (0..self.antiderivatives).map(|k| domain.constant(&antiderivative_value(k)));
-        let inputs: Vec<D::Block> = states.iter().cloned().chain(free).collect();
-        evaluator.run(&inputs);
+        let free = self.free(domain);
+        evaluator.run(states.iter().chain(&free));
         Values { blocks: evaluator.outputs().cloned().collect(), states: states.to_vec() }
     }
 }

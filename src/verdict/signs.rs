@@ -7,7 +7,7 @@ use super::evidence::Sign;
 use super::field::combinations;
 use super::finding::{Finding, undecide};
 use super::recorded::Recorded;
-use super::run::{Run, Values, waves};
+use super::run::{MOST_KEPT, Run, Values, waves};
 use super::sampler::{LANES, Maker, Sampler};
 use crate::claim::Kind;
 use crate::graph::{Expr, Fault};
@@ -63,7 +63,7 @@ impl Bench<'_> {
         let required: Vec<[Range<usize>; 2]> = own.collect();
         let run = self.run(&outputs);
         let mut seen: Vec<Seen> = vec![Seen::default(); required.len()];
-        for blocks in waves(0..self.blocks()) {
+        for blocks in waves(0..self.blocks(), MOST_KEPT) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
             };

@@ -16,7 +16,7 @@ pub enum ClaimsError {
 }
 
 impl Case {
-    /// Judges claims about the case, in place of its own.
+    /// Judges these claims about the case instead of the claims that it has.
     ///
     /// # Errors
     /// A claim does not fit the case, or the case cannot be judged.

@@ -108,7 +108,7 @@ impl Bench<'_> {
                         let confirmed = finding.settled == Some(Verdict::Confirmed);
                         if is_zero && claim.only_there && !folded {
                             let place = place.name(model);
-                            let reason = format!("whether it holds {place} too is not known");
+                            let reason = format!("it is not known whether it also holds {place}");
                             finding.evidence.reason = Some(reason);
                         }
                         folded || (is_zero && confirmed && !claim.only_there)

@@ -140,10 +140,10 @@ fn a_bracket_is_chosen_by_name() {
     let wrong = error(&TODA.replacen("poisson = \"linear\"", "poisson = \"cubic\"", 1));
     assert_eq!(wrong[0].1, "there is no bracket `cubic`");
     let three = TODA.replace("[\"linear\", \"quadratic\"]", "[\"linear\"]");
-    assert_eq!(error(&three)[0].1, "two brackets are compatible, and 1 are given");
+    assert_eq!(error(&three)[0].1, "a claim of compatibility needs two brackets, and 1 are given");
     let mixed =
         TODA.replace("[poisson.linear]", "[poisson]\n\"a,a\" = \"0*hat(b)\"\n[poisson.linear]");
-    assert_eq!(error(&mixed)[0].1, "blocks stand beside brackets with names");
+    assert_eq!(error(&mixed)[0].1, "blocks cannot be mixed with named brackets");
     let empty = TODA.replace("[poisson.quadratic]", "[poisson.none]\n[poisson.quadratic]");
     assert_eq!(error(&empty)[0].1, "the bracket `none` has no block");
 }

@@ -108,7 +108,7 @@ identity = "x² + y² = square"
         "title = 't'\n[parameters]\na = 'b + 1'\nb = 'c'\nc = '2*a'\n[state]\nx = '0..1'\n[field]\n\"x'\" = 'a*b*c'\n",
     );
     assert_eq!(cycle.len(), 1, "{cycle:?}");
-    assert_eq!(cycle[0].1, "`a` is defined by itself: a → b → c → a");
+    assert_eq!(cycle[0].1, "`a` is defined in terms of itself: a → b → c → a");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The program from the user's side: commands, exit codes, JSON, wrong input.
 
+#[path = "cli/limits.rs"]
+mod limits;
 #[path = "cli/motion.rs"]
 mod motion;
 #[path = "cli/orbits.rs"]
@@ -194,7 +196,7 @@ fn names_that_a_file_takes_from_the_system_are_told() {
         let path = folder("hidden", &[("case.toml", &text)]);
         let output =
             liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
-        let told = String::from_utf8_lossy(&output.stdout).contains("has a meaning of its own");
+        let told = String::from_utf8_lossy(&output.stdout).contains("already has a meaning here");
         assert_eq!(told, warned, "{taken}");
     }
 }
@@ -221,6 +223,30 @@ fn the_tables_come_out_of_the_catalogue() {
             }
         }
         liouville(&["table", number]).assert().code(0).stdout(contains("proved"));
+    }
+}
+
+#[test]
+fn claims_are_selected_by_what_they_state() {
+    let text = GOOD
+        .replace("title", "source = \"BMB 2013, §3.4\"\ntitle")
+        .replace("integral =", "source = \"(3.18), Theorem 2.2\"\nintegral =");
+    let path = folder("labels", &[("good.toml", &text)]);
+    let path = path.to_str().expect("UTF-8");
+    let found = |labels: &[&str]| {
+        let options: Vec<&str> = labels.iter().flat_map(|label| ["--source", label]).collect();
+        let report = json(&[&["check", "--json", path], options.as_slice()].concat(), 0);
+        report["summary"]["claims"].as_u64()
+    };
+    assert_eq!(found(&["§3.4"]), Some(2), "a label of the case is one of its claims");
+    assert_eq!(found(&["(3.18)"]), Some(1), "an equation");
+    assert_eq!(found(&["Theorem ?.2"]), Some(1), "a pattern");
+    assert_eq!(found(&["(9.9)", "Theorem 2.2"]), Some(1), "one of several");
+    for label in ["(3.1", "Theorem 2"] {
+        liouville(&["check", path, "--source", label])
+            .assert()
+            .code(2)
+            .stderr(contains(format!("no claim has a name or source like `{label}`")));
     }
 }
 

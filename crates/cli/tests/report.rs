@@ -231,21 +231,21 @@ fn every_format_is_sound_and_the_same_each_time() {
         let (first, again) = (surveyed(&text), surveyed(&text));
         let case = Case::parse(&text, &[]).expect("a case");
         let motion = |threads| portrait(&case, 1, threads);
-        let page = written::html(&first, motion(1).as_ref());
+        let page = written::html(&first, "x", motion(1).as_ref());
         assert_well_formed(&page);
         assert!(!page.contains("<script") && !page.contains(" src="), "nothing from outside");
         assert!(page.contains("<math") && page.contains("<svg"), "formulas and pictures");
-        assert_eq!(page, written::html(&again, motion(3).as_ref()), "the page of {path}");
+        assert_eq!(page, written::html(&again, "x", motion(3).as_ref()), "the page of {path}");
         let has_section = page.contains("Poincaré section g = ");
         assert_eq!(has_section, path.contains("-ball"), "a section, or why there is none: {path}");
         let json = written::json(&first).expect("JSON");
         assert_eq!(json, written::json(&again).expect("JSON"), "the JSON of {path}");
-        let latex = written::latex(&first);
+        let latex = written::latex(&first, "x");
         let count = |text: &str| latex.matches(text).count();
         assert_eq!(count("{") - count("\\{"), count("}") - count("\\}"), "braces of {path}");
         assert_eq!(count("\\left("), count("\\right)"), "brackets of {path}");
         assert_eq!(count("\\begin{"), count("\\end{"), "environments of {path}");
-        let markdown = written::markdown(&first);
+        let markdown = written::markdown(&first, "x");
         assert_eq!(
             markdown.matches("<details>").count(),
             markdown.matches("</details>").count(),

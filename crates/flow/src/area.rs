@@ -2,8 +2,8 @@
 //!
 //! The Andoyer variables are canonical on |γ| = 1, (ω,γ) = 0 up to a constant: the volume there is
 //! dL∧dG∧dl∧dg. With z = L/G and E = G²T + U a density ρ gives the area form ρ |g'|/(2T) dl∧dz on a
-//! section g = g₀ of a level of the energy. The map Φ keeps it where |det dΦ| carries the factor at x
-//! into that at Φ(x).
+//! section g = g₀ of a level of the energy. The map Φ preserves it where |det dΦ| takes the factor
+//! at x to that at Φ(x).
 
 use super::error::FlowError;
 use super::motion::point;

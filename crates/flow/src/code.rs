@@ -287,7 +287,7 @@ impl<T: Number> Code<T> {
         });
     }
 
-    /// Binds the rows of a sum, the latest made at the end: they are waited for.
+    /// Binds the rows of a sum, those computed last at the end, as they become available last.
     fn bind_sum(&mut self, layout: &Layout, instruction: &Instruction) -> (Part, Part) {
         let form = &instruction.form;
         let factors = form.products.iter().flat_map(|(_, x, y)| [*x, *y]);

@@ -12,7 +12,7 @@ pub enum FlowError {
     /// The field contains an antiderivative, whose value is not known.
     #[error("the field contains ∫, whose value is not determined")]
     Antiderivative,
-    /// The steps become too small, or values are no longer finite.
+    /// The steps become too small, or values become infinite or undefined.
     #[error("{}", singular(*time, state))]
     Singular {
         /// Time of the last state.

@@ -30,9 +30,9 @@ pub struct Estimate {
 pub enum Character {
     /// No positive exponent: periodic, quasiperiodic, or attracted to such a motion.
     Regular,
-    /// A positive exponent; volume is kept on average.
+    /// A positive exponent; volume is preserved on average.
     ConservativeChaos,
-    /// A positive exponent; the divergence does not keep one sign.
+    /// A positive exponent; the divergence changes sign.
     DissipativeChaos,
     /// A positive exponent; volume grows in time: the attractor of the reversed motion.
     StrangeRepeller,
@@ -88,7 +88,7 @@ pub struct Exponents {
 
 impl Exponents {
     /// Class of a motion that was followed in both directions of time: chaos is conservative where
-    /// volume is kept either way.
+    /// volume is preserved either way.
     pub fn class(&self, backward: &Exponents) -> Character {
         use Character::{ConservativeChaos, DissipativeChaos, StrangeAttractor};
         if self.character != ConservativeChaos {

@@ -3,7 +3,7 @@
 //! On the level (γ,γ) is 1, and a ball's r' is -Rγ': such relations are found modulo a prime at a
 //! few states of the level, and their factors computed exactly at one of them. The level functions
 //! stay integrals near the level for any values of r, Ĩ and the torques: γ' is orthogonal to γ, and
-//! the multiplier keeps (ω,γ).
+//! the multiplier preserves (ω,γ).
 
 use std::cell::RefCell;
 

@@ -50,7 +50,7 @@ pub trait Number:
     fn pair(self) -> Pair;
     /// Splits a pair into a number in all lanes and the rounding remainder.
     fn split(value: Pair) -> (Self, Self);
-    /// Returns self + x y, to be settled after the last term.
+    /// Returns self + x y, to be normalised after the last term.
     fn fused(self, x: Self, y: Self) -> Self;
     /// Normalises a sum after its last term.
     #[inline(always)]

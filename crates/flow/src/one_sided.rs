@@ -1,7 +1,7 @@
 //! Motion under a one-sided constraint r(x) ≥ 0: free phases and phases of contact.
 //!
 //! The motion is free while r > 0. It comes into contact where r falls through 0, and then obeys
-//! the field of contact, which keeps r = 0, as long as the reaction λ is not negative; where λ
+//! the field of contact, which preserves r = 0, as long as the reaction λ is not negative; where λ
 //! falls through 0 it is free again. A minimum of r that is 0 up to rounding is reported as
 //! grazing, not as contact.
 

@@ -40,7 +40,7 @@ pub struct PeriodicPoint {
     pub derivative: [[f64; 2]; 2],
     /// Trace of the derivative, the sum of the multipliers.
     pub trace: f64,
-    /// Determinant of the derivative, the product of the multipliers: 1 where an area is kept, and
+    /// Determinant of the derivative, the product of the multipliers: 1 where an area is preserved, and
     /// for symmetric points.
     pub determinant: f64,
 }

@@ -82,6 +82,8 @@ fn energy(case: &Case, seed: u64) -> Result<Rational, FlowError> {
     let is_level = high - low <= f64::EPSILON * high.abs();
     let above = if is_level { high + 1.0 } else { high + ABOVE * (high - low) };
     // Two digits are enough, rounded up.
-    let unit = libm::pow(10.0, libm::floor(libm::log10(above.abs().max(1e-300))) - 1.0);
-    Rational::from_f64(libm::ceil(above / unit) * unit).ok_or(FlowError::NoStart)
+    let exponent = libm::floor(libm::log10(above.abs().max(1e-300))) - 1.0;
+    let count = libm::ceil(above / libm::pow(10.0, exponent));
+    // exact, so that it prints as a short decimal
+    format!("{count:.0}e{exponent:.0}").parse().map_err(|_| FlowError::NoStart)
 }

@@ -140,7 +140,7 @@ impl<'w> Worker<'w> {
         }
     }
 
-    /// Puts a motion and its shadow into two lanes; one without a start is finished at once.
+    /// Puts a motion and its shadow into two lanes; one without a start ends immediately.
     fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn() + Sync)) {
         let Begin { state, loose } = match &self.begins[index] {
             Ok(begin) => begin,

@@ -140,7 +140,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
         }
     }
 
-    /// Puts a motion into a lane; one without a start is finished at once.
+    /// Puts a motion into a lane; one without a start ends immediately.
     fn fill(&mut self, lane: usize, index: usize, progress: &(dyn Fn() + Sync)) {
         match &self.task.begins[index] {
             Ok(begin) => {

@@ -156,7 +156,7 @@ fn a_fixed_parameter_has_no_limit() {
 #[test]
 fn wrong_input_is_refused_in_its_words() {
     let wrong = [
-        ("exponent = \"large\"\nstart = [1, 0]\ntime = 10", "is not what can be claimed"),
+        ("exponent = \"large\"\nstart = [1, 0]\ntime = 10", "cannot be claimed here"),
         ("exponent = \"zero\"\nstart = [1, 0]", "has no `time`"),
         ("exponent = \"zero\"\nstart = [1, 0]\ntime = -1", "cannot be followed"),
         ("exponent = \"zero\"\ntime = 10", "has no `start`"),
@@ -170,7 +170,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is not a count"),
         ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "not a part of the section"),
         ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is not a share"),
-        ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
+        ("contacts = [\"grazes at 2\"]\ntime = 10", "is not an event"),
     ];
     for (claim, message) in wrong {
         let found = ball(claim).err().unwrap_or_else(|| panic!("accepted: {claim}"));

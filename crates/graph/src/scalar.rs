@@ -55,6 +55,32 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     fn literally<R>(build: impl FnOnce() -> R) -> R {
         build()
     }
+
+    /// Whether the value is 0 by its form, so that a recording has no operation for it.
+    fn is_absent(&self) -> bool {
+        false
+    }
+
+    /// Computes the partial derivatives of values that are not 0 by their form, each with the place
+    /// of its variable, in one sweep a value.
+    ///
+    /// `None` where the scalar does not know how its values were made, or the variables are not free
+    /// inputs of the recording; dual numbers do it then.
+    fn gradients_of(_: &[Self], _: &[Self]) -> Option<Vec<Vec<(usize, Self)>>> {
+        None
+    }
+
+    /// Computes the derivatives of values along a direction of the variables, in one sweep; `None`
+    /// as for [`gradients_of`](Scalar::gradients_of).
+    fn derivatives_along(_: &[Self], _: &[Self], _: &[Self]) -> Option<Vec<Self>> {
+        None
+    }
+
+    /// Computes ∂yᵢ/∂xᵢ of values y and variables x, in one sweep a value; `None` as for
+    /// [`gradients_of`](Scalar::gradients_of).
+    fn diagonal_of(_: &[Self], _: &[Self]) -> Option<Vec<Self>> {
+        None
+    }
 }
 
 impl Scalar for f64 {
@@ -121,6 +147,10 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn literally<R>(build: impl FnOnce() -> R) -> R {
         T::literally(build)
+    }
+
+    fn is_absent(&self) -> bool {
+        self.re.is_absent() && self.eps.is_absent()
     }
 }
 

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
+use super::budget::STEPS;
 use super::jets::{self, Asked, Count};
 use super::local::Local;
 use super::products::Generators;
@@ -15,9 +16,6 @@ use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
-
-/// Lower bound on the elementary steps of an elimination per second.
-const STEPS: f64 = 1e9;
 
 /// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -43,7 +41,7 @@ pub struct CountReport {
 pub struct Plan {
     /// Number of unknowns of the largest system.
     pub unknowns: u64,
-    /// Bound on the total time in seconds.
+    /// Least time to set up all systems, in seconds.
     pub seconds: f64,
     /// Bound on the memory of the largest system.
     pub megabytes: u64,
@@ -128,12 +126,12 @@ impl<'c> Motion<'c> {
             let (unknowns, seconds) = size(first, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
             progress(&format!(
-                "integrals of degree {degree}: {unknowns} unknowns, at most {seconds:.0} s and {} MB",
+                "integrals of degree {degree}: {unknowns} unknowns, at least {seconds:.1} s and at most {} MB",
                 megabytes(unknowns)
             ));
             if seconds > effort.seconds {
                 report.remark(format!(
-                    "degree {degree} was not counted: {unknowns} unknowns may take {seconds:.0} s; raise --seconds"
+                    "degree {degree} was not counted: {unknowns} unknowns take {seconds:.0} s and more; raise --seconds"
                 ));
                 return Ok(());
             }
@@ -149,6 +147,10 @@ impl<'c> Motion<'c> {
                 Ok(count) => report.counts.push(count),
                 Err(SearchError::Stopped) => {
                     report.unreached.push(format!("integrals of degree {degree} and more"));
+                    return Ok(());
+                }
+                Err(error @ (SearchError::Long { .. } | SearchError::Large { .. })) => {
+                    report.remark(format!("degree {degree} was not counted: {error}"));
                     return Ok(());
                 }
                 Err(error) => {
@@ -228,14 +230,18 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
     combinations
 }
 
-/// Estimates the number of unknowns and bounds the time in seconds.
+/// Estimates the number of unknowns, and the least time in seconds to set up their equations: what
+/// the elimination takes beyond that depends on how sparse it stays, and is limited while it runs.
 pub fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
     let (positions, velocities) =
         (local.coordinates.positions as u32, local.coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
     let powers: u64 = if mixed { (0..=degree).map(powers).sum() } else { powers(degree) };
-    let unknowns = powers * binomial(2 * degree + 3 + positions, positions);
-    (unknowns, (unknowns as f64).powi(3) / STEPS)
+    let monomials = binomial(2 * degree + 3 + positions, positions);
+    let unknowns = powers.saturating_mul(monomials);
+    // All pairs of monomials are listed, and each unknown meets all terms of the rates.
+    let steps = (monomials as f64 + unknowns as f64) * monomials as f64;
+    (unknowns, steps / STEPS)
 }
 
 fn binomial(n: u32, k: u32) -> u64 {

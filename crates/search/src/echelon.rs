@@ -7,39 +7,91 @@ pub struct Echelon {
     modulus: Modulus,
     /// Row by pivot column, with 1 at its pivot and 0 before it.
     rows: Vec<Option<Vec<u64>>>,
+    /// Columns behind the pivot in which the row is not 0, by pivot column; rows stay sparse for
+    /// long.
+    others: Vec<Box<[u32]>>,
+    /// Number of entries looked at so far.
+    steps: u64,
+    /// Number of rows kept.
+    rank: usize,
 }
 
 impl Echelon {
     /// Makes an echelon form without rows.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
-        Self { modulus, rows: vec![None; columns] }
+        Self {
+            modulus,
+            rows: vec![None; columns],
+            others: vec![Box::default(); columns],
+            steps: 0,
+            rank: 0,
+        }
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
+    ///
+    /// Entries are sums of products that are reduced when they are needed, or when a further product
+    /// might not fit: that takes one multiplication a product instead of three.
     pub fn push(&mut self, mut row: Vec<u64>) -> bool {
         let m = self.modulus;
+        let mut wide: Vec<u128> = row.iter().map(|entry| m.widened(*entry)).collect();
+        let (mut pending, most) = (0, m.most_products());
+        self.steps += row.len() as u64;
         for column in 0..row.len() {
-            if row[column] == 0 {
+            if wide[column] == 0 {
                 continue;
             }
+            let entry = m.reduced(wide[column]);
+            if entry == 0 {
+                continue;
+            }
+            let others = &self.others[column];
+            self.steps += others.len() as u64 + 1;
             match &self.rows[column] {
                 Some(pivot) => {
-                    let factor = m.sub(0, row[column]);
-                    for (entry, pivot) in row[column..].iter_mut().zip(&pivot[column..]) {
-                        if *pivot != 0 {
-                            *entry = m.add(*entry, m.mul(factor, *pivot));
-                        }
+                    if pending == most {
+                        let behind = wide[column..].iter_mut().filter(|entry| **entry != 0);
+                        behind.for_each(|entry| *entry = m.widened(m.reduced(*entry)));
+                        pending = 0;
+                    }
+                    pending += 1;
+                    let factor = u128::from(m.sub(0, entry));
+                    for other in others {
+                        let other = *other as usize;
+                        let product = factor.wrapping_mul(u128::from(pivot[other]));
+                        wide[other] = wide[other].wrapping_add(product);
                     }
                 }
                 None => {
-                    let inverse = m.inverse(row[column]);
-                    row[column..].iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
+                    let inverse = m.inverse(entry);
+                    let mut others = Vec::new();
+                    row[..column].fill(0);
+                    for (other, (entry, wide)) in row.iter_mut().zip(&wide).enumerate().skip(column)
+                    {
+                        *entry = m.mul(m.reduced(*wide), inverse);
+                        if *entry != 0 && other > column {
+                            others.push(other as u32);
+                        }
+                    }
+                    self.others[column] = others.into();
                     self.rows[column] = Some(row);
+                    self.rank += 1;
                     return true;
                 }
             }
         }
         false
+    }
+
+    /// Number of entries that were looked at while rows were added: the work of the elimination,
+    /// the same on every machine.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Number of bytes that the rows take.
+    pub fn bytes(&self) -> u64 {
+        (self.rank * self.rows.len() * (size_of::<u64>() + size_of::<u32>())) as u64
     }
 
     /// Iterates over the independent rows, reduced by those before them.

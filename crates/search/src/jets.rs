@@ -11,11 +11,12 @@
 use crate::streams::Stream;
 use rustc_hash::FxHashMap;
 
+use super::budget::Budget;
 use super::echelon::Echelon;
 use super::expansion::{Expansion, Taylor};
 use super::local::Local;
 use super::series::exponents;
-use super::{Effort, Halt, SearchError};
+use super::{Effort, SearchError};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 
@@ -82,13 +83,37 @@ fn count_to_order(
         let parameters = local.parameters(&modulus, &mut chance);
         let positions = taylor.positions(&mut chance);
         if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
+            let budget = Budget::of(effort);
+            let (unknowns, entries) = extent(&expansion, &taylor, asked);
+            budget.admits(unknowns, entries)?;
             let system = Equations::of(&expansion, &taylor, asked, weight);
-            let dimension = system.dimension(&system.solved(&effort.halt)?.0);
+            let dimension = system.dimension(&system.solved(&budget)?.0);
             let size = (system.columns.len(), system.rows.len());
             return Ok(Count { dimension, size });
         }
     }
     Err(SearchError::NoSeries)
+}
+
+/// Number of unknowns of the equations, and an estimate of the number of their entries, by the degrees
+/// of the terms that are not 0.
+fn extent(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked) -> (usize, f64) {
+    let order = taylor.order as usize;
+    let monomials = taylor.series.monomials();
+    let degrees: Vec<usize> = monomials.iter().map(|m| m.iter().sum::<u32>() as usize).collect();
+    // Terms of the rates by degree: one may lower the degree of what it is multiplied by.
+    let mut terms = vec![0.0; order + 1];
+    let rates = expansion.positions.iter().chain(&expansion.velocities).flatten();
+    for (_, coefficients) in rates {
+        let present = degrees.iter().zip(coefficients).filter(|(_, value)| **value != 0);
+        present.for_each(|(degree, _)| terms[(*degree).min(order)] += 1.0);
+    }
+    let met = |degree: usize| terms.iter().take((order + 1).saturating_sub(degree)).sum::<f64>();
+    let velocities = taylor.local.coordinates.velocities;
+    let lowest = if asked.mixed { 0 } else { asked.degree };
+    let powers: usize = (lowest..=asked.degree).map(|n| exponents(velocities, n).len()).sum();
+    let entries: f64 = degrees.iter().map(|degree| met(*degree)).sum();
+    (powers * monomials.len(), powers as f64 * entries)
 }
 
 /// Linear equations for the Taylor coefficients of the C_a.
@@ -115,11 +140,11 @@ impl Equations {
     }
 
     /// Brings all equations into echelon form; returns it with the keys of the independent rows.
-    pub fn solved(&self, halt: &Halt) -> Result<(Echelon, Vec<RowKey>), SearchError> {
+    pub fn solved(&self, budget: &Budget<'_>) -> Result<(Echelon, Vec<RowKey>), SearchError> {
         let mut echelon = Echelon::new(self.columns.len(), self.modulus);
         let mut keys = Vec::new();
         for (key, row) in self.rows() {
-            halt.check()?;
+            budget.check(&echelon)?;
             if echelon.push(row) {
                 keys.push(key.clone());
             }

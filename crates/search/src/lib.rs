@@ -7,13 +7,14 @@
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
-//! absence    a claim that there is no other invariant: proved by counts, refuted by a find
+//! absence    claims that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
 mod absence;
 mod ansatz;
 mod ask;
 mod branches;
+mod budget;
 mod conditions;
 mod counts;
 mod densities;
@@ -44,7 +45,7 @@ use liouville::graph::Fault;
 use liouville::mechanics::{Meaning, Model};
 use liouville::verdict::{ClaimReport, Evidence, JudgeError, Options, Verdict};
 
-pub use absence::judge;
+pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{Condition, Wanted};
 pub use counts::{CountReport, Plan, plan};
@@ -78,10 +79,26 @@ pub enum SearchError {
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
     /// The count did not become stable.
-    #[error("the number of integrals of degree {0} did not settle: there may be infinitely many")]
+    #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
+    /// The elimination takes more steps than the effort allows.
+    #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
+    Long {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// Limit that was reached.
+        seconds: f64,
+    },
+    /// The elimination takes more memory than the effort allows.
+    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
+    Large {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// Limit that was reached.
+        megabytes: u64,
+    },
     /// The system is a map.
-    #[error("the case is a map, and invariants are searched for of flows")]
+    #[error("the case is a map, and a search needs a flow")]
     Discrete,
     /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
@@ -96,10 +113,10 @@ pub enum SearchError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// The candidate is not a valid claim for this case.
-    #[error("a find cannot be claimed of the case: {0}")]
+    #[error("the candidate is not a valid claim for this case: {0}")]
     Unfit(#[from] ClaimError),
     /// A formula cannot be made of others.
-    #[error("a find cannot be written: {0}")]
+    #[error("the formula of a candidate cannot be written: {0}")]
     Unwritten(#[from] FormulaError),
     /// Judging failed.
     #[error(transparent)]
@@ -109,8 +126,10 @@ pub enum SearchError {
 impl SearchError {
     /// Whether the error concerns counts only, and not the rest of a search.
     fn is_of_count(&self) -> bool {
-        use SearchError::{NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
-        matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+        use SearchError::{Large, Long, NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        let is_costly = matches!(self, Long { .. } | Large { .. });
+        is_costly
+            || matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
     }
 
     /// Suggests a remedy.
@@ -121,7 +140,15 @@ impl SearchError {
             SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
             SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
-            _ => "see docs/writing-a-case.md",
+            SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
+            SearchError::NoSeries | SearchError::NoPoints => {
+                "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
+                 the cosine of φ"
+            }
+            SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::NotSpanned => {
+                "search with --ansatz=4, which needs no velocities"
+            }
+            _ => "`liouville check` judges what you claim by hand",
         }
     }
 }

@@ -241,7 +241,7 @@ fn what_takes_no_forces_is_told_so() {
     let mut wanted = effort(1);
     (wanted.ansatz.potentials, wanted.ansatz.gyrostats) = (true, true);
     let report = searched("surface/ellipsoid", &wanted);
-    for what in ["no potential", "no rotor"] {
+    for what in ["no search for potentials", "no search for rotors"] {
         assert!(report.remarks.iter().any(|one| one.starts_with(what)), "{:?}", report.remarks);
     }
 }

@@ -84,7 +84,7 @@ impl ModelBuilder {
         let given = range.given(&self.vocabulary);
         let given = given.map_err(|message| ClaimError::new(name, message, remedy))?;
         let Some((kind, draws)) = state_draws(&given) else {
-            let message = "a state variable needs the range that its values are drawn from";
+            let message = "a state variable needs a range from which its values are drawn";
             return Err(ClaimError::new(name, message, remedy));
         };
         if let ValueSpec::Text(text) = range {
@@ -101,7 +101,7 @@ impl ModelBuilder {
         right: &FormulaSource,
     ) -> Result<(), ClaimError> {
         if self.build != Build::Field {
-            let message = "the level set of this system is known";
+            let message = "the level set of this system is fixed";
             return Err(ClaimError::new("level", message, "leave the equation out"));
         }
         let scalar = Some(Type::Scalar);
@@ -138,7 +138,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Reads a formula in the names so far, and checks its type and what it depends on.
+    /// Reads a formula in the names declared so far, and checks its type and dependence.
     pub(super) fn read(
         &self,
         what: &str,

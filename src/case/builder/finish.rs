@@ -1,4 +1,4 @@
-//! The case that the declarations make.
+//! Construction of the case from its declarations.
 
 use super::super::value::FormulaSource;
 use super::super::{Case, ClaimError, build, shadows};
@@ -13,7 +13,7 @@ impl ModelBuilder {
     /// Builds the case.
     ///
     /// # Errors
-    /// The first mistake in what was declared, or what is missing.
+    /// The first mistake in a declaration, or the first missing declaration.
     pub fn build(mut self) -> Result<Case, ClaimError> {
         if let Some(error) = self.error.take() {
             return Err(error);
@@ -70,6 +70,7 @@ impl ModelBuilder {
             one_sided: None,
             notes: Vec::new(),
             warnings,
+            remarks: Vec::new(),
         };
         build::extend_support(&mut case.model);
         let is_open = |equation: &&LevelEquation| match &equation.function {
@@ -80,7 +81,7 @@ impl ModelBuilder {
         match open {
             None => Ok(case),
             Some(text) => {
-                let message = "a level equation has no ∫ in it: its constant is open";
+                let message = "a level equation cannot contain ∫, whose constant is open";
                 Err(ClaimError::new(&text, message, "write the antiderivative out"))
             }
         }
@@ -109,7 +110,7 @@ impl ModelBuilder {
         }
     }
 
-    /// Symbols of whole numbers that sizes contain.
+    /// Returns the symbols of whole numbers that occur in sizes.
     fn fixed(&self) -> Vec<Symbol> {
         let names = self.sizes.iter().flat_map(|text| names_in(text));
         let whole = |name: String| {
@@ -123,7 +124,7 @@ impl ModelBuilder {
         self.parts.iter().find(|(own, _)| *own == part).map(|(_, source)| source)
     }
 
-    /// Reads a constant of the body, or the parameter that stands for it.
+    /// Reads a constant of the body, or the parameter that represents it.
     fn constant(&self, part: Part, name: &str, kind: Type) -> Result<Formula, ClaimError> {
         let default = FormulaSource::from(name);
         let source = self.source(part).unwrap_or(&default);

@@ -14,7 +14,7 @@ pub use no_integral::NoIntegral;
 pub trait Absent: Clone {
     /// Key in case files, and name in reports.
     const NAME: &'static str;
-    /// Degrees that are allowed.
+    /// Allowed degrees.
     const DEGREES: std::ops::RangeInclusive<u32>;
 
     /// Makes the claim for a degree.
@@ -54,7 +54,7 @@ pub enum Absence {
 pub const ABSENCES: &[&str] = &[NoIntegral::NAME, NoDensity::NAME];
 
 impl Absence {
-    /// Reads the statement that stands under `key`, one of [`ABSENCES`].
+    /// Reads the statement of `key`, one of [`ABSENCES`].
     pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
         match key {
             NoIntegral::NAME => Some(NoIntegral::read(from).map(Absence::NoIntegral)),

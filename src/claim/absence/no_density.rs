@@ -6,8 +6,8 @@ use super::Absent;
 /// exp P if P is a polynomial in all state variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoDensity {
-    /// Degree in the velocities, or in all state variables if velocities cannot be told from
-    /// positions.
+    /// Degree in the velocities, or in all state variables if velocities and positions cannot be
+    /// distinguished.
     pub degree: u32,
 }
 

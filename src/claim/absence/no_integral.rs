@@ -6,8 +6,8 @@ use super::Absent;
 /// and the integrals that the file claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoIntegral {
-    /// Degree in the velocities, or in all state variables if velocities cannot be told from
-    /// positions.
+    /// Degree in the velocities, or in all state variables if velocities and positions cannot be
+    /// distinguished.
     pub degree: u32,
 }
 

@@ -22,7 +22,7 @@ impl Beginning {
             (None, Some(state)) => Ok(Beginning::State(state)),
             (None, None) => Err(from.missing("start")),
             (Some(_), Some(_)) => {
-                let message = "a motion has one start, and this one two".to_string();
+                let message = "a motion has one start, and two are given".to_string();
                 Err(from.complaint("state", message, "remove `start` or `state`"))
             }
         }

@@ -34,7 +34,7 @@ impl Motional for Contacts {
             Some(("arrives", when)) => Ok((Touch::Arrives, stated(from, Self::NAME, when)?)),
             Some(("leaves", when)) => Ok((Touch::Leaves, stated(from, Self::NAME, when)?)),
             _ => {
-                let message = format!("`{text}` is nothing that happens at a constraint");
+                let message = format!("`{text}` is not an event at a constraint");
                 let remedy = "write \"arrives at 2.928\" or \"leaves at 3.815\"";
                 Err(from.complaint(Self::NAME, message, remedy))
             }

@@ -131,7 +131,7 @@ fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, 
         texts.iter().map(|text| stated(from, key, text)).collect::<Result<Vec<_>, _>>()?;
     let count = numbers.len();
     <[Stated; 2]>::try_from(numbers).map(Some).map_err(|_| {
-        let message = format!("a point of the section has two coordinates, and this one {count}");
+        let message = format!("a point of the section has two coordinates, not {count}");
         from.complaint(key, message, "write [l, L/G]")
     })
 }
@@ -145,7 +145,7 @@ fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Err
     match text.parse() {
         Ok(count) if (1..=MOST).contains(&count) => Ok(Some(count)),
         Ok(1..) => {
-            let message = format!("`{text}` is beyond all that can be followed");
+            let message = format!("`{text}` is too large");
             Err(from.complaint(key, message, &format!("write a number up to {MOST}")))
         }
         _ => Err(from.complaint(key, format!("`{text}` is not a count"), "write 1, 2, 3, …")),
@@ -175,7 +175,7 @@ fn word<R: Reader, T: Copy>(
         Some((_, meaning)) => Ok(Some(*meaning)),
         None => {
             let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-            let message = format!("`{text}` is not what can be claimed here");
+            let message = format!("`{text}` cannot be claimed here");
             Err(from.complaint(key, message, &format!("write {}", known.join(" or "))))
         }
     }

@@ -1,4 +1,4 @@
-//! Values that a function has at a time of a motion, proved by enclosures.
+//! Values of a function at a time of a motion, proved by enclosures.
 
 use super::{Beginning, Motional, time};
 use crate::claim::Reader;
@@ -9,13 +9,13 @@ use crate::formula::{Formula, Type};
 pub struct Reaches {
     /// Function of the state.
     pub function: Formula,
-    /// Bound that it lies above.
+    /// Lower bound, exclusive.
     pub above: Option<Formula>,
-    /// Bound that it lies below.
+    /// Upper bound, exclusive.
     pub below: Option<Formula>,
-    /// State at which the motion begins.
+    /// Start of the motion.
     pub beginning: Beginning,
-    /// Time after which the function is asked for.
+    /// Time at which the function is evaluated.
     pub time: f64,
 }
 

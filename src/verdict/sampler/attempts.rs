@@ -9,7 +9,7 @@ use super::{LANES, Sampler};
 
 /// Number of draws tried for a state that has to lie in given ranges.
 const ATTEMPTS: u32 = 64;
-/// Bits in which a state that f64 cannot decide is looked at.
+/// Precision in bits for states that f64 cannot decide.
 const EXACT_BITS: u32 = 256;
 
 impl Sampler {

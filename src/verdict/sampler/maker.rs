@@ -13,7 +13,12 @@ impl Sampler {
 
     /// Makes a reusable source of many blocks of balls.
     pub(in crate::verdict) fn maker(&self) -> Maker<'_> {
-        Maker { sampler: self, evaluator: Evaluator::new(&self.tape, Ball::<LANES>) }
+        let blank = Balls::new([f64::NAN; LANES], [f64::NAN; LANES]);
+        Maker {
+            sampler: self,
+            evaluator: Evaluator::new(&self.tape, Ball::<LANES>),
+            columns: vec![blank; self.draws.len()],
+        }
     }
 }
 
@@ -21,6 +26,8 @@ impl Sampler {
 pub struct Maker<'s> {
     sampler: &'s Sampler,
     evaluator: Evaluator<'s, Ball<LANES>>,
+    /// Draws of the last block.
+    columns: Vec<Balls<LANES>>,
 }
 
 impl Maker<'_> {
@@ -34,14 +41,31 @@ impl Maker<'_> {
         self.made(start, Some(sets))
     }
 
+    /// Computes parameters and state of the states `start..start + LANES` where that takes no
+    /// attempts and no steps of Newton's method, and returns them without a copy.
+    pub fn straight(&mut self, start: u64) -> Option<impl Iterator<Item = &Balls<LANES>>> {
+        if self.sampler.is_guarded || self.sampler.newton.is_some() {
+            return None;
+        }
+        self.sampler.draws.fill(self.sampler.seed, start, &mut self.columns);
+        self.evaluator.run(&self.columns);
+        Some(self.evaluator.outputs())
+    }
+
     fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<LANES>> {
         let sampler = self.sampler;
         let attempts = sampler.attempts(start, LANES, sets);
-        let lanes: [Vec<(f64, bool)>; LANES] =
-            std::array::from_fn(|lane| sampler.nearest(start + lane as u64, attempts[lane], sets));
-        let column = |k: usize| Balls::about(|lane| lanes[lane][k]);
-        let columns: Vec<Balls<LANES>> = (0..self.sampler.draws.len()).map(column).collect();
-        self.evaluator.run(&columns);
+        if sets.is_none() && attempts.iter().all(|attempt| *attempt == 0) {
+            sampler.draws.fill(sampler.seed, start, &mut self.columns);
+        } else {
+            let lanes: [Vec<(f64, bool)>; LANES] = std::array::from_fn(|lane| {
+                sampler.nearest(start + lane as u64, attempts[lane], sets)
+            });
+            for (k, column) in self.columns.iter_mut().enumerate() {
+                *column = Balls::about(|lane| lanes[lane][k]);
+            }
+        }
+        self.evaluator.run(&self.columns);
         let mut values: Vec<Balls<LANES>> = self.evaluator.outputs().cloned().collect();
         if let Some(newton) = &self.sampler.newton {
             newton.project(&mut values);

@@ -62,9 +62,8 @@ fn list(words: &[String]) -> Result<String, String> {
     }
     match out.is_empty() {
         true => Err(format!(
-            "error: no case contains {}\nhelp: `liouville cases list` lists all {}",
-            words.join(" and "),
-            CATALOGUE.len()
+            "error: no case contains {}\nhelp: `liouville cases list` lists all of them",
+            words.join(" and ")
         )),
         false => Ok(out),
     }

@@ -2,48 +2,94 @@
 
 use std::io::IsTerminal;
 
-use liouville::case::Case;
-use liouville::verdict::{CaseReport, JudgeError, Options};
+use liouville::case::{Case, Column, is_labelled, labels, matches};
+use liouville::verdict::Options;
 use liouville_cli::report::terminal::{Detail, Style};
 use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
-use super::files::Judge;
-use super::{Answer, Check, CheckFormat, colour, files, width};
+use super::judging::{Work, judge};
+use super::{Answer, Check, CheckFormat, certificates, colour, width};
 
-/// Judge of cases, including the claims of absence, and those about motion where requested.
-fn judge(options: &Check) -> Judge {
-    if options.motion { with_motions } else { liouville_search::judge }
+/// Claims that were asked for, by name or source and by label.
+#[derive(Clone)]
+struct Wanted {
+    claims: Vec<String>,
+    sources: Vec<String>,
 }
 
-fn with_motions(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
-    let mut report = liouville_search::judge(case, options)?;
-    report.claims.extend(liouville_flow::observe::observe(case, options));
-    report.motions_left = 0;
-    Ok(report)
+impl Wanted {
+    fn is_everything(&self) -> bool {
+        self.claims.is_empty() && self.sources.is_empty()
+    }
+
+    /// Whether a claim is meant, given the source and the column of its case.
+    fn takes(&self, own: &Own<'_>, case: &str, column: Option<&Column>) -> bool {
+        let mut claims = self.claims.iter();
+        let is_named =
+            self.claims.is_empty() || claims.any(|wanted| is_meant(own.name, own.source, wanted));
+        // A label of the case is one of all its claims.
+        let labels = [labels(own.source, column, own.cell), labels(case, None, None)].concat();
+        let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
+        is_named && (self.sources.is_empty() || self.sources.iter().any(is_wanted))
+    }
+
+    /// Removes what need not be judged: other claims of a case may matter to those that are meant,
+    /// but motions take minutes and do not.
+    fn prepare(&self, case: &mut Case) {
+        let (whole, column) = (case.source.clone(), case.column.clone());
+        let takes = |name: &str, source: &str, cell: Option<&str>| {
+            self.takes(&Own { name, source, cell }, &whole, column.as_ref())
+        };
+        case.motions.retain(|own| takes(&own.name, &own.source, None));
+        let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let mut absences = case.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
+        let is_meant = |(name, source, cell): (&String, &String, &Option<String>)| {
+            takes(name, source, cell.as_deref())
+        };
+        if !claims.any(is_meant) && !absences.any(is_meant) {
+            case.claims.clear();
+            case.absences.clear();
+        }
+    }
+}
+
+/// A claim as it is asked for.
+struct Own<'c> {
+    name: &'c str,
+    source: &'c str,
+    cell: Option<&'c str>,
 }
 
 pub fn run(options: &Check) -> Result<Answer, String> {
-    let is_meant = |name: &str, source: &str| {
-        options.claims.is_empty()
-            || options.claims.iter().any(|wanted| is_meant(name, source, wanted))
-    };
-    // Other claims may matter to those that are meant, but motions take minutes and do not.
-    let prepare = |case: &mut Case| case.motions.retain(|own| is_meant(&own.name, &own.source));
-    let mut run = files::judge(
-        &options.paths,
-        &read_settings(&options.settings)?,
-        &prepare,
-        &Options { mutants: options.mutants, ..options.sampling.options() },
-        judge(options),
-        options.sampling.threads,
-    )?;
-    if !options.claims.is_empty() {
-        run.retain(|claim| is_meant(&claim.name, &claim.source));
+    let wanted = Wanted { claims: options.claims.clone(), sources: options.sources.clone() };
+    let of_case = wanted.clone();
+    let mut run = judge(Work {
+        paths: options.paths.clone(),
+        settings: read_settings(&options.settings)?,
+        prepare: Box::new(move |case| of_case.prepare(case)),
+        options: Options { mutants: options.mutants, ..options.sampling.options() },
+        motions: options.motion,
+        threads: options.sampling.threads,
+        limits: options.limits,
+    })?;
+    let is_everything = wanted.is_everything();
+    if !is_everything {
+        run.retain(|heading, claim| {
+            let own = Own { name: &claim.name, source: &claim.source, cell: claim.cell.as_deref() };
+            wanted.takes(&own, &heading.source, heading.column.as_ref())
+        });
         if run.claims().next().is_none() && run.summary().errors == 0 {
-            let wanted = options.claims.join("` or `");
-            return Err(format!("error: no claim has a name or source like `{wanted}`"));
+            let all = [wanted.claims, wanted.sources].concat().join("` or `");
+            return Err(format!(
+                "error: no claim has a name or source like `{all}`\n\
+                 help: `liouville check -v` shows the names"
+            ));
         }
+    }
+    if let Some(folder) = &options.certificate {
+        let told = certificates::write_all(folder, &run, options)?;
+        anstream::eprintln!("{told}");
     }
     let format = if options.json { CheckFormat::Json } else { options.format };
     let text = match format {
@@ -54,7 +100,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
             let detail = match (options.verbose, options.quiet) {
                 (true, _) => Detail::Evidence,
                 (_, true) => Detail::Summary,
-                _ if run.outcomes.len() == 1 || !options.claims.is_empty() => Detail::Claims,
+                _ if run.outcomes.len() == 1 || !is_everything => Detail::Claims,
                 _ => Detail::Cases,
             };
             let colour = colour(std::io::stdout().is_terminal());
@@ -72,54 +118,10 @@ pub fn run(options: &Check) -> Result<Answer, String> {
 }
 
 /// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.
-fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
+pub(super) fn is_meant(name: &str, source: &str, wanted: &str) -> bool {
     let is_pattern = wanted.contains(['*', '?']);
     [name, source].into_iter().any(|text| match is_pattern {
         true => matches(wanted, text),
         false => text.contains(wanted),
     })
-}
-
-/// Whether a text matches a pattern, in which `*` stands for any characters and `?` for one.
-fn matches(pattern: &str, text: &str) -> bool {
-    let (pattern, text): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), text.chars().collect());
-    // The ends of the text that the pattern so far can match.
-    let mut ends = vec![false; text.len() + 1];
-    ends[0] = true;
-    for wanted in pattern {
-        if wanted == '*' {
-            let first = ends.iter().position(|end| *end).unwrap_or(ends.len());
-            ends.iter_mut().skip(first).for_each(|end| *end = true);
-        } else {
-            for end in (1..ends.len()).rev() {
-                ends[end] = ends[end - 1] && (wanted == '?' || wanted == text[end - 1]);
-            }
-            ends[0] = false;
-        }
-    }
-    ends.last() == Some(&true)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::matches;
-
-    #[test]
-    fn patterns_match_as_in_a_shell() {
-        for (pattern, text) in [
-            ("F2*", "F2 with I"),
-            ("*I", "F2 with I"),
-            ("F?", "F2"),
-            ("*", ""),
-            ("a*b*c", "aXbYbc"),
-        ] {
-            assert!(matches(pattern, text), "{pattern} {text}");
-        }
-        for (pattern, text) in
-            [("F2*", "aF2"), ("F?", "F"), ("?", ""), ("a*b", "abc"), ("", "a"), ("F?", "F22")]
-        {
-            assert!(!matches(pattern, text), "{pattern} {text}");
-        }
-    }
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
 use liouville::verdict;
-use liouville_cli::report::diagnostic;
 use liouville_cli::report::point;
+use liouville_cli::report::{Digest, diagnostic};
 
 use super::{Answer, Eval, colour, source};
 
@@ -17,9 +17,7 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
     let coloured = colour(std::io::stderr().is_terminal());
     let state = match &options.state {
         None => None,
-        Some(text) => Some(
-            verdict::read_state(&case, text).map_err(|error| format!("error: --state: {error}"))?,
-        ),
+        Some(text) => Some(verdict::read_state(&case, text).map_err(|error| wrong_state(&error))?),
     };
     let told = |error: verdict::JudgeError| {
         diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
@@ -35,15 +33,29 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
     Ok(Answer { text, code: 0 })
 }
 
+/// Message about a state that cannot be read.
+pub(super) fn wrong_state(error: &verdict::StateError) -> String {
+    format!(
+        "error: --state: {error}\n\
+         help: give every state variable a value; `liouville eval` without --state shows how"
+    )
+}
+
 /// Reads a case with the values given by `--set`.
 pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
+    open_signed(path, settings).map(|(case, _)| case)
+}
+
+/// Reads a case with the values given by `--set`, and the digest of its text.
+pub(super) fn open_signed(path: &Path, settings: &[String]) -> Result<(Case, Digest), String> {
     let settings = read_settings(settings)?;
     let shown = path.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
     let (text, case) = source::read(path, &settings);
-    case.map_err(|error| {
+    let case = case.map_err(|error| {
         diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
-    })
+    })?;
+    Ok((case, Digest::of(&text)))
 }
 
 /// Reads the values of `--set`.
@@ -52,7 +64,10 @@ pub(super) fn read_settings(settings: &[String]) -> Result<Vec<Setting>, String>
         settings.iter().map(|text| setting(text)).collect::<Result<Vec<Setting>, String>>()?;
     for (index, setting) in settings.iter().enumerate() {
         if settings[..index].iter().any(|earlier| earlier.name == setting.name) {
-            return Err(format!("error: --set: `{}` is given twice", setting.name));
+            return Err(format!(
+                "error: --set: `{}` is given twice\nhelp: give it one value",
+                setting.name
+            ));
         }
     }
     Ok(settings)

@@ -122,7 +122,10 @@ mod tests {
         assert!(explained("Level set").starts_with("Level set. The states"), "of two words");
         let verdict = explained("refuted");
         assert!(verdict.contains("- refuted: the residual is not zero"), "{verdict}");
-        assert!(verdict.contains("- confirmed: zero") && verdict.contains("p*sin(π)"), "{verdict}");
+        assert!(
+            verdict.contains("- confirmed: zero") && verdict.contains("p*(2*sin(π/6) − 1)"),
+            "{verdict}"
+        );
         assert!(explained("flibber").contains("there are claim, state, level set"), "unknown");
         for entry in entries() {
             let text = plain(&entry.text);

@@ -1,56 +1,16 @@
-//! Judging of many files: collected, read, judged in parallel, reported in order.
+//! Case files of paths: collected in order, with the problems of those that cannot be read.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville::case::{Case, Setting};
-use liouville::verdict::{CaseReport, JudgeError, Options};
-use liouville_cli::report::{Failure, Heading, Outcome, RunReport, diagnostic};
-use rayon::prelude::*;
+use liouville_cli::report::{Failure, diagnostic};
 
 use super::source;
 
 /// Delay before a progress bar appears.
 const BLINK: Duration = Duration::from_millis(300);
-
-/// Function that judges a case.
-pub(super) type Judge = fn(&Case, &Options) -> Result<CaseReport, JudgeError>;
-
-/// Judges every case under `paths`, with the values of `settings` and the changes of `prepare`.
-pub fn judge(
-    paths: &[PathBuf],
-    settings: &[Setting],
-    prepare: &(dyn Fn(&mut Case) + Sync),
-    options: &Options,
-    judge: Judge,
-    threads: Option<usize>,
-) -> Result<RunReport, String> {
-    let started = Instant::now();
-    let files = collect(paths);
-    let threads = threads.unwrap_or(0).min(files.len().max(1));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
-    let bar = bar(files.len() as u64);
-    let outcomes = pool.install(|| {
-        files
-            .par_iter()
-            .map(|file| {
-                let outcome = match file {
-                    Ok(path) => judge_file(path, settings, prepare, options, judge),
-                    Err((path, problem)) => failed(path, vec![problem.clone()]),
-                };
-                advance(&bar, started);
-                outcome
-            })
-            .collect()
-    });
-    bar.finish_and_clear();
-    Ok(RunReport { seed: options.seed, outcomes, elapsed: started.elapsed() })
-}
 
 /// Advances the bar by one file; the bar appears after a delay.
 pub(super) fn advance(bar: &ProgressBar, started: Instant) {
@@ -120,7 +80,7 @@ fn folder(path: &Path, files: &mut Vec<Found>) {
         let kind = std::fs::symlink_metadata(&entry).map(|metadata| metadata.file_type());
         if kind.as_ref().is_ok_and(|kind| kind.is_dir()) {
             folder(&entry, files);
-        } else if entry.extension().is_some_and(|extension| extension == "toml") {
+        } else if liouville::case::is_case_file(&entry) {
             files.push(Ok(entry));
         }
     }
@@ -132,37 +92,4 @@ pub(super) fn plain(path: &Path, message: &str, help: &str) -> Failure {
 
 pub(super) fn coloured() -> bool {
     super::colour(std::io::stderr().is_terminal())
-}
-
-fn failed(path: &Path, problems: Vec<Failure>) -> Outcome {
-    let path = path.display().to_string();
-    Outcome { path, heading: Heading::default(), result: Err(problems) }
-}
-
-fn judge_file(
-    path: &Path,
-    settings: &[Setting],
-    prepare: &dyn Fn(&mut Case),
-    options: &Options,
-    judge: Judge,
-) -> Outcome {
-    let shown = path.display().to_string();
-    let (text, case) = source::read(path, settings);
-    let mut case = match case {
-        Ok(case) => case,
-        Err(error) => {
-            return failed(path, diagnostic::of_case(&shown, &text, &error, coloured()));
-        }
-    };
-    prepare(&mut case);
-    let result = judge(&case, options)
-        .map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())]);
-    let heading = Heading {
-        title: case.title,
-        source: case.source,
-        system: case.system,
-        column: case.column,
-        notes: case.notes,
-    };
-    Outcome { path: shown, heading, result }
 }

@@ -1,19 +1,28 @@
 //! Commands and their options.
 
 pub mod cases;
+mod certificates;
 pub mod check;
+pub mod completions;
 pub mod eval;
 pub mod explain;
 pub mod explore;
+pub mod export;
 mod files;
+mod judging;
+mod limits;
 pub mod names;
 pub mod new;
+mod out;
+pub mod schema;
 mod source;
 pub mod table;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+pub use limits::{Limits, STOPPED};
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
@@ -40,7 +49,9 @@ pub enum Command {
 Examples:
   liouville check body.toml -v
   liouville check cases/plane --claim F2
-  liouville check - < body.toml")]
+  liouville check --source '(3.19)' --source 'Table 1, row 4'
+  liouville check - < body.toml
+  liouville check body.toml --certificate proofs; python3 docs/certificates/check.py proofs/*")]
     Check(Check),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     #[command(
@@ -55,6 +66,12 @@ Examples:
     /// Write a commented case to start from
     #[command(after_help = "Example:\n  liouville new field system.toml")]
     New(new::New),
+    /// Write the field, the level equations and the claims of a case as code in another language
+    #[command(after_help = "\
+Examples:
+  liouville export plane/balanced-ball --to python --claim F2 --out ball.py
+  liouville export system.toml --to sympy")]
+    Export(export::Export),
     /// List the names that formulas of a case may use
     #[command(after_help = "Example:\n  liouville names plane/balanced-ball")]
     Names(names::Names),
@@ -64,18 +81,34 @@ Examples:
     /// List, print or copy cases of the catalogue inside the program
     #[command(after_help = "Example:\n  liouville cases list rattleback")]
     Cases(cases::Cases),
+    /// Print the JSON Schema of case files, for editors that complete and check them
+    #[command(after_help = "Example:\n  liouville schema > liouville.schema.json")]
+    Schema,
+    /// Print the script that completes commands in a shell
+    #[command(after_help = "\
+Example:
+  liouville completions bash > ~/.local/share/bash-completion/completions/liouville")]
+    Completions(completions::Completions),
+    /// Write the manual pages
+    #[command(after_help = "Example:\n  liouville man ~/.local/share/man/man1")]
+    Man(completions::Man),
 }
 
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
     pub fn read() -> Self {
+        let matches = Self::described().get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
+    /// All commands and options; former names are hidden.
+    fn described() -> clap::Command {
         let mut command = Self::command();
         let former = explore::Former::augment_subcommands(clap::Command::new("former"));
         for one in former.get_subcommands() {
             command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
-        let matches = command.get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        command
     }
 }
 
@@ -93,8 +126,15 @@ pub struct Sampling {
     #[arg(long, value_enum)]
     pub trust: Option<Trust>,
     /// Number of threads; all cores by default. Results do not depend on it
-    #[arg(long)]
+    #[arg(long, value_parser = parse_threads)]
     pub threads: Option<usize>,
+}
+
+/// Reads a number of threads.
+pub fn parse_threads(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1024;
+    let threads = text.parse().ok().filter(|threads| (1..=MOST).contains(threads));
+    threads.ok_or(format!("write a number of threads from 1 to {MOST}"))
 }
 
 /// Required strength of evidence.
@@ -129,6 +169,10 @@ pub struct Check {
     /// `?`
     #[arg(long = "claim", value_name = "TEXT")]
     pub claims: Vec<String>,
+    /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a
+    /// table, or a pattern with `*` or `?`
+    #[arg(long = "source", value_name = "LABEL")]
+    pub sources: Vec<String>,
     /// Output format
     #[arg(long, value_enum, default_value_t = CheckFormat::Text, conflicts_with = "json")]
     pub format: CheckFormat,
@@ -138,6 +182,10 @@ pub struct Check {
     /// Perturb every true formula, and refute each mutant that is not equivalent
     #[arg(long)]
     pub mutants: bool,
+    /// Write a certificate of each proof by points of prime fields to this folder, for the checker
+    /// in docs/certificates
+    #[arg(long, value_name = "FOLDER")]
+    pub certificate: Option<PathBuf>,
     /// Also check claims about motion (slow: minutes for cases/figures)
     #[arg(long)]
     pub motion: bool,
@@ -147,6 +195,8 @@ pub struct Check {
     /// Print the summary alone
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
+    #[command(flatten)]
+    pub limits: Limits,
     #[command(flatten)]
     pub sampling: Sampling,
 }
@@ -166,7 +216,10 @@ pub enum CheckFormat {
 
 fn parse_digits(text: &str) -> Result<usize, String> {
     let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
-    (1..=2000).contains(&digits).then_some(digits).ok_or("between 1 and 2000".to_string())
+    (1..=2000)
+        .contains(&digits)
+        .then_some(digits)
+        .ok_or("write a number from 1 to 2000".to_string())
 }
 
 #[derive(Debug, Args)]
@@ -192,13 +245,15 @@ pub struct Eval {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 #[derive(Debug, Args)]
 pub struct Table {
     /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
     /// rolling with and without spin
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]
+    #[arg(value_parser = parse_table)]
     pub number: u32,
     /// Case files, or folders of them
     #[arg(default_value = "cases")]
@@ -210,7 +265,14 @@ pub struct Table {
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
     #[command(flatten)]
+    pub limits: Limits,
+    #[command(flatten)]
     pub sampling: Sampling,
+}
+
+fn parse_table(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| (1..=4).contains(number));
+    number.ok_or("write 1, 2, 3 or 4".to_string())
 }
 
 /// Format of a table.
@@ -250,6 +312,16 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Writes a file that an option names.
+fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    std::fs::write(path, bytes).map_err(|error| {
+        format!(
+            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
+            path.display()
+        )
+    })
 }
 
 /// Writes a file that must not exist yet.

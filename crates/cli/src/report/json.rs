@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use super::{Failure, RunReport, Summary};
+use super::{Digest, Failure, RunReport, Summary, VERSION};
 use liouville::verdict::{ClaimReport, MutationReport};
 
 #[derive(Serialize)]
 struct Root<'a> {
+    version: &'static str,
     seed: u64,
     cases: Vec<CaseEntry<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -20,8 +21,12 @@ struct CaseEntry<'a> {
     title: &'a str,
     source: &'a str,
     system: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    digest: Option<&'a Digest>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    remarks: &'a [String],
     claims: &'a [ClaimReport],
     #[serde(skip_serializing_if = "Option::is_none")]
     mutants: Option<&'a MutationReport>,
@@ -36,8 +41,13 @@ struct ErrorEntry<'a> {
 
 /// Renders the run as pretty-printed JSON.
 pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
-    let mut root =
-        Root { seed: run.seed, cases: Vec::new(), errors: Vec::new(), summary: run.summary() };
+    let mut root = Root {
+        version: VERSION,
+        seed: run.seed,
+        cases: Vec::new(),
+        errors: Vec::new(),
+        summary: run.summary(),
+    };
     for outcome in &run.outcomes {
         match &outcome.result {
             Ok(report) => root.cases.push(CaseEntry {
@@ -45,7 +55,9 @@ pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
                 title: &outcome.heading.title,
                 source: &outcome.heading.source,
                 system: &outcome.heading.system,
+                digest: outcome.heading.digest.as_ref(),
                 warnings: &report.warnings,
+                remarks: &report.remarks,
                 claims: &report.claims,
                 mutants: report.mutants.as_ref(),
             }),

@@ -1,13 +1,17 @@
 //! Reports: verdicts as a table, as JSON, as the paper's tables; problems with their place.
 
 pub mod bench;
+pub mod certificate;
 pub mod chart;
 pub mod cycle;
 pub mod data;
 pub mod diagnostic;
 pub mod diagram;
+mod digest;
 mod evidence;
 pub mod exponents;
+pub mod export;
+pub mod growth;
 pub mod json;
 pub mod orbit;
 pub mod picture;
@@ -22,10 +26,13 @@ pub mod table;
 pub mod terminal;
 mod typeset;
 
+pub use digest::{Digest, VERSION};
+
 use std::time::Duration;
 
 use serde::Serialize;
 
+use liouville::case::Column;
 use liouville::verdict::{CaseReport, ClaimReport, MutationReport, Verdict};
 
 /// Outcome for one file of a run.
@@ -37,6 +44,8 @@ pub struct Outcome {
     pub heading: Heading,
     /// Verdicts, or the reasons why there are none.
     pub result: Result<CaseReport, Vec<Failure>>,
+    /// Names of the claims that were not reached when the run was stopped.
+    pub unreached: Vec<String>,
 }
 
 /// Reason why a file could not be judged.
@@ -68,9 +77,11 @@ pub struct Heading {
     /// Kind of the system.
     pub system: String,
     /// Table and column that the case belongs to.
-    pub column: Option<liouville::case::Column>,
+    pub column: Option<Column>,
     /// Notes of the author.
     pub notes: Vec<String>,
+    /// Digest of the file's text.
+    pub digest: Option<Digest>,
 }
 
 /// Results for all files of a run.
@@ -103,6 +114,9 @@ pub struct Summary {
     pub disagreements: usize,
     /// Number of files that could not be judged.
     pub errors: usize,
+    /// Number of claims that were not reached when the run was stopped.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub unreached: usize,
     /// Number of claims about motion that were skipped.
     #[serde(skip_serializing_if = "is_zero")]
     pub motions_left: usize,
@@ -152,11 +166,12 @@ impl RunReport {
     }
 
     /// Keeps some claims; cases without any are left out.
-    pub fn retain(&mut self, keep: impl Fn(&ClaimReport) -> bool) {
+    pub fn retain(&mut self, keep: impl Fn(&Heading, &ClaimReport) -> bool) {
         self.outcomes.retain_mut(|outcome| match &mut outcome.result {
             Err(_) => true,
             Ok(report) => {
-                report.claims.retain(&keep);
+                let heading = &outcome.heading;
+                report.claims.retain(|claim| keep(heading, claim));
                 !report.claims.is_empty()
             }
         });
@@ -182,25 +197,28 @@ impl RunReport {
             counts.equivalent += mutants.equivalent;
             counts.discovered += mutants.discovered.len();
         }
-        for (_, claim) in self.claims() {
+        for (outcome, claim) in self.claims() {
+            let is_reached = !outcome.unreached.contains(&claim.name);
             summary.claims += 1;
+            summary.unreached += usize::from(!is_reached);
             *match claim.verdict {
                 Verdict::Proved => &mut summary.proved,
                 Verdict::Confirmed => &mut summary.confirmed,
                 Verdict::Refuted => &mut summary.refuted,
                 Verdict::Undecided => &mut summary.undecided,
             } += 1;
-            summary.disagreements += usize::from(!claim.agrees);
+            summary.disagreements += usize::from(!claim.agrees && is_reached);
         }
         summary
     }
 
     /// Exit code. 0: all as expected; 1: a verdict contradicts its expectation, or a mutant
-    /// survived; 2: a file could not be judged.
+    /// survived; 2: a file could not be judged; 3: the run was stopped before all was judged.
     pub fn exit_code(&self) -> u8 {
         let summary = self.summary();
         let survived = summary.mutants.map_or(0, |mutants| mutants.survived);
         match (summary.errors, summary.disagreements + survived) {
+            (0, 0) if summary.unreached > 0 => 3,
             (0, 0) => 0,
             (0, _) => 1,
             _ => 2,

@@ -30,7 +30,11 @@ pub fn csv(run: &RunReport) -> String {
                     &claim.source,
                     claim.expect.word(),
                     claim.verdict.word(),
-                    if claim.agrees { "yes" } else { "no" },
+                    match claim.agrees {
+                        true => "yes",
+                        false if outcome.unreached.contains(&claim.name) => "not reached",
+                        false => "no",
+                    },
                     &method,
                 ]);
             }),
@@ -72,13 +76,18 @@ fn suite(outcome: &Outcome) -> String {
     let mut out = String::new();
     match &outcome.result {
         Ok(report) => {
-            let failures = report.claims.iter().filter(|claim| !claim.agrees).count();
+            let is_failure =
+                |claim: &&ClaimReport| !claim.agrees && !outcome.unreached.contains(&claim.name);
+            let failures = report.claims.iter().filter(is_failure).count();
             let tests = report.claims.len();
             _ = writeln!(
                 out,
                 "  <testsuite name=\"{path}\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\">"
             );
-            report.claims.iter().for_each(|claim| out.push_str(&test(&path, claim)));
+            for claim in &report.claims {
+                let is_reached = !outcome.unreached.contains(&claim.name);
+                out.push_str(&test(&path, claim, is_reached));
+            }
         }
         Err(failures) => {
             _ = writeln!(
@@ -96,7 +105,7 @@ fn suite(outcome: &Outcome) -> String {
     out
 }
 
-fn test(path: &str, claim: &ClaimReport) -> String {
+fn test(path: &str, claim: &ClaimReport, is_reached: bool) -> String {
     let name = escaped(&format!("{}: {}", claim.kind, claim.name));
     let open = format!("    <testcase classname=\"{path}\" name=\"{name}\"");
     if claim.agrees {
@@ -107,6 +116,10 @@ fn test(path: &str, claim: &ClaimReport) -> String {
         (Verdict::Undecided, Some(reason)) => format!(": {reason}"),
         _ => String::new(),
     };
+    if !is_reached {
+        let message = escaped(claim.evidence.reason.as_deref().unwrap_or("not reached"));
+        return format!("{open}>\n      <skipped message=\"{message}\"/>\n    </testcase>\n");
+    }
     let message = escaped(&format!("{verdict}, expected: {}{reason}", claim.expect.word()));
     format!("{open}>\n      <failure message=\"{message}\"/>\n    </testcase>\n")
 }

@@ -66,16 +66,17 @@ fn case(outcome: &Outcome, style: Style) -> String {
         out.push_str(&format!(" — {}", heading.source));
     }
     out.push('\n');
-    for warning in &report.warnings {
-        out.push_str(&format!("  warning: {warning}\n"));
-    }
+    out.push_str(&remarks(report));
     if style.detail == Detail::Evidence {
+        if let Some(digest) = &heading.digest {
+            out.push_str(&format!("  digest: {digest}\n"));
+        }
         for note in &heading.notes {
             out.push_str(&format!("  note: {note}\n"));
         }
     }
     let all: Vec<&ClaimReport> = report.claims.iter().collect();
-    out.push_str(&claims(&all, style));
+    out.push_str(&claims(&all, &outcome.unreached, style));
     out.push('\n');
     if style.detail == Detail::Evidence {
         out.push_str(&details(&outcome.path, report));
@@ -83,6 +84,28 @@ fn case(outcome: &Outcome, style: Style) -> String {
         out.push_str(&theorems(report));
     }
     out
+}
+
+/// Prints warnings and remarks.
+fn remarks(report: &CaseReport) -> String {
+    let warnings = report.warnings.iter().map(|text| format!("  warning: {text}\n"));
+    let remarks = report.remarks.iter().map(|text| format!("  remark: {text}\n"));
+    warnings.chain(remarks).collect()
+}
+
+/// Longest name of a claim in a table; the middle of a longer one is left out.
+const LONGEST_NAME: usize = 400;
+
+/// Name of a claim, short enough for a table.
+fn short(name: &str) -> String {
+    match name.chars().count() {
+        count if count > LONGEST_NAME => {
+            let start: String = name.chars().take(LONGEST_NAME / 2).collect();
+            let end: String = name.chars().skip(count - LONGEST_NAME / 4).collect();
+            format!("{start} … {end}")
+        }
+        _ => name.to_string(),
+    }
 }
 
 /// Prints the theorems of claims of absence, for which no table has room.
@@ -118,21 +141,19 @@ fn line(outcome: &Outcome, style: Style) -> String {
         out.push_str(&format!("{}: {counts}\n", outcome.path));
     }
     if style.detail != Detail::Summary {
-        for warning in &report.warnings {
-            out.push_str(&format!("  warning: {warning}\n"));
-        }
+        out.push_str(&remarks(report));
     }
     if !shown.is_empty() {
-        out.push_str(&claims(&shown, style));
+        out.push_str(&claims(&shown, &outcome.unreached, style));
         out.push('\n');
     }
     out
 }
 
 /// Remark on a case without claims.
-const NO_CLAIMS: &str = "no claims; `liouville report` lists the invariants of a system";
+const NO_CLAIMS: &str = "no claims";
 
-fn claims(claims: &[&ClaimReport], style: Style) -> String {
+fn claims(claims: &[&ClaimReport], unreached: &[String], style: Style) -> String {
     if claims.is_empty() {
         return format!("      {NO_CLAIMS}");
     }
@@ -146,17 +167,19 @@ fn claims(claims: &[&ClaimReport], style: Style) -> String {
         table.force_no_tty();
     }
     for claim in claims {
-        let mark = if claim.agrees { " " } else { "✗" };
+        let is_reached = !unreached.contains(&claim.name);
+        let agrees = claim.agrees || !is_reached;
+        let mark = if agrees { " " } else { "✗" };
         let mut verdict = Cell::new(format!("{mark} {}", claim.verdict.word()));
         if style.colour {
-            verdict = verdict.fg(match (claim.agrees, claim.verdict) {
+            verdict = verdict.fg(match (agrees, claim.verdict) {
                 (false, _) => Color::Red,
                 (true, Verdict::Undecided) => Color::Yellow,
                 (true, _) => Color::Green,
             });
         }
         let expected = match claim.expect {
-            expect if expect == Expect::Open || claim.agrees => expect.word().to_string(),
+            expect if expect == Expect::Open || agrees => expect.word().to_string(),
             expect => format!("expected: {}", expect.word()),
         };
         table.add_row(vec![
@@ -164,7 +187,7 @@ fn claims(claims: &[&ClaimReport], style: Style) -> String {
             verdict,
             Cell::new(expected),
             Cell::new(claim.kind),
-            Cell::new(&claim.name),
+            Cell::new(short(&claim.name)),
             Cell::new(remark(claim)),
             Cell::new(&claim.source),
         ]);
@@ -278,6 +301,9 @@ fn summary(run: &RunReport) -> String {
     );
     if summary.errors > 0 {
         line.push_str(&format!("; {} could not be judged", count(summary.errors, "file")));
+    }
+    if summary.unreached > 0 {
+        line.push_str(&format!("; {} not reached", count(summary.unreached, "claim")));
     }
     if summary.motions_left > 0 {
         let left = count(summary.motions_left, "claim");

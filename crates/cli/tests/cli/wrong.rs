@@ -29,7 +29,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
                 [lagrangian]\nkinetic = 'u^4/2'\npotential = 'x'\nquasi-velocities = ['u']\n";
     let deep = format!("{}γ{}", "(".repeat(100_000), ")".repeat(100_000));
     let cases: Vec<(&str, String, &str, &str)> = vec![
-        ("empty", String::new(), "the file is empty", "writing-a-case"),
+        ("empty", String::new(), "the file is empty", "liouville new"),
         ("not-toml", "title = ".into(), "not-toml.toml:1", ""),
         ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
         ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "unknown system", "rubber-plane"),
@@ -83,7 +83,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "`moment` depends on `ω`",
             "state a density instead",
         ),
-        ("added", exists(moved, "analytic"), "no variables that [state] adds", "without them"),
+        ("added", exists(moved, "analytic"), "does not cover variables added by [state]", "without them"),
         ("growing", exists(moved, "position"), "leaves out the divergence", "without them"),
         ("twisted", twisted, "∂r is not symmetric across γ", "state a density instead"),
         (
@@ -123,7 +123,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "each side may depend on the state and parameters only, not on `μ`",
             "",
         ),
-        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names nothing that is moved", "image"),
+        ("nothing-moved", turning("[[claim]]\nreversor = {}"), "names no variable to transform", "image"),
         ("no-map", turning("[[claim]]\nmap = {}\nfield = {}"), "names no new variable", "give one"),
         (
             "no-time",
@@ -159,7 +159,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         (
             "tiny-range",
             field("[field]\n").replace("x = '-1..1'", "x = '-1e-400..1e-400'"),
-            "beyond the numbers that f64 can hold",
+            "beyond the range of f64",
             "-2..2",
         ),
         (
@@ -191,7 +191,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
         ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
         ("algebra", lagrangian("nonholonomic", quasi), "is not a known algebra", "so(3)"),
-        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [variables]"),
+        ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [poisson]"),
         (
             "two",
             turning("[[claim]]\nintegral = 'x'\ndensity = '1'"),

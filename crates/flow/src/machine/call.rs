@@ -44,7 +44,7 @@ impl Executable {
         Some(Self { memory: executable(&assembler.bytes)?, touched: assembler.touched })
     }
 
-    /// Calls the function. Panics where it would touch memory outside of what is passed.
+    /// Calls the function. Panics if it would access memory outside the given buffers.
     pub(super) fn call(&self, given: Given<'_>) {
         let Given { memory, rows, copies, constants, sums } = given;
         let within = |(least, most): (i32, i32), base: usize, length: usize| {
@@ -58,7 +58,7 @@ impl Executable {
             && within(of_sums, 0, sums.len());
         assert!(enough, "machine code needs {:?}", self.touched);
         // SAFETY: the bytes come from the assembler alone, as a function of this type that has no
-        // jumps and touches no more than it records, which lies within what is passed. It is made
+        // jumps and touches no more than it records, which lies within the given buffers. It is made
         // only where the processor has its instructions.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());

@@ -74,7 +74,7 @@ pub(super) struct Assembler {
 impl Assembler {
     /// Sets register = 0 in all lanes.
     pub(super) fn zero(&mut self, register: Register) {
-        // vxorpd of 128 bits clears what is above them.
+        // vxorpd of 128 bits clears the bits above them.
         let high = (register >> 3 ^ 1) & 1;
         let first = high << 7 | 1 << 6 | high << 5 | MAP_0F;
         let low = register & 7;

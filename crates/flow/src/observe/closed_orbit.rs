@@ -1,4 +1,4 @@
-//! Closed orbits, proved by enclosures, and what their ∮ div v excludes.
+//! Closed orbits, proved by enclosures, and the densities that their ∮ div v excludes.
 
 use super::finding::Finding;
 use super::scene::Scene;
@@ -115,8 +115,8 @@ fn enclosed(case: &Case, request: &Request<'_>) -> Result<ProvedOrbit, String> {
     Ok(found)
 }
 
-/// Checks that the level functions and the claimed integrals are proved to be kept. Returns whether
-/// the energy is.
+/// Checks that the level functions and the claimed integrals are proved to be conserved. Returns
+/// whether the energy is.
 fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, String> {
     let level = case.model.level.iter().map(|equation| match &equation.function {
         LevelFunction::UnitNormal => "(γ,γ)".to_string(),

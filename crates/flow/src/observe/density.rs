@@ -11,7 +11,7 @@ const STARTS: usize = 16;
 const CROSSINGS: usize = 150;
 
 /// Whether a closed orbit speaks against densities: a density ρ that is smooth and positive there
-/// is the same after the period, so that the flow keeps volumes: λ₁ λ₂ = 1.
+/// is the same after the period, so that the flow preserves volumes: λ₁ λ₂ = 1.
 pub fn speaks_against(product: Measured) -> bool {
     (product.value - 1.0).abs() > product.error
 }

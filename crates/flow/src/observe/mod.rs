@@ -4,9 +4,10 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Closed orbits and states reached are enclosed, and so proved; all else is observed. There a
-//! stated number agrees with a computed one if they differ by no more than the last stated digit and the error that the computation itself shows: the spread of
-//! blocks, or the difference between f64 and double-double.
+//! Closed orbits and states at a time of a motion are proved, by enclosures; all other claims are
+//! only observed. There a stated number agrees with a computed one if they differ by no more than
+//! the last stated digit and the estimated error of the computation: the spread of blocks, or the
+//! difference between f64 and double-double.
 
 mod closed_orbit;
 mod contacts;
@@ -41,9 +42,17 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
 
 /// Tests all claims about motion of a case.
 pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
+    let mut reports = Vec::new();
+    observe_each(case, options, &mut |report| reports.push(report));
+    reports
+}
+
+/// Judges the claims about motion one after another, and hands over each report as it is made.
+pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimReport)) {
     let scene = Scene::new(case, options.seed);
-    let look = |claim| look(claim, &scene, options);
-    case.motions.iter().map(|claim| report(claim, look(claim), options)).collect()
+    for claim in &case.motions {
+        keep(report(claim, look(claim, &scene, options), options));
+    }
 }
 
 fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {

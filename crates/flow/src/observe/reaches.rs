@@ -12,7 +12,7 @@ use liouville::number::ball::{Ball, Balls};
 use liouville::number::exact::Exact;
 use liouville::number::rational::Rational;
 
-/// Relative width within which the typed time lies about its f64.
+/// Relative distance within which the stated time lies from its f64.
 const TIME: f64 = 4.0 * f64::EPSILON;
 
 /// Encloses the state of a claim, and compares the function there with its bounds.
@@ -62,7 +62,7 @@ pub fn look(claim: &Reaches, scene: &Scene<'_>) -> Result<Finding, FlowError> {
     Ok(finding)
 }
 
-/// Encloses the state of a claim, or says why it is not known to lie on the level.
+/// Encloses the state of a claim, or returns the reason why it is not known to lie on the level.
 fn exact_start(
     model: &Model,
     parameters: &[Rational],

@@ -1,4 +1,4 @@
-//! Approximate inverses of matrices whose entries lie near the diagonal but for a last column.
+//! Approximate inverses of matrices whose entries lie near the diagonal, except a last column.
 //!
 //! Nothing that is proved rests on their accuracy.
 

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The columns of the middle of D Q_i, the longest first, become Q_{i+1} by the Gram–Schmidt method,
-//! so that the box turns with the flow. Every rounding is counted; that Q is only nearly orthogonal
-//! as well.
+//! so that the box turns with the flow. Every rounding is counted, and so is the deviation of Q from
+//! an orthogonal matrix.
 
 use super::coefficients::LANES;
 use super::enclosure::{Enclosure, raised};
@@ -23,7 +23,7 @@ use liouville::number::rational::Rational;
 /// Limit on the steps of a motion.
 pub const MOST_STEPS: usize = 100_000;
 
-/// Growth of the box expected of a step; boxes that turn out wider are computed again.
+/// Expected growth of the box in a step; boxes that are wider are computed again.
 const GROWTH: f64 = 4.0;
 
 /// State after a time, enclosed.
@@ -68,7 +68,7 @@ fn along(
     let count = nodes.states.len();
     let mut steps: Vec<Enclosure> =
         nodes.shares.iter().map(|share| Enclosure::exact(share * time.mid)).collect();
-    // the steps before the last are numbers in f64, their sum is not
+    // the steps before the last are exact in f64, their sum is not
     let before = &steps[..count.saturating_sub(1)];
     let elapsed = before.iter().fold(Enclosure::ZERO, |sum, h| sum + *h);
     if let Some(last) = steps.last_mut() {
@@ -146,7 +146,7 @@ fn is_inside(inner: &[Enclosure], outer: &[Enclosure]) -> bool {
     inner.iter().zip(outer).all(holds)
 }
 
-/// All points p + Q w with |w| ≤ r, component by component.
+/// The set of points p + Q w with |w| ≤ r, component by component.
 struct Cloud {
     centre: Vec<f64>,
     /// Q by columns.
@@ -175,7 +175,8 @@ impl Cloud {
         self.centre.iter().enumerate().map(|(k, x)| Enclosure::about(*x, reach(k))).collect()
     }
 
-    /// Box that the points are expected in after some steps, around a node; their own after none.
+    /// Box in which the points are expected after some steps, around a node; after none, the
+    /// present box.
     fn foreseen(&self, steps: usize, nodes: &Nodes, node: usize) -> Boxed {
         let own = self.hull();
         if steps == 0 {
@@ -188,7 +189,7 @@ impl Cloud {
         nodes.states[node].iter().map(around).collect()
     }
 
-    /// Points after a step, around a target. `None` where they are too many to be of use.
+    /// Set of points after a step, around a target. `None` if it is too large to be of use.
     fn moved(&self, passage: &Passage, gap: &[Enclosure], target: &[f64]) -> Option<Self> {
         let product = |row: &Boxed, column: &[f64]| {
             let terms = row.iter().zip(column);

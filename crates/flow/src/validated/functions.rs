@@ -1,4 +1,4 @@
-//! Functions that a motion keeps: level functions, the energy, further integrals.
+//! Functions that a motion conserves: level functions, the energy, further integrals.
 
 use super::enclosure::Enclosure;
 use super::motion::Boxed;

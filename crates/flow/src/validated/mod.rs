@@ -5,7 +5,7 @@
 //! start, period ─ follow ─▶ nodes ─ Newton ─▶ nodes ─ boxes, K(Y) ⊂ Y ─▶ one closed orbit, ∮ div v
 //! ```
 //!
-//! docs/closed-orbits.md has the theorem, and what the numbers here have to fulfil for it.
+//! docs/closed-orbits.md has the theorem, and its conditions on the numbers computed here.
 
 mod band;
 mod coefficients;
@@ -59,11 +59,11 @@ pub struct Request<'r> {
     pub start: &'r Start,
     /// Approximate period.
     pub period: f64,
-    /// Whether the energy is proved to be kept.
+    /// Whether the energy is proved to be conserved.
     pub keeps_energy: bool,
     /// Exact value of the energy; that of the start where none is given.
     pub energy: Option<&'r Rational>,
-    /// Further functions proved to be kept.
+    /// Further functions proved to be conserved.
     pub integrals: &'r [&'r Formula],
     /// Whether the sum of two multipliers is to be enclosed.
     pub wants_multipliers: bool,
@@ -78,7 +78,7 @@ pub struct ProvedOrbit {
     pub period: Enclosure,
     /// Integral of the divergence on the level along it.
     pub volume: Enclosure,
-    /// Number of multipliers on the level of all functions that are kept.
+    /// Number of multipliers on the level of all conserved functions.
     pub multipliers: usize,
     /// Sum of two multipliers, where asked for and enclosed.
     pub sum: Option<Enclosure>,
@@ -90,7 +90,7 @@ pub struct ProvedOrbit {
     pub contraction: f64,
     /// Distance between the state given and the orbit's node, relative to the state.
     pub moved: f64,
-    /// Number of functions that are kept, the level's among them.
+    /// Number of conserved functions, the level's among them.
     pub kept: usize,
 }
 
@@ -127,7 +127,7 @@ pub enum Obstacle {
     /// The boxes are not mapped into themselves.
     #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
     NoContraction(f64),
-    /// The gradients of the kept functions are not proved independent.
+    /// The gradients of the conserved functions are not proved independent.
     #[error("the gradients of the functions kept are not proved independent along the orbit")]
     Gradients,
 }

@@ -37,14 +37,14 @@ pub struct Passage {
 pub struct Motion {
     pub dimension: usize,
     state: Plan,
-    /// Plan with the derivative and ∫ div v, and with ∫ L_vF of the functions F that are kept: no step
+    /// Plan with the derivative and ∫ div v, and with ∫ L_vF of the conserved functions F: no step
     /// is proved across a point where one of them is not analytic.
     full: Plan,
 }
 
 impl Motion {
     /// Records the field, its derivative along each axis, the divergence on the level, and the rates
-    /// of the functions that are kept: the level's, the energy where asked, and integrals.
+    /// of the conserved functions: the level's, the energy where asked, and integrals.
     pub fn new(
         model: &Model,
         parameters: &[Rational],

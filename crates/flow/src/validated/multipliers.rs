@@ -1,7 +1,7 @@
 //! Sum of the multipliers of a closed orbit on its level, enclosed.
 //!
 //! D_i is the derivative of the flow over segment i, K the space of directions at the first node
-//! along which no kept function changes, and M = D_{m-1} … D_0, which maps K to itself. With
+//! along which no conserved function changes, and M = D_{m-1} … D_0, which maps K to itself. With
 //! Π₀ᵀ e_j = u_j, dF e_j = 0 the trace of M on K is Σ_j (Π₀ᵀ M e_j)_j: the multipliers, and 1 along
 //! the orbit. The D_i are not multiplied, which would widen the enclosures; the linear system
 //!

@@ -1,4 +1,4 @@
-//! Residuals in double-double: what is left of nodes that are right to the last digit of f64.
+//! Residuals in double-double at nodes that are accurate to the last digit of f64.
 
 use super::coefficients::LANES;
 use super::enclosure::Enclosure;

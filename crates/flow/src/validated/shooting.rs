@@ -6,7 +6,7 @@
 //! (v(x̂_0), x_0 - x̂_0) = 0                    the phase
 //! ```
 //!
-//! The F_j are kept by the motion; Π_i spans the directions along which none changes. Rows and
+//! The F_j are conserved by the motion; Π_i spans the directions along which none changes. Rows and
 //! unknowns go node by node, the period last.
 
 use super::enclosure::Enclosure;
@@ -15,7 +15,7 @@ use super::guess::Nodes;
 use super::motion::{Boxed, Motion, Passage};
 use liouville::number::rational::Rational;
 
-/// System with the functions that it keeps, and their values on the orbit.
+/// System with the functions that it conserves, and their values on the orbit.
 pub struct Shooting {
     pub motion: Motion,
     pub functions: Functions,

@@ -1,4 +1,4 @@
-//! Bounds of what a Taylor polynomial leaves out, in the norm ‖a‖ = Σ |a_k| ρ^k.
+//! Bounds of the remainder of a Taylor polynomial, in the norm ‖a‖ = Σ |a_k| ρ^k.
 //!
 //! Each row a of a plan is a known polynomial a_N of degree N - 1 and a tail of order ≥ N with norm
 //! at most ε_a. With [·] the part of order ≥ N, and θ = t d/dt:
@@ -333,7 +333,7 @@ impl<'c, 'p> Tails<'c, 'p> {
 pub struct End {
     /// Enclosed state.
     pub state: Vec<Enclosure>,
-    /// Bounds of what the polynomials of the components leave out.
+    /// Bounds of the remainders of the polynomials of the components.
     pub rest: Vec<f64>,
 }
 

@@ -33,7 +33,10 @@ impl<'t, D: Domain> Evaluator<'t, D> {
     }
 
     /// Computes the outputs from one block for each input; inputs left out keep their values.
-    pub fn run(&mut self, inputs: &[D::Block]) {
+    pub fn run<'b>(&mut self, inputs: impl IntoIterator<Item = &'b D::Block>)
+    where
+        D: 'b,
+    {
         self.load(inputs);
         with_widest_vectors(Execution(self));
     }
@@ -48,7 +51,10 @@ impl<'t, D: Domain> Evaluator<'t, D> {
         (0..self.tape.outputs.len()).map(|index| self.output(index))
     }
 
-    fn load(&mut self, inputs: &[D::Block]) {
+    fn load<'b>(&mut self, inputs: impl IntoIterator<Item = &'b D::Block>)
+    where
+        D: 'b,
+    {
         for (place, input) in self.places.iter().take(self.tape.inputs).zip(inputs) {
             self.blocks[*place].0.clone_from(input);
         }

@@ -146,6 +146,45 @@ impl Scalar for Expr {
     fn literally<R>(build: impl FnOnce() -> R) -> R {
         super::literally(build)
     }
+
+    fn is_absent(&self) -> bool {
+        self.is_zero_node()
+    }
+
+    fn gradients_of(values: &[Self], variables: &[Self]) -> Option<Vec<Vec<(usize, Self)>>> {
+        with_graph(|graph| {
+            let [values, variables] = [values, variables].map(|of| nodes_in(of, graph));
+            let rows = graph.gradients(&values?, &variables?)?;
+            let made = |(place, node): (usize, NodeId)| (place, Self::of(graph.session, node));
+            Some(rows.into_iter().map(|row| row.into_iter().map(made).collect()).collect())
+        })
+    }
+
+    fn derivatives_along(
+        values: &[Self],
+        variables: &[Self],
+        direction: &[Self],
+    ) -> Option<Vec<Self>> {
+        with_graph(|graph| {
+            let [values, variables, direction] =
+                [values, variables, direction].map(|of| nodes_in(of, graph));
+            let found = graph.derivatives_along(&values?, &variables?, &direction?)?;
+            Some(found.into_iter().map(|node| Self::of(graph.session, node)).collect())
+        })
+    }
+
+    fn diagonal_of(values: &[Self], variables: &[Self]) -> Option<Vec<Self>> {
+        with_graph(|graph| {
+            let [values, variables] = [values, variables].map(|of| nodes_in(of, graph));
+            let found = graph.diagonal(&values?, &variables?)?;
+            Some(found.into_iter().map(|node| Self::of(graph.session, node)).collect())
+        })
+    }
+}
+
+/// Returns the nodes of values that all belong to `graph`.
+fn nodes_in(values: &[Expr], graph: &Graph) -> Option<Vec<NodeId>> {
+    values.iter().map(|value| (value.session == graph.session).then_some(value.node)).collect()
 }
 
 impl From<f64> for Expr {

@@ -7,6 +7,7 @@
 //! [`record`] runs a closure over [`Expr`] inputs and keeps every operation as a node. Equal nodes
 //! are one node, and exact simplifications are made on the way (see `simplify`).
 
+mod derive;
 mod dispatch;
 mod dual_num;
 mod evaluate;
@@ -20,7 +21,7 @@ mod tape;
 
 use std::cell::RefCell;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::number::rational::Rational;
 use crate::number::{Function, Operation};
@@ -97,6 +98,7 @@ pub struct Graph {
     inputs: u32,
     antiderivatives: FxHashMap<(NodeId, NodeId), u32>,
     fault: Option<Fault>,
+    sweeps: Box<derive::Sweeps>,
 }
 
 impl Graph {
@@ -113,6 +115,7 @@ impl Graph {
             inputs: 0,
             antiderivatives: FxHashMap::default(),
             fault: None,
+            sweeps: Box::default(),
         };
         for value in [0, 1] {
             graph.constant(Rational::from(value));
@@ -161,11 +164,41 @@ impl Graph {
         reached[root.0 as usize]
     }
 
+    /// Lists the inputs on which an expression depends, in order.
+    pub fn inputs_of(&self, expr: Expr) -> Vec<usize> {
+        let mut inputs = Vec::new();
+        self.visit(&[expr], |node| {
+            if let Node::Input(input) = node {
+                inputs.push(input as usize);
+            }
+        });
+        inputs.sort_unstable();
+        inputs
+    }
+
     /// Number of operations that these expressions take together.
     pub fn operations(&self, exprs: &[Expr]) -> usize {
-        let reached = self.reached(exprs.iter().copied());
-        let computed = |(node, reached): &(&Node, bool)| *reached && node.is_computed();
-        self.nodes.iter().zip(reached).filter(computed).count()
+        let mut count = 0;
+        self.visit(exprs, |node| count += usize::from(node.is_computed()));
+        count
+    }
+
+    /// Visits each node that some expressions need once. Takes as long as these, however large the
+    /// graph is.
+    fn visit(&self, exprs: &[Expr], mut each: impl FnMut(Node)) {
+        let mut met: FxHashSet<NodeId> = FxHashSet::default();
+        let mut open: Vec<NodeId> = exprs.iter().filter_map(|expr| expr.id()).collect();
+        open.retain(|id| met.insert(*id));
+        while let Some(id) = open.pop() {
+            let node = self.node(id);
+            each(node);
+            let arguments = match node {
+                Node::Constant(_) | Node::Input(_) => [None, None],
+                Node::Unary(_, a) | Node::Power(a, _) => [Some(a), None],
+                Node::Binary(_, a, b) => [Some(a), Some(b)],
+            };
+            open.extend(arguments.into_iter().flatten().filter(|argument| met.insert(*argument)));
+        }
     }
 
     #[inline]

@@ -89,8 +89,8 @@ fn enclose(value: &Rational) -> (f64, f64) {
     about(value.to_f64())
 }
 
-/// Encloses a number by its nearest f64, given whether that is exact.
-fn about((mid, exact): (f64, bool)) -> (f64, f64) {
+/// Encloses a number by its nearest f64, given whether that is exact: midpoint and radius.
+pub fn about((mid, exact): (f64, bool)) -> (f64, f64) {
     (mid, if exact { 0.0 } else { mid.abs() * f64::EPSILON + TINY })
 }
 

@@ -68,6 +68,17 @@ impl Bounds {
         self.bounds[place].as_ref()
     }
 
+    /// Bounds degree and height of the numerator of the value at a place, with the factors that have
+    /// positive exponents, as b in 1/(a/b), although a value without b is undefined.
+    pub fn numerator(&self, place: usize) -> Option<(f64, f64)> {
+        let bound = self.at(place)?;
+        let above = bound.factors.iter().filter(|(_, exponent)| *exponent > 0.0);
+        Some(above.fold((bound.degree, bound.height), |(degree, height), (factor, exponent)| {
+            let Factor { degree: d, height: h } = self.factors[*factor as usize];
+            (degree + exponent * d, height + exponent * h)
+        }))
+    }
+
     /// Bounds the degrees of the numerator and of the denominator of the value at a place, with all
     /// factors multiplied out.
     pub fn expanded_degree(&self, place: usize) -> Option<f64> {

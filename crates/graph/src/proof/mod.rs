@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `lower`, `numbers` | functions that fields lack are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
-//! | `bounds` | degree and height on the graph, denominators kept in factors |
+//! | `bounds`, `plain` | degree and height on the graph, denominators kept in factors |
 //! | `chance`, `digest` | random primes and points, drawn from the seed and the statement |
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
@@ -34,6 +34,7 @@ mod fact;
 mod lower;
 mod nested;
 mod numbers;
+mod plain;
 mod polynomial;
 mod rank;
 mod reconstruct;
@@ -58,6 +59,7 @@ pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::Fact;
+pub use plain::plain_bounds;
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use trial::Certificate;

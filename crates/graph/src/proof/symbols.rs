@@ -30,10 +30,12 @@ pub enum Form {
         /// Symbols with their powers.
         powers: Vec<(usize, i64)>,
     },
-    /// The sine or cosine of Σ n_i e_i.
+    /// The sine or cosine of Σ n_i e_i + turns π/2.
     Angle {
         /// Symbols with their multiples.
         multiples: Vec<(usize, i64)>,
+        /// Number of quarter turns, from 0 to 3.
+        turns: u8,
         /// Whether the function is the sine.
         sine: bool,
     },
@@ -108,7 +110,14 @@ impl Symbols {
                 _ => None,
             })
             .collect();
-        symbols.angles(&angles, relations);
+        let eighth = steps.iter().find_map(|(place, step)| match step {
+            Step::Unary(Function::Atan, a) if is_one(graph, *a) => Some(*place),
+            _ => None,
+        });
+        let is_turned = eighth.is_some_and(|eighth| symbols.turned(eighth, &angles, relations));
+        if !is_turned {
+            symbols.angles(&angles, relations);
+        }
         symbols
     }
 
@@ -141,8 +150,39 @@ impl Symbols {
         let Some((first, multiples)) = self.allot(&combinations) else { return };
         for ((place, _, sine), multiples) in steps.iter().zip(multiples) {
             let multiples = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
-            self.forms.insert(*place, Form::Angle { multiples, sine: *sine });
+            self.forms.insert(*place, Form::Angle { multiples, turns: 0, sine: *sine });
         }
+    }
+
+    /// Forms sines and cosines of angles that contain whole multiples of π/2, given the place of
+    /// π/4 = atan 1; returns whether all multiples are whole.
+    fn turned(
+        &mut self,
+        eighth: usize,
+        steps: &[(usize, usize, bool)],
+        relations: &mut Relations<'_>,
+    ) -> bool {
+        // π/4 comes first, and so is an element of the basis.
+        let arguments: Vec<usize> =
+            std::iter::once(eighth).chain(steps.iter().map(|(_, argument, _)| *argument)).collect();
+        let Some(combinations) = relations.between(&arguments, false) else { return false };
+        let Some(turns) = combinations[1..].iter().map(quarters).collect::<Option<Vec<u8>>>()
+        else {
+            return false;
+        };
+        let rest: Vec<Combination> = combinations[1..]
+            .iter()
+            .map(|combination| Combination {
+                constant: combination.constant.clone(),
+                multiples: combination.multiples[1..].to_vec(),
+            })
+            .collect();
+        let Some((first, multiples)) = self.allot(&rest) else { return false };
+        for (((place, _, sine), turns), multiples) in steps.iter().zip(turns).zip(multiples) {
+            let multiples = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
+            self.forms.insert(*place, Form::Angle { multiples, turns, sine: *sine });
+        }
+        true
     }
 
     /// Allots new symbols to the basis, each for a part of its element small enough for all
@@ -175,6 +215,22 @@ impl Symbols {
         self.count += width;
         Some((first, all))
     }
+}
+
+/// Whether the step at this place is the constant 1.
+fn is_one(graph: &Graph, place: usize) -> bool {
+    let step = graph.steps().nth(place);
+    matches!(step, Some(Step::Constant(value)) if *value == Rational::from(1))
+}
+
+/// Number of quarter turns, from 0 to 3, that a combination contains besides the rest, its first
+/// element being π/4; `None` if the number is not whole.
+fn quarters(combination: &Combination) -> Option<u8> {
+    let halves = combination.multiples.first()?.to_integer()?;
+    if halves % 2 != 0 {
+        return None;
+    }
+    u8::try_from((halves / 2).rem_euclid(4)).ok()
 }
 
 /// Iterates over the transcendental steps, in order.

@@ -169,6 +169,29 @@ fn arguments_share_their_symbols() {
 }
 
 #[test]
+fn quarter_turns_are_known() {
+    // π/4 = atan 1
+    let eighth = || Expr::rational(&Rational::from(1)).apply(Function::Atan);
+    let outcome = prove(&[false], |x| (eighth() * 4.0 - x[0]).sin() - x[0].sin());
+    assert!(is_proved(&outcome), "sin(π − φ) = sin φ: {outcome:?}");
+    let outcome = prove(&[false], |x| (x[0] - eighth() * 2.0).cos() - x[0].sin());
+    assert!(is_proved(&outcome), "cos(φ − π/2) = sin φ: {outcome:?}");
+    let outcome = prove(&[false], |x| ((eighth() * 12.0).cos() + 1.0) * x[0]);
+    assert!(is_proved(&outcome), "cos 3π = −1: {outcome:?}");
+    for wrong in [2.0, 6.0, 8.0] {
+        let outcome = prove(&[false], |x| (eighth() * wrong - x[0]).sin() - x[0].sin());
+        assert!(!is_proved(&outcome), "sin({wrong} π/4 − φ) is not sin φ: {outcome:?}");
+    }
+    let outcome = prove(&[false], |x| eighth().sin() * x[0] - eighth().cos() * x[0]);
+    assert!(matches!(outcome, Outcome::Silent(_)), "sin π/4 is no rational number: {outcome:?}");
+    let outcome = prove(&[false], |x| {
+        let (double, half) = (eighth() * 4.0 + x[0] * 2.0, x[0] - eighth() * 2.0);
+        double.sin() - half.sin() * half.cos() * 2.0
+    });
+    assert!(is_proved(&outcome), "sin(2φ + π) = 2 sin(φ − π/2) cos(φ − π/2): {outcome:?}");
+}
+
+#[test]
 fn a_value_that_never_exists_is_not_zero() {
     let outcome = prove(&[false], |x| {
         let zero = (x[0] + 1.0).powi(2) - x[0] * x[0] - x[0] * 2.0 - 1.0;

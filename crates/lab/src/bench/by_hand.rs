@@ -43,7 +43,7 @@ pub fn liouville_residual(state: &[f64]) -> f64 {
 }
 
 /// Residual W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω;
-/// then (γ, rot(γ×χ)) by all that at duals along each axis of γ.
+/// then (γ, rot(γ×χ)) by all of this at duals along each axis of γ.
 pub fn criterion(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {

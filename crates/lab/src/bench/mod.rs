@@ -7,8 +7,8 @@
 //! | merged tape | the same residual from fewer operations, by each engine of f64 |
 //! | floor | one fused sum for each step of the engine, at the full speed of this machine |
 //! | num-dual by hand | the work items over num-dual's numbers at f64, state by state, written out plainly |
-//! | num-dual, closed form | W3 from a formula for the criterion, in the place of its definition |
-//! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the underived quantities on tapes |
+//! | num-dual, closed form | W3 from a formula for the criterion, instead of its definition |
+//! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the undifferentiated quantities on tapes |
 //! | central difference | (f(x + h d) - f(x - h d))/2h, h\|d\| = ∛ε \|x\|, of the same tapes |
 //!
 //! The states are f64 numbers and taken as exact. The error of a method at a state is
@@ -172,7 +172,7 @@ impl Measured {
 /// Reason why an item cannot be measured.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum BenchError {
-    /// A formula asked a recorded value for its magnitude.
+    /// A formula needs the magnitude of a recorded value.
     #[error(transparent)]
     Fault(#[from] Fault),
     /// No state could be drawn.
@@ -185,7 +185,7 @@ impl BenchError {
     pub fn help(&self) -> &'static str {
         match self {
             BenchError::Fault(_) => "write the formula with operations that hold for every number",
-            BenchError::Unreachable(_) => "let `liouville check` say what is wrong with the case",
+            BenchError::Unreachable(_) => "run `liouville check` to find the mistake in the case",
         }
     }
 }

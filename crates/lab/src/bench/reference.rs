@@ -6,7 +6,7 @@ use liouville::graph::Tape;
 use liouville::number::precise::{Approximation, Precise};
 use liouville::verdict::LANES;
 
-/// Twice the precision of the best candidate, and far beyond what cancels.
+/// Twice the precision of the best candidate, and far beyond any cancellation.
 const BITS: u32 = 512;
 
 /// Computes the residual at every state; `None` where it is undefined.

@@ -19,7 +19,7 @@ use liouville::verdict::{JudgeError, Options, Verdict, judge};
 pub struct Tally {
     /// Number of claims judged.
     pub judged: usize,
-    /// Number of wrong verdicts: always 0, if the tool is right.
+    /// Number of wrong verdicts: always 0, if the program is right.
     pub wrong: usize,
     /// Number of claims proved or refuted.
     pub decided: usize,
@@ -39,10 +39,10 @@ impl Tally {
 /// Reason why a stressed case could not be judged.
 #[derive(Debug, thiserror::Error)]
 pub enum StressError {
-    /// The parameters are refused.
+    /// The parameters are rejected.
     #[error("{0}")]
     Case(Box<CaseError>),
-    /// The states cannot be made.
+    /// The states cannot be computed.
     #[error(transparent)]
     Judge(#[from] JudgeError),
 }

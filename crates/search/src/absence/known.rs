@@ -1,4 +1,4 @@
-//! The integrals that are known: what the file claims and is proved, and the energy.
+//! Known integrals: those that the file claims and that are proved, and the energy.
 
 use super::super::ansatz::coordinates;
 use super::super::ansatz::system::System;
@@ -13,7 +13,7 @@ use liouville::formula::{Formula, Type};
 use liouville::mechanics::Draw;
 use liouville::verdict::{ClaimReport, Verdict};
 
-/// Products beyond which they are not counted.
+/// Largest number of products that are counted.
 const MOST: usize = 2000;
 
 /// Integrals of a case, each proved, component by component.
@@ -21,16 +21,16 @@ pub struct Known {
     formulas: Vec<Formula>,
 }
 
-/// The polynomials of at most one degree that known integrals make up.
+/// Space of the polynomials in known integrals up to a degree.
 pub struct Space {
     /// Number of independent polynomials among them.
     pub dimension: usize,
-    /// Integrals that they are made of.
+    /// Integrals that generate them.
     pub formulas: Vec<Formula>,
 }
 
 impl Known {
-    /// The integrals among the claims of a case, by the reports on them.
+    /// Collects the proved integrals among the claims of a case, from the reports on them.
     pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
         let mut formulas: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
         for (claim, report) in case.claims.iter().zip(reports) {
@@ -42,18 +42,18 @@ impl Known {
         Ok(Self { formulas })
     }
 
-    /// The formulas.
+    /// Formulas of the integrals.
     pub fn formulas(&self) -> &[Formula] {
         &self.formulas
     }
 
-    /// The same without the energy.
+    /// Formulas of the integrals without the energy.
     pub fn claimed(&self) -> Vec<Formula> {
         self.formulas.iter().filter(|formula| !is_energy(formula)).cloned().collect()
     }
 
-    /// Those that have values modulo a prime, as terms: without exp, ln and the like, and without ∫,
-    /// whose constant is open.
+    /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and
+    /// the like, and without ∫, whose constant is open.
     pub fn terms(&self, case: &Case, seed: u64) -> Result<Vec<Formula>, SearchError> {
         let mut own = self.formulas.clone();
         own.retain(|term| {
@@ -66,11 +66,11 @@ impl Known {
         Ok(defined.into_iter().map(|k| own[k].clone()).collect())
     }
 
-    /// The polynomials in the integrals that have at most a degree in the velocities.
+    /// Returns the polynomials in the integrals up to a degree in the velocities.
     ///
     /// Products are independent over the numbers where their values at random states, modulo a prime
     /// and for one choice of the parameters, have full rank; or where the integrals are independent
-    /// functions. The larger number of both counts.
+    /// functions. The larger of the two numbers counts.
     pub fn of_degree(&self, case: &Case, most: u32, effort: &Effort) -> Result<Space, SearchError> {
         let seed = effort.options.seed;
         let mut independents: Vec<(Formula, u32)> = Vec::new();
@@ -96,8 +96,8 @@ impl Known {
         Ok(best)
     }
 
-    /// Products counted by their values; nothing where lists of parameters would need more than one
-    /// count, or some have no value modulo a prime.
+    /// Counts products by their values; `None` if lists of parameters would need more than one
+    /// count, or if some product has no value modulo a prime.
     fn by_values(&self, case: &Case, most: u32, seed: u64) -> Result<Option<Space>, SearchError> {
         if has_lists(case) {
             return Ok(None);
@@ -123,8 +123,8 @@ pub fn has_lists(case: &Case) -> bool {
     draws.iter().any(|draw| matches!(draw, Draw::OneOf(values) if values.len() > 1))
 }
 
-/// The rank of the values of products of terms and of further formulas, at random states, for one
-/// choice of the parameters; nothing if too few states have values.
+/// Returns the rank of the values of products of terms and of further formulas, at random states,
+/// for one choice of the parameters; `None` if too few states have values.
 ///
 /// The functions that have this rank are independent over the numbers: their determinant is not 0 at
 /// the states, modulo a prime, so it is not 0.

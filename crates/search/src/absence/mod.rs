@@ -1,4 +1,4 @@
-//! Claims of absence: proved by a count, refuted by what is found and proved.
+//! Claims of absence: proved by a count, refuted by a proved find.
 //!
 //! ```text
 //! known        the integrals that the file claims and that are proved, with the energy
@@ -6,9 +6,9 @@
 //! polynomials  polynomials in all variables of a field, by random states
 //! ```
 //!
-//! A count bounds from above how many there are; what is known bounds it from below. Where both agree
-//! there are no others. Where they do not, one of the others is looked for, and proved: a
-//! witness that refutes the claim.
+//! A count bounds the number of integrals or densities from above; the known ones bound it from
+//! below. If both bounds agree, there are no others. Otherwise one of the others is sought and
+//! proved: a witness that refutes the claim.
 
 mod known;
 mod polynomials;
@@ -28,29 +28,35 @@ use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
 
-/// A count that may take longer, in seconds, is left out.
+/// Limit on the estimated time of a count, in seconds; longer counts are left out.
 const SECONDS: f64 = 20.0;
-/// All that is done for a claim ends after this time.
+/// Limit on the time for a claim.
 const MOST: Duration = Duration::from_secs(60);
 
 /// The outcome of a claim of absence.
 enum Outcome {
-    /// There is nothing of that kind.
+    /// No such integral or density exists.
     Excluded {
-        /// With its hypotheses.
+        /// Theorem with its hypotheses.
         theorem: String,
         /// The count, in a few words.
         counted: String,
     },
-    /// There is this, proved.
+    /// A proved integral or density that contradicts the claim.
     Exhibited(String),
-    /// Not known, for this reason.
+    /// Undecided, for this reason.
     Open(String),
 }
 
-/// Judges all claims of a case but those about motion, those of absence last.
+/// Judges all claims of a case except those about motion; claims of absence come last.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let mut report = verdict::judge(case, options)?;
+    complete(case, options, &mut report)?;
+    Ok(report)
+}
+
+/// Adds verdicts on the claims of absence to a report on the others.
+pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Result<(), JudgeError> {
     if !case.absences.is_empty() {
         let reports = match options.trust {
             // Counts rest on proved integrals.
@@ -64,10 +70,10 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
         report.claims.extend(told);
     }
     report.absences_left = 0;
-    Ok(report)
+    Ok(())
 }
 
-/// The reports on all claims of absence; `judged` are those on the others.
+/// Reports on all claims of absence; `judged` are the reports on the other claims.
 fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimReport> {
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let ground = abbreviated(case).and_then(|case| {
@@ -86,7 +92,7 @@ fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRepo
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
 }
 
-/// A case whose claims of absence are looked at.
+/// A case whose claims of absence are judged.
 struct Asked<'a> {
     case: &'a Case,
     known: &'a Known,
@@ -97,7 +103,7 @@ impl<'a> Asked<'a> {
     fn new(case: &'a Case, known: &'a Known, options: Options) -> Self {
         let effort = Effort {
             seconds: SECONDS,
-            // A root in what is known has to have the right branch as well.
+            // Roots in known integrals must have the right branch as well.
             terms: known.formulas().iter().cloned().map(Into::into).collect(),
             ansatz: Ansatz { wanted: true, ..Ansatz::default() },
             halt: Halt::within(MOST),
@@ -110,7 +116,7 @@ impl<'a> Asked<'a> {
     fn look(&self, kind: &Absence) -> Result<Outcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
-            let reason = "a function of the body is arbitrary, and a count is about given ones";
+            let reason = "a function of the body is arbitrary, and a count needs a given one";
             return Ok(Outcome::Open(reason.to_string()));
         }
         let outcome = if Coordinates::of(self.case).is_ok() {
@@ -138,7 +144,7 @@ impl<'a> Asked<'a> {
         }
     }
 
-    /// For which parameters a count speaks: the beginning of a sentence.
+    /// Returns the beginning of a sentence that names the parameters for which a count holds.
     fn parameters(&self) -> String {
         let draws = self.case.model.parameter_draws();
         let is_listed = |draw: &&Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
@@ -159,7 +165,7 @@ impl<'a> Asked<'a> {
         .to_string()
     }
 
-    /// A theorem from its hypotheses and its statement, which begins with a small letter.
+    /// Composes a theorem from its hypotheses and its statement, which begins with a small letter.
     fn theorem(&self, statement: &str) -> String {
         let hypotheses = self.parameters();
         match hypotheses.is_empty() {
@@ -174,7 +180,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// That all integrals of a class are polynomials in some.
+/// States that all integrals of a class are polynomials in the given ones.
 fn generated(class: &str, formulas: &[Formula]) -> String {
     match formulas {
         [] => format!("no integral but a constant is {class}"),

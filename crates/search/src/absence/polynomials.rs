@@ -1,7 +1,7 @@
 //! Absence of polynomials in all variables of a field, with constant coefficients.
 //!
-//! A row is a random state modulo a prime, the parameters the same in all rows; a column is a monomial,
-//! or what it gains along the field. The rank of such a matrix is at most what it is for generic
+//! A row is a random state modulo a prime, with the same parameters in all rows. A column is a
+//! monomial, or its derivative along the field. The rank of such a matrix is at most what it is for generic
 //! parameters, so that the null space is at least as large as the space of integrals.
 
 use super::super::SearchError;
@@ -25,7 +25,7 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::Verdict;
 
-/// Elementary steps of an elimination a second, at the least.
+/// Lower bound on the elementary steps of an elimination per second.
 const STEPS: f64 = 5e8;
 
 /// Judges a claim by polynomials in all variables.
@@ -35,7 +35,7 @@ pub fn look(
     kind: &Absence,
 ) -> Result<Outcome, SearchError> {
     if has_lists(asked.case) {
-        let reason = "a parameter has a list of values: give each a case of its own";
+        let reason = "a parameter has a list of values: write a separate case for each value";
         return Ok(Outcome::Open(reason.to_string()));
     }
     if contains_integrals(asked.case)? {
@@ -65,12 +65,12 @@ pub fn look(
     }
 }
 
-/// Returns the outcome where no state has a value modulo a prime.
+/// Returns the outcome if the field has no value at any state modulo a prime.
 fn nothing() -> Outcome {
     Outcome::Open(SearchError::NoPoints.to_string())
 }
 
-/// All that is counted of a field.
+/// Count of the polynomials of a field.
 struct Counting<'a> {
     asked: &'a Asked<'a>,
     variables: &'a Variables,
@@ -78,25 +78,25 @@ struct Counting<'a> {
     monomials: Vec<Vec<u32>>,
     system: System,
     at: At,
-    /// The integrals that are known, with their outputs.
+    /// Known integrals, with their outputs.
     known: Vec<(Formula, usize)>,
-    /// For each choice of α its direction; that of integrals is 0.
+    /// Direction for each choice of α; that of integrals is 0.
     weighted: Vec<(i64, usize)>,
-    /// The column of div v.
+    /// Column of div v.
     divergence: usize,
 }
 
-/// The polynomials that known integrals make up.
+/// Space of the polynomials in known integrals.
 struct Space {
     terms: Vec<Formula>,
     exponents: Vec<Vec<u32>>,
-    /// The outputs that each product multiplies.
+    /// Outputs that each product multiplies.
     products: Vec<Vec<usize>>,
     dimension: usize,
 }
 
 impl<'a> Counting<'a> {
-    /// Records the field; nothing where it has no value modulo a prime.
+    /// Records the field; `None` if it has no value modulo a prime.
     fn new(
         asked: &'a Asked<'a>,
         variables: &'a Variables,
@@ -147,14 +147,15 @@ impl<'a> Counting<'a> {
         }))
     }
 
-    /// The columns of the monomials along a direction, which has a number.
+    /// Returns the columns of the monomials along the direction of this number.
     fn columns(&self, direction: usize) -> Vec<usize> {
         let count = self.monomials.len();
         let start = if direction == 0 { 0 } else { 1 + direction * count };
         (start..start + count).collect()
     }
 
-    /// The degrees of what is known: nothing for what is no polynomial of the class.
+    /// Returns the degrees of the known integrals; `None` for one that is not a polynomial of the
+    /// class.
     fn degrees(&self) -> Option<Vec<Option<u32>>> {
         let count = self.monomials.len();
         let first = 1 + (1 + self.weighted.len()) * count;
@@ -177,7 +178,7 @@ impl<'a> Counting<'a> {
         )
     }
 
-    /// The polynomials in what is known that have at most the degree.
+    /// Returns the polynomials in the known integrals up to the degree.
     fn space(&self) -> Result<Option<Space>, SearchError> {
         let Some(degrees) = self.degrees() else { return Ok(None) };
         let own: Vec<(&(Formula, usize), u32)> = self
@@ -212,7 +213,7 @@ impl<'a> Counting<'a> {
         let dimension = found.len();
         if dimension < space.dimension {
             return Ok(Outcome::Open(format!(
-                "{dimension} are counted, fewer than the {} that are known",
+                "the count is {dimension}, fewer than the {} known integrals",
                 space.dimension
             )));
         }
@@ -220,7 +221,7 @@ impl<'a> Counting<'a> {
             return Ok(Outcome::Excluded {
                 theorem: self.asked.theorem(&generated(&self.class(), &space.terms)),
                 counted: format!(
-                    "{dimension} independent ones at most, constants included: all known"
+                    "at most {dimension} independent integrals, constants included: all known"
                 ),
             });
         }
@@ -239,13 +240,14 @@ impl<'a> Counting<'a> {
             }
         }
         Ok(Outcome::Open(format!(
-            "at most {dimension} independent ones are counted, constants included, {} are known, and no \
-             further one is found in closed form",
+            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+             other was found in closed form",
             space.dimension
         )))
     }
 
-    /// A null vector as an integral that is proved, and no polynomial in what is known.
+    /// Returns the integral of a null vector if it is proved, and is not a polynomial in the known
+    /// integrals.
     fn integral(&self, vector: &[u64], space: &Space) -> Result<Option<Formula>, SearchError> {
         let Some(formula) = self.written(vector, 0)? else { return Ok(None) };
         let case = self.asked.case;
@@ -259,7 +261,8 @@ impl<'a> Counting<'a> {
         Ok((with == Some(space.dimension + 1)).then_some(formula))
     }
 
-    /// Σ c_a x^a for all values of the parameters, where the coefficients are fractions in them.
+    /// Writes Σ c_a x^a for all values of the parameters, if its coefficients are fractions in
+    /// them.
     fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, FormulaError> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let start = self.columns(direction).first().copied();
@@ -271,7 +274,7 @@ impl<'a> Counting<'a> {
         Ok(Some(sum.unwrap_or_else(|| Formula::number(0))))
     }
 
-    /// The monomials of some columns.
+    /// Returns the monomials of some columns.
     fn functions(&self, columns: impl Iterator<Item = usize>) -> Result<Vec<Ratio>, FormulaError> {
         columns.map(|k| self.variables.monomial(&self.monomials[k]).map(Ratio::of)).collect()
     }
@@ -300,7 +303,7 @@ impl<'a> Counting<'a> {
                 }
             }
             return Ok(Outcome::Open(format!(
-                "a density P^{root} is counted, and not found in closed form"
+                "the count allows a density P^{root}, but none was found in closed form"
             )));
         }
         // L_vP + s div v = 0, without the constants: ln ρ = P/s.
@@ -326,10 +329,12 @@ impl<'a> Counting<'a> {
         })
     }
 
-    /// Writes exp P, and has it judged.
+    /// Writes exp P and judges it as a density.
     fn exponential(&self, found: &[Vec<u64>], columns: &[usize]) -> Result<Outcome, SearchError> {
         let own = found.iter().find(|own| own.last().is_some_and(|last| *last != 0));
-        let open = || Ok(Outcome::Open("a density exp P is counted, and not found".to_string()));
+        let open = || {
+            Ok(Outcome::Open("the count allows a density exp P, but none was found".to_string()))
+        };
         let Some(vector) = own else { return open() };
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();

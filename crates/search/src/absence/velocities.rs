@@ -24,7 +24,7 @@ pub fn look(asked: &Asked<'_>, kind: &Absence) -> Result<Outcome, SearchError> {
 enum Bound {
     /// Each leading form is a power of the energy.
     Leading,
-    /// So many independent integrals of at most the degree, constants among them.
+    /// Number of independent integrals up to the degree, constants included.
     Integrals(usize),
 }
 
@@ -33,7 +33,7 @@ fn bound(counts: &[CountReport], degree: u32) -> Option<Bound> {
     let own: Vec<&CountReport> = counts.iter().filter(|count| !count.free).collect();
     match own.iter().find(|count| count.degree == degree) {
         Some(last) if last.mixed => Some(Bound::Integrals(last.dimension)),
-        // Each degree by itself, and the constants.
+        // Each degree separately, and the constants.
         Some(_) => {
             let all = (1..=degree).map(|n| own.iter().find(|count| count.degree == n));
             let dimensions: Option<Vec<usize>> =
@@ -60,7 +60,7 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     let dimension = match bound(&report.counts, most) {
         None => return Ok(Outcome::Open(reasons(&report, "the count does not reach this degree"))),
         Some(Bound::Leading) => {
-            // What is left after powers of the energy has a lower degree, if the energy is conserved.
+            // If the energy is conserved, subtracting its powers lowers the degree.
             let known = asked.known.formulas().iter();
             let names: Vec<Formula> = known.filter(|one| is_energy(one)).cloned().collect();
             return Ok(match names.is_empty() {
@@ -76,14 +76,16 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     let known = asked.known.of_degree(case, most, effort)?;
     if known.dimension > dimension {
         return Ok(Outcome::Open(format!(
-            "{dimension} are counted, fewer than the {} that are known",
+            "the count is {dimension}, fewer than the {} known integrals",
             known.dimension
         )));
     }
     if known.dimension == dimension {
         return Ok(Outcome::Excluded {
             theorem: asked.theorem(&generated(&class, &known.formulas)),
-            counted: format!("{dimension} independent ones at most, constants included: all known"),
+            counted: format!(
+                "at most {dimension} independent integrals, constants included: all known"
+            ),
         });
     }
     let mut found = |run: &mut dyn FnMut(&mut Report) -> Result<(), SearchError>| {
@@ -99,14 +101,14 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     };
     Ok(exhibit.map(Outcome::Exhibited).unwrap_or_else(|| {
         Outcome::Open(format!(
-            "at most {dimension} independent ones are counted, constants included, {} are known, and \
-             no further one is found in closed form",
+            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+             other was found in closed form",
             known.dimension
         ))
     }))
 }
 
-/// An integral in a report that refutes the claim.
+/// Returns an integral of a report that refutes the claim.
 fn witness(asked: &Asked<'_>, most: u32, report: &Report) -> Result<Option<String>, SearchError> {
     let own = |found: &&Found| {
         found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
@@ -124,7 +126,7 @@ fn witness(asked: &Asked<'_>, most: u32, report: &Report) -> Result<Option<Strin
     Ok(None)
 }
 
-/// A find with the names that it uses.
+/// Writes a find with the definitions of the names that it uses.
 fn shown(what: &str, found: &Found) -> String {
     let names: Vec<String> =
         found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
@@ -140,7 +142,7 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     let seconds = seconds * multipliers::WEIGHTS.len() as f64;
     if seconds > effort.seconds {
         return Ok(Outcome::Open(format!(
-            "degree {most} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
+            "degree {most} has {unknowns} unknowns, and takes {seconds:.0} s and more: ask for a lower one"
         )));
     }
     let mut report = Report::default();
@@ -172,10 +174,10 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
             return Ok(Outcome::Exhibited(shown("density", found)));
         }
     }
-    Ok(Outcome::Open("a density is counted, and not found in closed form".to_string()))
+    Ok(Outcome::Open("the count allows a density, but none was found in closed form".to_string()))
 }
 
-/// Whether a density is of the positions alone, or some P^(1/α) with P of at most this degree.
+/// Whether a density is a function of the positions alone, or P^(1/α) with P up to this degree.
 fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
     for alpha in multipliers::WEIGHTS {
         let power = numeric_exponent(Rational::from(alpha))?;
@@ -189,7 +191,7 @@ fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, 
 
 fn reasons(report: &Report, otherwise: &str) -> String {
     // `check` has no such options.
-    let remark = |text: &String| match text.split_once("; raise --seconds") {
+    let remark = |text: &String| match text.split_once("; raise --") {
         Some((reason, _)) => format!("{reason}: ask for a lower degree"),
         None => text.trim_end_matches("; give values with --set").to_string(),
     };

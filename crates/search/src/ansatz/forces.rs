@@ -6,7 +6,7 @@ use liouville::mechanics::{
     Draw, Meaning, Model, Origin, Parameter, Potential, Range, Reach, Recipe, System,
 };
 
-/// Adds a term to the potential of a model; `None` if the system takes no potential, or if the term
+/// Adds a term to the potential of a model; `None` if the system admits no potential, or if the term
 /// is not a function of the configuration.
 pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
     let mut changed = model.clone();
@@ -25,7 +25,7 @@ pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
     Some(changed)
 }
 
-/// Adds a rotor to a model; `None` if it has one already, or takes none.
+/// Adds a rotor to a model; `None` if it has one already, or admits none.
 pub fn with_gyrostat(model: &Model, rotor: &Formula) -> Option<Model> {
     let mut changed = model.clone();
     let own = match &mut changed.system {
@@ -66,7 +66,7 @@ pub fn with_constants(
     Ok((extended, constants))
 }
 
-/// Σ constant · part, with brackets around each part that is a scalar; `None` of nothing.
+/// Σ constant · part, with brackets around each part that is a scalar; `None` without parts.
 pub fn combination<'t>(
     parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
 ) -> Result<Option<Formula>, FormulaError> {

@@ -37,7 +37,7 @@ pub fn gyrostats(
     let unit: Option<Vec<Model>> =
         (0..3).map(|axis| with_gyrostat(&case.model, &unit_vector(axis).ok()?)).collect();
     let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
-        report.remark("no rotor is looked for: the system takes none, or has one".to_string());
+        report.remark("no search for rotors: the system admits none, or has one".to_string());
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
@@ -47,7 +47,8 @@ pub fn gyrostats(
         .map(|(formula, degree)| (formula.clone(), degree))
         .collect();
     if own.is_empty() {
-        report.remark("no integral of degree 1 or 2 is known that a rotor could keep".to_string());
+        report
+            .remark("no integral of degree 1 or 2 is known that could survive a rotor".to_string());
     }
     let below = read(["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"], &case.model.vocabulary);
     for (integral, degree) in own {
@@ -98,7 +99,7 @@ impl Rotors<'_> {
         report: &mut Report,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
-        let what = format!("rotors that keep {}", self.integral);
+        let what = format!("rotors that preserve {}", self.integral);
         let system = self.linear()?;
         let size = Size::of(&[(0..system.columns.len()).collect()]);
         progress(&format!("{what}: {size}"));
@@ -117,7 +118,7 @@ impl Rotors<'_> {
             (_, told) => format!("; the terms of second order leave {told} of them"),
         };
         report.excluded.push(Excluded {
-            ansatz: format!("rotors that keep {} with terms of degree at most {highest} in the positions", self.integral),
+            ansatz: format!("rotors that preserve {} with terms of degree at most {highest} in the positions", self.integral),
             dimension,
             known: told,
             error_log2: None,

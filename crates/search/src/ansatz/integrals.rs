@@ -208,7 +208,7 @@ impl Search<'_> {
         Ok(true)
     }
 
-    /// Writes a null vector as a formula and has it judged.
+    /// Writes a null vector as a formula and judges it.
     fn tell(
         &mut self,
         system: &System,
@@ -288,7 +288,7 @@ impl Search<'_> {
         let mut theorem = match dimension {
             0 => format!("{generic} no integrals are {what}, constants aside."),
             _ => format!(
-                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of what was known",
+                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of known integrals",
                 dimension - outcomes.len()
             ),
         };

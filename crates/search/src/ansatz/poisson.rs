@@ -58,7 +58,7 @@ pub fn brackets(
         || is_matrix
     {
         report.remark(format!(
-            "no bracket is looked for: it takes at most {DIMENSION} variables, none a matrix, and no level set"
+            "no search for brackets: it takes at most {DIMENSION} variables, none a matrix, and no level set"
         ));
         return Ok(());
     }
@@ -72,7 +72,7 @@ pub fn brackets(
     };
     if functions.is_empty() {
         report.remark(
-            "no bracket is looked for: no integral is known; give a Hamiltonian with --poisson=H"
+            "no search for brackets: no integral is known; give a Hamiltonian with --poisson=H"
                 .to_string(),
         );
     }
@@ -86,7 +86,7 @@ pub fn brackets(
         // Hamiltonian.
         if family.with_bracket(&[]).and_then(|asked| family.reads(&asked)).is_err() {
             report.remark(format!(
-                "no bracket is looked for with the Hamiltonian {name}: write it in the state and the parameters alone"
+                "no search for brackets with the Hamiltonian {name}: write it in the state and the parameters alone"
             ));
             continue;
         }
@@ -176,7 +176,7 @@ impl<'a> Family<'a> {
         let functions = Functions::new(self.case, &graph, &columns, self.effort.options.seed);
         let relations = match functions.and_then(|mut functions| functions.relations()) {
             Err(error @ (SearchError::NoChart | SearchError::NoPoints)) => {
-                report.remark(format!("no bracket is looked for with {name}: {error}"));
+                report.remark(format!("no search for brackets with {name}: {error}"));
                 return Ok(());
             }
             relations => relations?,
@@ -295,9 +295,8 @@ impl<'a> Family<'a> {
             self.effort.halt.check()?;
             let asked = self.with_bracket(&self.entries(&integers(vector))?)?;
             if !self.is_casimir(&asked, name)? {
-                report.remark(format!(
-                    "no bracket was found with {name}; that there is none is not proved"
-                ));
+                report
+                    .remark(format!("no bracket was found with {name}; its absence is not proved"));
                 return Ok(());
             }
         }

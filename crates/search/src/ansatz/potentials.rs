@@ -40,8 +40,8 @@ pub fn potentials(
         axes.iter().map(|component| with_potential(&case.model, component)).collect();
     let unit = unit.filter(|unit| unit.len() == 3);
     let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
-        let reason = "the system takes none, or has one with free coefficients";
-        report.remark(format!("no potential is looked for: {reason}"));
+        let reason = "the system admits none, or has one with free coefficients";
+        report.remark(format!("no search for potentials: {reason}"));
         return Ok(());
     };
     let generators = Generators::all(case, effort, report)?;
@@ -52,7 +52,7 @@ pub fn potentials(
         .collect();
     if own.is_empty() {
         report.remark(
-            "no integral of degree 1 or 2 is known that a potential could keep".to_string(),
+            "no integral of degree 1 or 2 is known that could survive a potential".to_string(),
         );
     }
     for integral in own {
@@ -105,7 +105,7 @@ impl Family<'_> {
         system.columns = gains.into_iter().chain(potentials).collect();
         let count = system.columns.len();
         let size = Size::of(&[(0..count).collect()]);
-        let what = format!("potentials that keep {}", self.integral);
+        let what = format!("potentials that preserve {}", self.integral);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
             report.remark(format!("{what}: not tried; {size}; {reason}"));

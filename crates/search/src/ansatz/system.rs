@@ -88,7 +88,7 @@ impl Recording {
 }
 
 impl Recording {
-    /// Adds variables, which grow at the rate `growth` beside; gives the direction's number. The
+    /// Adds variables with an additional rate of growth `growth`; returns the direction's index. The
     /// derivative of x^a is v(x^a) + growth·x^a.
     pub fn derive_growing(
         &mut self,

@@ -6,6 +6,7 @@
 //! are found, including complex ones; those in the field are confirmed by a count.
 
 use super::polynomial::{Polynomial, Ring};
+use crate::budget::Budget;
 use crate::expansion::Taylor;
 use crate::jets::{Asked, Equations, RowKey};
 use crate::local::Local;
@@ -159,7 +160,9 @@ impl<'l> Minors<'l> {
             for _ in 0..DRAWS {
                 let positions = self.taylor.positions(&mut self.chance);
                 let Ok(Some(equations)) = self.equations(value, &positions) else { continue };
-                if equations.dimension(&equations.solved(&self.effort.halt)?.0) > dimension {
+                if equations.dimension(&equations.solved(&Budget::unlimited(&self.effort.halt))?.0)
+                    > dimension
+                {
                     found.push(value);
                 }
                 break;
@@ -176,7 +179,7 @@ impl<'l> Minors<'l> {
             let positions = self.taylor.positions(&mut self.chance);
             let value = self.chance.element(&self.modulus);
             let Some(equations) = self.equations(value, &positions)? else { continue };
-            let (echelon, rows) = equations.solved(&self.effort.halt)?;
+            let (echelon, rows) = equations.solved(&Budget::unlimited(&self.effort.halt))?;
             let dimension = equations.dimension(&echelon);
             let columns: Vec<usize> =
                 (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();

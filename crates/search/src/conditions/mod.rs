@@ -3,7 +3,7 @@
 //! ```text
 //! line      points on a random line of parameters where the residual vanishes for all states
 //! variety   the equations of least degree at the points found on many lines
-//! small     conditions of codimension two, met by chance in small fields
+//! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
 //! ```
 //!
@@ -172,7 +172,7 @@ fn condition(
         if line == BARREN && degree == 0 {
             let (systems, met) = small::conditions(&residual, effort)?;
             let grounds = format!(
-                "no condition of codimension one on {BARREN} random lines; {met} points met by chance modulo 43"
+                "no condition of codimension one on {BARREN} random lines; {met} points found by random sampling modulo 43"
             );
             return told(systems, grounds);
         }

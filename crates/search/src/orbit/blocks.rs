@@ -1,7 +1,8 @@
-//! Sets of variables whose rates depend on each other only: a field that falls apart is searched part
-//! by part, where fewer monomials reach a higher degree.
+//! Closed subsystems: sets of variables whose rates depend on the set only. A field is searched
+//! subsystem by subsystem first, as fewer monomials allow a higher degree.
 
 use liouville::case::Case;
+use liouville::graph::Expr;
 
 use super::super::SearchError;
 use super::super::terms::recorded;
@@ -16,9 +17,12 @@ pub fn closed(case: &Case) -> Result<Vec<Vec<usize>>, SearchError> {
         return Ok(vec![all]);
     }
     let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
-    let needs = |k: usize, j: usize| graph.depends_on(rates[k], first + j);
-    let needed: Vec<Vec<usize>> =
-        all.iter().map(|k| all.iter().copied().filter(|j| needs(*k, *j)).collect()).collect();
+    let is_variable = |input: &usize| (first..first + dimension).contains(input);
+    let needs = |rate: &Expr| -> Vec<usize> {
+        let inputs = graph.inputs_of(*rate).into_iter().filter(is_variable);
+        inputs.map(|input| input - first).collect()
+    };
+    let needed: Vec<Vec<usize>> = rates.iter().map(needs).collect();
     let mut sets = vec![all.clone()];
     for start in all {
         let mut set = vec![start];

@@ -1,4 +1,4 @@
-//! Judgement of what is found along orbits. All claims of this folder are made here.
+//! Judgement of the finds along orbits. All claims of this folder are made here.
 
 use liouville::claim::Claim;
 use liouville::formula::Formula;
@@ -48,7 +48,7 @@ pub fn proved(
     statement: &Statement,
     effort: &Effort,
 ) -> Result<Option<ClaimReport>, SearchError> {
-    // A find that is too long or too deep for the reader of formulas is not told.
+    // A find that is too long or too deep for the reader of formulas is not reported.
     let reads = |formula: &&Formula| case.formula(formula.text()).is_ok();
     if !statement.formulas().iter().all(reads) {
         return Ok(None);
@@ -57,8 +57,8 @@ pub fn proved(
     Ok(report.filter(|report| report.verdict == Verdict::Proved))
 }
 
-/// Adds an integral to the report if it is proved, and independent of those there; tells whether it
-/// was added.
+/// Adds an integral to the report if it is proved, and independent of those there; returns whether
+/// it was added.
 pub fn integral(
     case: &Case,
     formula: &Formula,

@@ -191,7 +191,7 @@ impl Search<'_, '_> {
         let Some(factor) = Factor::of(self.setting, formula, degree)?.filter(|_| !known) else {
             return Ok(());
         };
-        // A product of known factors tells nothing new.
+        // A product of known factors is not new.
         let Some(at) = self.setting.split(0, 0) else { return Ok(()) };
         let line = Line::draw(self.setting, &at, 0);
         if line.is_none_or(|line| !line.has_more(&factor, factors)) {

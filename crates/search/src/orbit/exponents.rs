@@ -68,7 +68,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
         Ok(Self { setting, variables, factors, columns, divergence })
     }
 
-    /// Null vectors on some columns, each 1 at a column of its own and 0 after it.
+    /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
     fn relations(&self, at: &At, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
         let mut echelon = Echelon::new(columns.len(), at.modulus);
         let mut dependent = 0;
@@ -113,7 +113,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
         Ok(columns.iter().map(entry).collect())
     }
 
-    /// Solves the system; what is proved goes into the report.
+    /// Solves the system, and adds proved finds to the report.
     pub fn search(&self, known: &mut Known, report: &mut Report) -> Result<(), SearchError> {
         let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
         let all: Vec<usize> = (0..self.columns.len()).collect();

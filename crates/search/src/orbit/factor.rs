@@ -26,7 +26,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Reads a formula; `None` if it is no scalar of the case.
+    /// Reads a formula; `None` if it is not a scalar of the case.
     pub fn of(
         setting: &Setting<'_>,
         formula: &Formula,

@@ -1,7 +1,7 @@
-//! Points of a random line at which orbits satisfy one relation more than others.
+//! Points of a random line whose orbits satisfy one more relation than other orbits.
 //!
 //! Where f is a Darboux polynomial and f(q) = 0, f vanishes along the orbit of q. So the matrix of the
-//! Taylor coefficients of the monomials is singular there, with whichever rows it is formed. Its
+//! Taylor coefficients of the monomials is singular there, for any choice of rows. Its
 //! determinants are polynomials in the place t on the line q₀ + t q₁, and the common roots of two
 //! of them are places on such f. (In the plane these are Lagutinskii's and Pereira's extactic
 //! curves; Chèze, Bostan, Cluzeau and Weil compute with them.)
@@ -69,7 +69,7 @@ impl<'s, 'c> Line<'s, 'c> {
         rest.len() > 1
     }
 
-    /// Degree of the field in the state; `None` where it is no polynomial of low degree.
+    /// Degree of the field in the state; `None` if it is not a polynomial of low degree.
     pub fn degree(&self) -> Result<Option<usize>, SearchError> {
         let m = &self.at.modulus;
         let mut rates = vec![Vec::new(); self.direction.len()];
@@ -95,7 +95,7 @@ impl<'s, 'c> Line<'s, 'c> {
     }
 
     /// Finds the special places on the line for polynomials in these monomials, `without` the zeros
-    /// of known polynomials; `degree` is that of the field. The flag tells whether all of them lie
+    /// of known polynomials; `degree` is that of the field. The flag says whether all of them lie
     /// in the prime field.
     pub fn special(
         &self,

@@ -6,7 +6,7 @@
 //! relations    number of algebraic integrals; none is a theorem
 //! polynomials  polynomial integrals
 //! rational     rational ones, as P and Q of the relations P − c Q
-//! line         points of a line whose orbits satisfy one relation more
+//! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! part         all of these in the variables of a part of the field
@@ -117,7 +117,7 @@ pub fn search(
     let outcome = run(MODEST, report).and_then(|()| {
         for limits in FURTHER.iter().filter(|_| effort.halt.is_timed()) {
             match run(*limits, report) {
-                // The time is spent as asked for.
+                // The time limit of the user is reached.
                 Err(SearchError::Stopped) => break,
                 other => other?,
             }
@@ -136,7 +136,7 @@ pub fn search(
     }
 }
 
-/// Degree of a field in the state; `None` where it is no polynomial of low degree.
+/// Degree of a field in the state; `None` if it is not a polynomial of low degree.
 fn degree_of_field(setting: &Setting<'_>) -> Result<Option<usize>, SearchError> {
     let Some(at) = setting.at(0, 0) else { return Ok(None) };
     match Line::draw(setting, &at, 0) {

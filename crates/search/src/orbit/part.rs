@@ -1,4 +1,4 @@
-//! A set of variables that is searched by itself, and the theorem about all variables.
+//! Separate search of a set of variables, and the theorem about all variables.
 
 use liouville::formula::Formula;
 
@@ -123,7 +123,7 @@ impl Part {
         Ok(())
     }
 
-    /// Reports what was reached, and the theorem of absence.
+    /// Reports the degree reached and the theorem of absence.
     pub fn conclude(&self, setting: &Setting<'_>, report: &mut Report) {
         report.orbits.extend(self.done.iter().cloned());
         let none = self.done.iter().rfind(|own| own.relations == 0);

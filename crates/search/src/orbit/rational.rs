@@ -37,8 +37,8 @@ pub struct Rational<'s, 'c> {
 }
 
 impl Rational<'_, '_> {
-    /// Looks for integrals until as many are known as there are algebraic ones; returns whether some
-    /// was found.
+    /// Searches for integrals until the number of independent algebraic integrals is reached; returns
+    /// whether one was found.
     pub fn search(
         &self,
         at: &At,

@@ -198,8 +198,8 @@ impl<'c> Setting<'c> {
         self.flow.orbit(&at.modulus, parameters, state, orders, &self.effort.halt)
     }
 
-    /// Finds the relations between monomials along the orbit of a number, in reduced form: each is
-    /// 1 at a monomial of its own, and otherwise contains earlier ones that are none's own.
+    /// Finds the relations between monomials along the orbit of this number, in reduced form: each
+    /// has coefficient 1 at its last monomial, which occurs in no other relation.
     pub fn relations(
         &self,
         at: &At,

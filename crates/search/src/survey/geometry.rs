@@ -36,7 +36,7 @@ pub struct Geometry {
     pub facts: Vec<Fact>,
     /// Axes of revolution.
     pub axes: Vec<Axis>,
-    /// Standard names for what the case names differently.
+    /// Standard names for quantities that the case names differently.
     pub bindings: Vec<Definition>,
 }
 
@@ -249,7 +249,7 @@ fn is_true(claim: &ClaimReport) -> bool {
     matches!(claim.verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
-/// Binds the names of the families to what the case names differently.
+/// Binds the names of the families to quantities that the case names differently.
 fn bindings(case: &Case) -> Vec<Definition> {
     let mut found: Vec<(&str, &str)> = Vec::new();
     if let Some(body) = case.model.system.body() {

@@ -137,10 +137,10 @@ impl Integrals {
     fn grounds(self) -> String {
         match self {
             Integrals::Enough => {
-                "integrals: proved, as many as Euler and Jacobi's theorem needs".to_string()
+                "integrals: proved, enough for the Euler–Jacobi theorem".to_string()
             }
             Integrals::Some => {
-                "integrals: proved, but fewer than Euler and Jacobi's theorem needs".to_string()
+                "integrals: proved, but too few for the Euler–Jacobi theorem".to_string()
             }
             Integrals::ExcludedToDegree(degree) => format!(
                 "an integral besides the energy: none known; none that is polynomial in the velocities of \
@@ -158,22 +158,22 @@ fn typical(class: Class, integrals: Integrals) -> &'static [&'static str] {
              points the motion is on two-dimensional tori, quasi-periodic after a change of time",
             "no attractors, no chaos",
         ],
-        (Class::IntegralAndMeasure, _) => {
-            &["motion on the joint levels keeps a measure: no attractors; one integral short of \
-             quadratures, chaos is possible and usually weak"]
-        }
+        (Class::IntegralAndMeasure, _) => &[
+            "motion on the joint levels preserves a measure: no attractors; one integral short of \
+             quadratures, chaos is possible and usually weak",
+        ],
         (Class::IntegralOnly, _) => &[
             "the phase space is foliated by the joint levels; on them there may be limit cycles, \
              towards which the motion settles, and rotation numbers may lock",
             "no chaos where the joint levels are two-dimensional",
         ],
-        (Class::MeasureOnly, _) => {
-            &["the Poincaré map keeps an area: no attractors, islands in a chaotic sea as in a \
-             Hamiltonian system"]
-        }
+        (Class::MeasureOnly, _) => &[
+            "the Poincaré map preserves an area: no attractors, islands in a chaotic sea as in a \
+             Hamiltonian system",
+        ],
         (Class::Neither, _) => &[
             "attractors and repellers are possible, strange ones among them, as in a dissipative \
-             system, though the energy is kept",
+             system, though the energy is conserved",
         ],
         (Class::NotKnown, _) => &[],
     }

@@ -40,7 +40,7 @@ pub fn count(
     implied: &[String],
 ) -> Result<Independent, JudgeError> {
     let dimension = case.model.dimension() - case.model.level.len();
-    let energy = has_energy(case);
+    let energy = has_energy(case, options)?;
     let mut kept: Vec<usize> = Vec::new();
     let mut proof = None;
     for index in 0..integrals.len() {
@@ -66,8 +66,20 @@ pub fn count(
     Ok(Independent { kept, count })
 }
 
-/// Whether every system of this kind conserves the energy.
-fn has_energy(case: &Case) -> bool {
+/// Whether the energy is proved to be conserved.
+fn has_energy(case: &Case, options: &Options) -> Result<bool, JudgeError> {
+    if !may_have_energy(case) {
+        return Ok(false);
+    }
+    let claim = case.formula("energy").ok().map(Claim::integral);
+    let asked = claim.and_then(|claim| case.with_claims(&[claim]).ok());
+    let Some(asked) = asked else { return Ok(false) };
+    let report = judge(&asked, options)?;
+    Ok(report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))
+}
+
+/// Whether systems of this kind conserve the energy.
+fn may_have_energy(case: &Case) -> bool {
     let conserved = |case: &Case| match &case.model.system {
         liouville::mechanics::System::Ball(ball) => ball.rotation.is_none(),
         system => system.has_energy() && system.moment().is_none(),

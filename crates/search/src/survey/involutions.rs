@@ -281,7 +281,7 @@ impl Turn {
             .collect()
     }
 
-    /// Writes where axis i goes, such as `−2`.
+    /// Writes the image of axis i, such as `−2`.
     fn axis(self, i: usize) -> String {
         let minus = if self.signs[i] < 0 { "−" } else { "" };
         format!("{minus}{}", self.places[i] + 1)

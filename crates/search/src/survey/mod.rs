@@ -4,16 +4,17 @@
 //! ```text
 //! geometry     facts about the body, each a claim that is judged: it is a ball, I₁ = I₂, …
 //! family       formulas that make sense under such facts; files of data
-//! question     a family's formulas put to the case, in the names that the case has
+//! question     claims of a family about the case, in the names of the case
 //! involutions  signed permutations of the axes, as symmetries and reversors
 //! sphere       the density, or the criterion, over the sphere of normals
 //! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      further invariants that the search finds and excludes
-//! hierarchy    what follows: integral and measure, integral only, measure only, neither
+//! hierarchy    classification: integral and measure, integral only, measure only, neither
 //! ```
 
 mod axis;
 mod data;
+mod description;
 mod family;
 mod geometry;
 mod hamiltonian;
@@ -37,6 +38,7 @@ use liouville::case::{Case, Expect};
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
 
+pub use description::Description;
 pub use geometry::Fact;
 pub use hierarchy::{Class, Integrals, Measure, Standing};
 pub use independence::Count;
@@ -61,6 +63,8 @@ pub struct Survey {
     pub seed: u64,
     /// Description of the system in one sentence.
     pub sentence: String,
+    /// Functions, ranges and equations of motion.
+    pub description: Description,
     /// Parameters; proofs cover all values of the free ones.
     pub parameters: Vec<Given>,
     /// Surface of the body with the parameters of the first state, for a picture.
@@ -118,7 +122,7 @@ pub fn survey(
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
     }
-    progress("what the case claims");
+    progress("claims of the case");
     let own = liouville::verdict::judge(case, options)?;
     let claimed: Vec<Finding> = own
         .claims
@@ -134,10 +138,10 @@ pub fn survey(
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
         .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
-    progress("integrals that nobody typed");
+    progress("further integrals");
     let mut search = Unknown::of(case, options, progress);
     all.append(&mut search.findings);
-    progress("what follows");
+    progress("classification");
     let mut sorted = Sorted::of(all);
     let candidates: Vec<&Finding> = sorted.integrals.iter().collect();
     let independent =
@@ -183,6 +187,7 @@ pub fn survey(
         system: case.system.clone(),
         seed: options.seed,
         sentence: words::sentence(case, &geometry.facts),
+        description: Description::of(case),
         parameters: words::parameters(case),
         wireframe: wireframe::of(case, options)?,
         notes: case.notes.clone(),
@@ -268,7 +273,8 @@ impl Sorted {
                 _ if !finding.is_of_family() && !finding.holds() => continue,
                 "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
                 _ if finding.fails() => &mut sorted.fails,
-                _ if !finding.holds() => &mut sorted.undecided,
+                // What is only confirmed does not count.
+                _ if !finding.is_proved() => &mut sorted.undecided,
                 "density" => &mut sorted.densities,
                 "integral" if finding.is_new_integral() => &mut sorted.integrals,
                 "integral" => &mut sorted.general,
@@ -299,7 +305,7 @@ fn measure(sorted: &Sorted) -> Measure {
         return Measure::ClosedForm;
     }
     match (verdict("position-density"), verdict("analytic-density")) {
-        (Verdict::Proved | Verdict::Confirmed, _) => Measure::ByQuadrature,
+        (Verdict::Proved, _) => Measure::ByQuadrature,
         (_, Verdict::Refuted) => Measure::Excluded,
         (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
         _ if sorted.densities.iter().any(Finding::is_measure) => Measure::ByQuadrature,

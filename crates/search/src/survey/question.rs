@@ -146,6 +146,11 @@ impl Finding {
         matches!(self.claim.verdict, Verdict::Proved | Verdict::Confirmed)
     }
 
+    /// Whether the claim is proved.
+    pub fn is_proved(&self) -> bool {
+        self.claim.verdict == Verdict::Proved
+    }
+
     /// Whether the claim is known to fail.
     pub fn fails(&self) -> bool {
         self.claim.verdict == Verdict::Refuted
@@ -165,7 +170,7 @@ impl Finding {
     /// Whether the finding is a density of constant sign.
     pub fn is_measure(&self) -> bool {
         let sign = self.claim.evidence.sign;
-        self.is("density") && self.holds() && sign != Some(Sign::Changes)
+        self.is("density") && self.is_proved() && sign != Some(Sign::Changes)
     }
 
     /// Whether a formula contains an unevaluated integral.
@@ -181,7 +186,7 @@ impl Finding {
 }
 
 impl Question {
-    /// Makes the question of a family, with names for what the case names differently.
+    /// Makes the question of a family, with names for quantities that the case names differently.
     pub fn of(family: &Family, bindings: &[Definition]) -> Self {
         let own = family
             .definitions

@@ -37,7 +37,7 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
                 (_, _, true, None) => "an ellipsoid about its mass centre".to_string(),
                 (_, _, true, Some(axis)) => format!("an ellipsoid of revolution about {axis}"),
                 (_, _, _, Some(axis)) => format!("a body of revolution about {axis}"),
-                _ => "a body whose surface is none of those that have a name here".to_string(),
+                _ => "a body with a general surface".to_string(),
             };
             let curvature = system.body().and_then(|body| body.curvature.as_ref());
             let base = match curvature {
@@ -71,11 +71,9 @@ pub fn sentence(case: &Case, facts: &[Fact]) -> String {
             format!("A homogeneous ball rolls, with spin, on {surface}{turns}{with}.")
         }
         System::Lagrangian(_) => format!("A {} system with a Lagrangian.", case.system),
-        System::Hamiltonian(_) => {
-            "Hamilton's equations with a function of the author's own.".to_string()
-        }
-        System::Field(_) => "A vector field of the author's own.".to_string(),
-        System::Map(_) => "A map of the author's own.".to_string(),
+        System::Hamiltonian(_) => "Hamilton's equations for a given function H.".to_string(),
+        System::Field(_) => "A vector field given by formulas.".to_string(),
+        System::Map(_) => "A map given by formulas.".to_string(),
     }
 }
 

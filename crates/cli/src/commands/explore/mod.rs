@@ -3,6 +3,7 @@
 mod bench;
 mod chart;
 mod exponents;
+mod growth;
 mod motion;
 mod orbit;
 mod output;
@@ -17,8 +18,8 @@ mod surface;
 
 use clap::Subcommand;
 
-use super::{Answer, Sampling, colour, eval, files, source, width};
-use output::write;
+use super::out::{self, write};
+use super::{Answer, Limits, Sampling, colour, eval, files, source, width};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -31,9 +32,9 @@ pub enum Command {
     /// Follow motions: orbits, sections, exponents, charts, periodic points
     Motion {
         #[command(subcommand)]
-        command: Motion,
+        command: Box<Motion>,
     },
-    /// Measure the program: run time against error, numerical stability
+    /// Measure the program: run time against error, numerical stability, growth
     Measure {
         #[command(subcommand)]
         command: Measure,
@@ -86,6 +87,9 @@ pub enum Measure {
     /// Sweep numerically hard cases: digits lost, and verdicts that must stay right
     #[command(after_help = "Example:\n  liouville measure stress --svg stress.svg")]
     Stress(stress::Stress),
+    /// Judge families of cases of growing size: time, memory, and the exponents of growth
+    #[command(after_help = "Example:\n  liouville measure growth chain toda --within 10")]
+    Growth(growth::Growth),
 }
 
 /// The same commands under their names of version 0.1.
@@ -109,7 +113,31 @@ impl Command {
     }
 }
 
+impl Command {
+    /// Limits of a command that has nothing to show before its end; a search has its own.
+    pub fn limits(&self) -> Limits {
+        match self {
+            Self::Report(options) => options.limits,
+            Self::Motion { command } => command.limits(),
+            Self::Former(Former::Motion(command)) => command.limits(),
+            Self::Search(_) | Self::Measure { .. } | Self::Former(Former::Measure(_)) => {
+                Limits::default()
+            }
+        }
+    }
+}
+
 impl Motion {
+    fn limits(&self) -> Limits {
+        match self {
+            Self::Orbit(options) => options.subject.limits,
+            Self::Section(options) => options.subject.limits,
+            Self::Exponents(options) => options.subject.limits,
+            Self::Chart(options) => options.subject.limits,
+            Self::Periodic(options) => options.subject.limits,
+        }
+    }
+
     fn run(&self) -> Result<Answer, String> {
         match self {
             Self::Orbit(options) => orbit::run(options),
@@ -126,6 +154,7 @@ impl Measure {
         match self {
             Self::Bench(options) => bench::run(options),
             Self::Stress(options) => stress::run(options),
+            Self::Growth(options) => growth::run(options),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use liouville::case::{Angle, Case};
+use liouville::mechanics::System;
 use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
 use liouville_cli::report::data::Data;
@@ -12,6 +13,7 @@ use liouville_cli::report::diagnostic;
 use liouville_cli::report::picture::{self, Paper, Picture};
 use liouville_flow::{FlowError, FormulaMistake};
 
+use super::Limits;
 use super::colour;
 use super::eval::open;
 use super::files::plain;
@@ -31,6 +33,8 @@ pub struct Subject {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 impl Subject {
@@ -63,10 +67,15 @@ impl Plane {
     /// Angle and energy of the section.
     pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
         let plan = case.section.as_ref();
+        let rolls = matches!(case.model.system, System::Rubber(_));
+        if plan.is_none() && !rolls {
+            let error = FlowError::NoAndoyer;
+            return Err(format!("error: {error}\nhelp: {}", error.help()));
+        }
         let missing = |what: &str, key: &str| {
             format!(
-                "error: the case has no [section], so that its {what} is not known\n\
-                 help: give --{key}, or add a [section] to the case: docs/writing-a-case.md"
+                "error: the case has no [section], so the {what} is unknown\n\
+                 help: give --{key}, or add [section] with g0 and energy to the case"
             )
         };
         let g0 = self.g0.clone().or(plan.map(|plan| plan.g0.clone()));
@@ -82,7 +91,7 @@ impl Plane {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads; all cores by default. Results do not depend on it
-    #[arg(long)]
+    #[arg(long, value_parser = super::super::parse_threads)]
     pub threads: Option<usize>,
 }
 
@@ -91,6 +100,13 @@ impl Threads {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         self.threads.unwrap_or_else(cores)
     }
+}
+
+/// Reads a count of orbits, crossings or images.
+pub fn parse_count(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1_000_000;
+    let count = text.parse().ok().filter(|count| *count <= MOST);
+    count.ok_or(format!("write a whole number up to {MOST}"))
 }
 
 /// Reads a point of a section.

@@ -10,10 +10,11 @@ use liouville_flow::{
     Begin, Columns, FlowError, Launches, Lexicon, Precision, SampledOrbit, Sampling, Start,
 };
 
+use super::eval::wrong_state;
 use super::motion::{Ink, Subject, Threads, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::progress::progress;
-use super::starts::{Given, Starts, misfit};
+use super::starts::{Given, Named, Starts, misfit};
 use super::{Answer, write};
 
 /// Number of intervals between samples where no interval is given.
@@ -140,14 +141,13 @@ fn columns(case: &Case, options: &Orbit) -> Result<Columns, String> {
 }
 
 /// Starts with their names.
-fn starts(case: &Case, options: &Orbit) -> Result<Vec<(String, Result<Start, FlowError>)>, String> {
+fn starts(case: &Case, options: &Orbit) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
         Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
     let one = |begin: &Begin| launches.start(begin);
     if let Some(text) = &options.state {
-        let state =
-            verdict::read_state(case, text).map_err(|error| format!("error: --state: {error}"))?;
+        let state = verdict::read_state(case, text).map_err(|error| wrong_state(&error))?;
         return Ok(vec![("state".to_string(), one(&Begin::State(state)))]);
     }
     let given = options.starts.read(case)?;

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
-use liouville_cli::report::{diagnostic, survey as written};
+use liouville_cli::report::{Digest, diagnostic, survey as written};
 use liouville_search::survey::{self, Survey};
 
-use super::eval::open;
+use super::eval::open_signed;
 use super::motion::Threads;
 use super::progress::telling;
-use super::{Answer, Sampling, colour, width};
+use super::{Answer, Limits, Sampling, colour, out, width};
 
 #[derive(Debug, Args)]
 pub struct Report {
@@ -33,6 +33,8 @@ pub struct Report {
     #[arg(short, long)]
     pub verbose: bool,
     #[command(flatten)]
+    pub limits: Limits,
+    #[command(flatten)]
     pub sampling: Sampling,
 }
 
@@ -49,8 +51,17 @@ pub enum ReportFormat {
     Html,
 }
 
+/// Endings of files that imply a format.
+const ENDINGS: [&str; 7] = ["html", "htm", "md", "markdown", "tex", "json", "txt"];
+
 pub fn run(options: &Report) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
+    if let Some(path) = &options.out {
+        out::check(path, "--out", &[&options.case])?;
+        if options.format.is_none() && !options.json {
+            out::check_ending(path, "--out", &ENDINGS)?;
+        }
+    }
+    let (case, digest) = open_signed(&options.case, &options.settings)?;
     let found = telling(|progress| survey::survey(&case, &options.sampling.options(), progress));
     let found = found.map_err(|error| {
         let shown = options.case.display().to_string();
@@ -58,13 +69,16 @@ pub fn run(options: &Report) -> Result<Answer, String> {
         diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
     })?;
     let text = match form(options) {
-        Form::Json => written::json(&found).map_err(|error| format!("error: {error}"))? + "\n",
-        Form::Readable(format) => readable(&case, &found, format, options),
+        Form::Json => {
+            let json = written::json(&found).and_then(|json| digest.sign(&json));
+            json.map_err(|error| format!("error: {error}"))? + "\n"
+        }
+        Form::Readable(format) => readable(&case, &found, &digest, format, options),
     };
     match &options.out {
         None => Ok(Answer { text, code: 0 }),
         Some(path) => {
-            super::write(path, "--out", &text)?;
+            out::write(path, "--out", &text)?;
             Ok(Answer { text: format!("{}\n", path.display()), code: 0 })
         }
     }
@@ -90,17 +104,25 @@ fn form(options: &Report) -> Form {
     }
 }
 
-fn readable(case: &Case, found: &Survey, format: ReportFormat, options: &Report) -> String {
+fn readable(
+    case: &Case,
+    found: &Survey,
+    digest: &Digest,
+    format: ReportFormat,
+    options: &Report,
+) -> String {
+    let origin = &digest.line();
     match format {
         ReportFormat::Text => {
             let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
             written::text(
                 found,
+                origin,
                 written::Style { verbose: options.verbose, colour, width: width() },
             )
         }
-        ReportFormat::Markdown => written::markdown(found),
-        ReportFormat::Latex => written::latex(found),
+        ReportFormat::Markdown => written::markdown(found, origin),
+        ReportFormat::Latex => written::latex(found, origin),
         ReportFormat::Html => {
             let sampling = &options.sampling;
             let motion = liouville_flow::portrait(
@@ -108,7 +130,7 @@ fn readable(case: &Case, found: &Survey, format: ReportFormat, options: &Report)
                 sampling.seed,
                 Threads { threads: sampling.threads }.count(),
             );
-            written::html(found, motion.as_ref())
+            written::html(found, origin, motion.as_ref())
         }
     }
 }

@@ -11,12 +11,10 @@ use liouville_search::{Effort, Halt, Wanted};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
-use super::eval::open;
+use super::super::limits::{STOPPED, parse_seconds};
+use super::eval::open_signed;
 use super::progress::telling;
 use super::{Answer, colour};
-
-/// Exit code of a search that was stopped.
-const STOPPED: u8 = 3;
 
 /// Exit code of a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
@@ -56,12 +54,13 @@ pub struct Search {
     /// or for a given one: --poisson, --poisson=H
     #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub poisson: Option<String>,
-    /// Skip an ansatz whose matrix needs more memory than this, in megabytes
+    /// End a count that needs more memory than this, in megabytes, and skip an ansatz that may
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,
-    /// Skip a count or an ansatz that may take longer than this, in seconds
-    #[arg(long, default_value_t = 60.0)]
-    pub seconds: f64,
+    /// End a count that takes longer than this, in seconds of an average machine, and skip an
+    /// ansatz that may
+    #[arg(long, default_value = "60", value_parser = parse_seconds)]
+    pub seconds: Duration,
     /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own
     /// fields are searched in higher degrees until then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
@@ -74,13 +73,8 @@ pub struct Search {
     pub json: bool,
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.ok_or("write a number of seconds".to_string())
-}
-
 pub fn run(options: &Search) -> Result<Answer, String> {
-    let case = open(&options.case, &options.settings)?;
+    let (case, digest) = open_signed(&options.case, &options.settings)?;
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
@@ -89,7 +83,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
             "" => Wanted::Existence,
             name => Wanted::Claim(name.to_string()),
         }),
-        seconds: options.seconds,
+        seconds: options.seconds.as_secs_f64(),
         ansatz: liouville_search::Ansatz {
             wanted: options.ansatz.is_some(),
             positions: options.ansatz.unwrap_or(liouville_search::Ansatz::default().positions),
@@ -109,7 +103,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
     };
     if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
         let liouville_search::Plan { unknowns, seconds, megabytes } = plan;
-        eprintln!("up to {unknowns} unknowns: at most {seconds:.0} s and {megabytes} MB");
+        eprintln!("up to {unknowns} unknowns: at least {seconds:.0} s, and at most {megabytes} MB");
     }
     // A second Ctrl-C exits immediately.
     let switch = effort.halt.switch();
@@ -123,7 +117,9 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
     })?;
     let text = match options.json {
-        true => written::json(&case.title, &report).map_err(|error| format!("error: {error}"))?,
+        true => written::json(&case.title, &report)
+            .and_then(|json| digest.sign(&json))
+            .map_err(|error| format!("error: {error}"))?,
         false => written::text(&case.title, &report),
     };
     let code = if report.unreached.is_empty() { 0 } else { STOPPED };

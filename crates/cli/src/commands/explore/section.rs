@@ -8,7 +8,7 @@ use liouville_cli::report::exponents;
 use liouville_cli::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
 use liouville_flow::{FlowError, Precision, SectionOrbit, SectionRequest};
 
-use super::motion::{Ink, Plane, Subject, Threads, parse_start, rendered, whole};
+use super::motion::{Ink, Plane, Subject, Threads, parse_count, parse_start, rendered, whole};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::starts::{Given, Starts};
@@ -36,13 +36,13 @@ pub struct Section {
     #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
     pub axes: Option<String>,
     /// Number of orbits to start, spread over the sphere; with --section, of states drawn
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
     /// Number of crossings of each orbit to draw
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub crossings: Option<usize>,
     /// Number of crossings to leave out at the beginning of each orbit
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub skip: Option<usize>,
     #[command(flatten)]
     pub starts: Starts,
@@ -60,7 +60,7 @@ pub struct Section {
     #[arg(long, value_delimiter = ',')]
     pub lines: Vec<Line>,
     /// Number of images of the lines, forwards and backwards
-    #[arg(long)]
+    #[arg(long, value_parser = parse_count)]
     pub images: Option<usize>,
     /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
     /// may be repeated

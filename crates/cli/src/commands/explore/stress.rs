@@ -30,6 +30,9 @@ pub struct Stress {
 }
 
 pub fn run(options: &Stress) -> Result<Answer, String> {
+    if let Some(path) = &options.svg {
+        super::out::check(path, "--svg", &[])?;
+    }
     let started = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))

@@ -6,7 +6,7 @@ use super::picture;
 use liouville_search::survey::{Count, Finding, Integrals, Measure, Survey, Unknown};
 
 /// Composes the document of a survey.
-pub fn document(survey: &Survey) -> Document {
+pub fn document(survey: &Survey, origin: &str) -> Document {
     let sections = [
         Section::new("Where it stands", standing(survey)),
         Section::new("The system", system(survey)),
@@ -17,9 +17,9 @@ pub fn document(survey: &Survey) -> Document {
         Section::new("Reversors and symmetries", maps(survey)),
         Section::new("Conformally Hamiltonian form", hamiltonian(survey)),
         Section::new("What is excluded", excluded(survey)),
-        Section::new("Not decided", blocks(&survey.undecided)),
+        Section::new("Not proved", blocks(&survey.undecided)),
         Section::new("What the case claims", blocks(&survey.claimed)),
-        Section::new("How to repeat this", repeat(survey)),
+        Section::new("How to repeat this", repeat(survey, origin)),
     ];
     Document {
         title: survey.title.clone(),
@@ -50,36 +50,29 @@ fn standing(survey: &Survey) -> Vec<Block> {
 fn system(survey: &Survey) -> Vec<Block> {
     let mut found = vec![text(survey.sentence.clone())];
     found.extend(survey.wireframe.as_ref().map(|frame| Block::Picture(picture::body(frame))));
-    let free: Vec<&str> = survey
-        .parameters
-        .iter()
-        .filter(|one| one.value.is_none())
-        .map(|one| one.name.as_str())
-        .collect();
-    if !free.is_empty() {
-        found.push(text(format!(
-            "Free parameters: {}. What is proved holds for all their values.",
-            free.join(", ")
-        )));
+    let own = &survey.description;
+    if !own.functions.is_empty() {
+        found.extend([text("Given by:"), Block::List(own.functions.clone())]);
     }
-    let fixed = survey.parameters.iter().filter_map(|one| Some((&one.name, one.value.as_ref()?)));
-    let fixed: Vec<String> = fixed.map(|(name, value)| format!("{name} = {value}")).collect();
-    if !fixed.is_empty() {
-        found.push(text(format!("Given: {}.", fixed.join("; "))));
+    if !own.equations.is_empty() {
+        found.extend([text("Equations of motion:"), Block::List(own.equations.clone())]);
+    }
+    if !own.parameters.is_empty() {
+        found.extend([text("Parameters:"), Block::List(own.parameters.clone())]);
+    }
+    if survey.parameters.iter().any(|one| one.value.is_none()) {
+        found.push(text("What is proved holds for all values of the free parameters."));
     }
     let (holds, fails): (Vec<_>, Vec<_>) = survey.facts.iter().partition(|fact| fact.holds);
     let told = |facts: Vec<&liouville_search::survey::Fact>| {
         facts.iter().map(|fact| fact.words.clone()).collect::<Vec<_>>()
     };
     if !holds.is_empty() {
-        found.extend([
-            text("Recognised, each by a proof or as the file says it:"),
-            Block::List(told(holds)),
-        ]);
+        found.extend([text("Established:"), Block::List(told(holds))]);
     }
     if !fails.is_empty() {
         let not = told(fails).join("; ");
-        found.push(text(format!("Tried, and not so: {not}.")));
+        found.push(text(format!("Ruled out: {not}.")));
     }
     let grounds = survey.facts.iter().map(|fact| match &fact.claim {
         None => format!("{}: as the file says", fact.words),
@@ -115,7 +108,7 @@ fn measure(survey: &Survey) -> Vec<Block> {
     found.extend(sentence.map(text));
     if let Some(map) = &survey.sphere {
         let closure = map.closure.map(|error| {
-            format!(" Around closed parallels the quadrature gives 0 but for {error:e}.")
+            format!(" Around closed parallels the quadrature vanishes to {error:.0e}.")
         });
         let what = match map.quantity {
             "C₁" => {
@@ -186,14 +179,17 @@ fn count(count: &Count, measure: Measure) -> String {
     let verdict = match (found >= count.needed, has_measure) {
         (true, true) => "with the measure this is enough",
         (true, false) => "but there is no measure to go with them",
-        (false, _) => "so that some are missing",
+        (false, _) => "some are missing",
+    };
+    let known = match found {
+        0 => "no integral is proved".to_string(),
+        1 => format!("1 independent integral is proved ({})", count.independent.join(", ")),
+        _ => format!("{found} independent integrals are proved ({})", count.independent.join(", ")),
     };
     format!(
-        "The level set has dimension {}; {found} independent integrals are known ({}). Euler and Jacobi's theorem asks \
-         for {} and a measure: {verdict}.",
-        count.dimension,
-        if found == 0 { "none".to_string() } else { count.independent.join(", ") },
-        count.needed,
+        "The level set has dimension {}; {known}. The Euler–Jacobi theorem needs {} and a measure: \
+         {verdict}.",
+        count.dimension, count.needed,
     )
 }
 
@@ -285,11 +281,10 @@ fn theorems(search: &Unknown) -> Vec<Block> {
     found
 }
 
-fn repeat(survey: &Survey) -> Vec<Block> {
+fn repeat(survey: &Survey, origin: &str) -> Vec<Block> {
     vec![text(format!(
-        "liouville {} with seed {}: the same input gives the same report. A state of a witness is put into \
-         `liouville eval` as it is printed.",
-        env!("CARGO_PKG_VERSION"),
+        "{origin}, seed {}: the same input gives the same report. Pass a witness to `liouville eval` as \
+         printed.",
         survey.seed
     ))]
 }

@@ -117,5 +117,5 @@ pub fn grounds(evidence: &Evidence) -> Vec<String> {
 /// State at which a claim fails, in the notation of `eval`.
 pub fn witness(witness: &Witness) -> String {
     let (residual, error) = (witness.residual, witness.error_bound);
-    format!("witness: {residual:e} ± {error:.1e} at {}", options(witness))
+    format!("witness: {residual:.3e} ± {error:.1e} at {}", options(witness))
 }

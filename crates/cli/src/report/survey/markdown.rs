@@ -5,7 +5,7 @@ use crate::report::typeset::latex::formula;
 
 /// Renders the whole document.
 pub fn render(document: &Document) -> String {
-    let mut out = format!("# {}\n", document.title);
+    let mut out = format!("# {}\n", escaped(&one_line(&document.title)));
     for section in &document.sections {
         out.push_str(&format!("\n## {}\n\n", section.title));
         for block in &section.blocks {
@@ -17,7 +17,7 @@ pub fn render(document: &Document) -> String {
 
 fn set(block: &Block) -> String {
     match block {
-        Block::Text(text) => format!("{}\n\n", escaped(text)),
+        Block::Text(text) => format!("{}\n\n", escaped(&one_line(text))),
         Block::List(items) => {
             let lines: String = items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
             lines + "\n"
@@ -76,6 +76,11 @@ fn entry(entry: &Entry) -> String {
         out.push_str(&folded("evidence", &entry.evidence));
     }
     out
+}
+
+/// Text in one line.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Escapes the characters that Markdown would read as markup.

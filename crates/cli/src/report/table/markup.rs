@@ -15,10 +15,9 @@ pub fn markdown(table: &Regenerated) -> String {
         for cell in &row.cells {
             let claim = |claim: &CellClaim| {
                 let (mark, verdict) = (claim.mark(), claim.verdict.word());
-                let name = claim.name.replace(['|', '[', ']'], "\u{2223}");
-                format!("[{mark} {verdict}: {name}]({})", claim.path)
+                format!("[{mark} {verdict}: {}](<{}>)", inline(&claim.name), target(&claim.path))
             };
-            out.push_str(&format!(" {} |", joined(cell, |w| w.replace('|', "\\|"), claim, "<br>")));
+            out.push_str(&format!(" {} |", joined(cell, inline, claim, "<br>")));
         }
         out.push('\n');
     }
@@ -48,14 +47,49 @@ pub fn latex(table: &Regenerated) -> String {
                     "✗" => "$\\times$",
                     mark => mark,
                 };
-                format!("{mark} \\href{{run:{}}}{{{}}}", claim.path, escaped(&text))
+                format!(
+                    "{mark} \\href{{{}}}{{{}}}",
+                    target(&claim.path).replace('%', "\\%"),
+                    escaped(&text)
+                )
             };
-            out.push_str(&format!(" & {}", joined(cell, escaped, claim, " \\newline ")));
+            let words = |text: &str| escaped(&one_line(text));
+            out.push_str(&format!(" & {}", joined(cell, words, claim, " \\newline ")));
         }
         out.push_str(" \\\\\n");
     }
     out.push_str("\\end{tabular}\n");
     out
+}
+
+/// Text in one line.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Text in one line of a Markdown table, with what would be markup escaped.
+fn inline(text: &str) -> String {
+    let mut out = String::new();
+    for c in one_line(text).chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '!' | '$' => out.extend(['\\', c]),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Path as the target of a link: all but plain characters are percent-encoded.
+fn target(path: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/.-_".contains(&byte);
+    path.bytes()
+        .map(|byte| match is_plain(byte) {
+            true => char::from(byte).to_string(),
+            false => format!("%{byte:02X}"),
+        })
+        .collect()
 }
 
 /// Joins the words of a cell and its claims, or returns a dash.
@@ -68,4 +102,17 @@ fn joined(
     let lines: Vec<String> =
         cell.words.iter().map(|w| words(w)).chain(cell.claims.iter().map(claim)).collect();
     if lines.is_empty() { "–".to_string() } else { lines.join(separator) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_and_paths_are_no_markup() {
+        assert_eq!(inline("<b>|x\ny"), "&lt;b&gt;\\|x y");
+        assert_eq!(inline("![x](http://x)"), "\\!\\[x\\](http://x)");
+        assert_eq!(target("a}\\input{evil}%.toml"), "a%7D%5Cinput%7Bevil%7D%25.toml");
+        assert_eq!(target("cases/plane/ball.toml"), "cases/plane/ball.toml");
+    }
 }

@@ -101,6 +101,29 @@ impl Modulus {
         sum.min(sum.wrapping_sub(self.prime))
     }
 
+    /// Returns the number of products of residues that may be added to a widened residue before it
+    /// is reduced: so many that the sum stays below 2^127. It is 24 or more for primes below 2^61.
+    pub fn most_products(&self) -> u64 {
+        let prime = u128::from(self.prime);
+        let room = (1u128 << 127) - (prime << 64);
+        u64::try_from(room / (prime * prime)).unwrap_or(u64::MAX)
+    }
+
+    /// Returns x as a sum of products, to which others x y may be added as they are.
+    #[inline(always)]
+    pub fn widened(&self, x: u64) -> u128 {
+        u128::from(x) << 64
+    }
+
+    /// Returns the residue of a sum of products.
+    #[inline(always)]
+    pub fn reduced(&self, sum: u128) -> u64 {
+        let factor = (sum as u64).wrapping_mul(self.negative_inverse);
+        // The sum is below 2^127, and the other term below 2^126.
+        let whole = sum.wrapping_add(u128::from(factor).wrapping_mul(u128::from(self.prime)));
+        (whole >> 64) as u64 % self.prime
+    }
+
     /// Computes x^n.
     pub fn power(&self, x: u64, n: u64) -> u64 {
         let mut result = self.one;
@@ -113,9 +136,24 @@ impl Modulus {
         result
     }
 
-    /// Computes 1/x for x ≠ 0.
+    /// Computes 1/x for x ≠ 0, by Euclid's algorithm, which takes some forty steps; 0 for 0.
     pub fn inverse(&self, x: u64) -> u64 {
-        self.power(x, self.prime - 2)
+        let (mut above, mut below) = (self.prime, x % self.prime);
+        // The signs of the factors of x alternate, so that magnitudes are enough.
+        let (mut before, mut factor) = (0u64, 1u64);
+        let mut is_negative = false;
+        while below > 1 {
+            let quotient = above / below;
+            (above, below) = (below, above - quotient * below);
+            (before, factor) = (factor, before + quotient * factor);
+            is_negative = !is_negative;
+        }
+        if below == 0 {
+            return 0;
+        }
+        let inverse = if is_negative { self.prime - factor } else { factor };
+        // Of x 2^64 this is the inverse; twice 2^64 brings it to the form of residues.
+        self.mul(self.mul(inverse, self.square), self.square)
     }
 
     /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined

@@ -88,3 +88,29 @@ fn roots_of_odd_index_need_a_suitable_prime() {
     let half = m.odd_power(m.integer(4), &Rational::new(1, 2));
     assert_eq!(half, None, "the root of even index has two signs");
 }
+
+#[test]
+fn sums_of_products_are_reduced_late() {
+    for prime in [(1u64 << 61) - 1, 4_611_686_018_427_387_847, 1_000_003] {
+        let m = Modulus::new(prime);
+        let numbers: Vec<u64> = (1..20u64).map(|k| m.sub(0, m.integer(k * k * 77))).collect();
+        for pairs in numbers.windows(8) {
+            let (mut late, mut early) = (m.widened(numbers[3]), numbers[3]);
+            for pair in pairs.chunks(2) {
+                late += u128::from(pair[0]) * u128::from(pair[1]);
+                early = m.add(early, m.mul(pair[0], pair[1]));
+            }
+            assert_eq!(m.reduced(late), early, "modulo {prime}");
+        }
+        let (greatest, count) = (prime - 1, m.most_products().min(1000));
+        assert!(count >= 4, "four products fit for any prime");
+        let square = u128::from(greatest) * u128::from(greatest);
+        let most = m.widened(greatest) + square * u128::from(count);
+        let expected = (0..count).fold(greatest, |sum, _| m.add(sum, m.mul(greatest, greatest)));
+        assert_eq!(m.reduced(most), expected, "the largest residues modulo {prime}");
+        for x in numbers {
+            assert_eq!(m.mul(x, m.inverse(x)), m.one(), "x/x modulo {prime}");
+            assert_eq!(m.inverse(x), m.power(x, prime - 2), "as by Fermat modulo {prime}");
+        }
+    }
+}

@@ -184,7 +184,7 @@ impl Lowering<'_> {
                 }
                 Some(product)
             }
-            Form::Angle { multiples, sine } => {
+            Form::Angle { multiples, turns, sine } => {
                 let one = Expr::rational(&Rational::from(1));
                 // (c + i s)^n of each, multiplied: cosine and sine of the sum.
                 let (mut cosine_of, mut sine_of) = (one, Expr::rational(&Rational::from(0)));
@@ -199,6 +199,9 @@ impl Lowering<'_> {
                         (cosine_of, sine_of) =
                             (cosine_of * c - sine_of * s, cosine_of * s + sine_of * c);
                     }
+                }
+                for _ in 0..*turns {
+                    (cosine_of, sine_of) = (-sine_of, cosine_of);
                 }
                 Some(if *sine { sine_of } else { cosine_of })
             }

@@ -77,6 +77,7 @@ pub struct Algebraic<'g> {
 }
 
 /// An owned or borrowed graph.
+#[allow(clippy::large_enum_variant, reason = "there is one of them, and never a list")]
 pub enum Held<'g> {
     /// An owned graph.
     Own(Graph),

@@ -1,0 +1,124 @@
+//! The option `--certificate` of `liouville check`: one file for each proof by points.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use liouville::verdict::{ClaimReport, Method, Verdict, statements};
+use liouville_cli::report::certificate::{Missing, Origin, certificate};
+use liouville_cli::report::{Outcome, RunReport};
+use rayon::prelude::*;
+
+use super::eval::read_settings;
+use super::{Check, source, write};
+
+/// Certificates of a case: name of the claim, and text or the reason why there is none.
+type Made = Vec<(String, Result<String, Missing>)>;
+
+/// Writes the certificates of all claims of a run; returns a summary.
+pub fn write_all(folder: &Path, run: &RunReport, options: &Check) -> Result<String, String> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        format!(
+            "error: cannot make the folder {}: {error}\nhelp: give --certificate a folder to write to",
+            folder.display()
+        )
+    })?;
+    let made: Vec<(&Outcome, Made)> = run
+        .outcomes
+        .par_iter()
+        .map(|outcome| Ok((outcome, of_case(outcome, options)?)))
+        .collect::<Result<_, String>>()?;
+    let mut taken: HashSet<String> = HashSet::new();
+    let mut written = 0;
+    let mut missing: Vec<Missing> = Vec::new();
+    for (outcome, made) in &made {
+        for (claim, text) in made {
+            match text {
+                Ok(text) => {
+                    let name = fresh(&mut taken, &outcome.path, claim);
+                    write(&folder.join(format!("{name}.json")), "--certificate", text)?;
+                    written += 1;
+                }
+                Err(reason) => missing.push(*reason),
+            }
+        }
+    }
+    Ok(summary(folder, written, &missing))
+}
+
+/// Makes the certificates of the proofs of a case by points or by folding.
+fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
+    let Ok(report) = &outcome.result else { return Ok(Vec::new()) };
+    let path = Path::new(&outcome.path);
+    if source::is_standard_input(path) {
+        return Err("error: --certificate reads the case again, which standard input cannot do\n\
+                    help: save the case in a file"
+            .to_string());
+    }
+    let (text, case) = source::read(path, &read_settings(&options.settings)?);
+    let Ok(case) = case else { return Ok(Vec::new()) };
+    let by_name = |claim: &ClaimReport| {
+        case.claims.iter().position(|own| own.name == claim.name && !own.kind.is_negated())
+    };
+    let is_by_points = |claim: &&ClaimReport| {
+        claim.verdict == Verdict::Proved
+            && matches!(claim.evidence.method, Method::PrimeField | Method::Folding)
+    };
+    let proved: Vec<(usize, &ClaimReport)> = report
+        .claims
+        .iter()
+        .filter(is_by_points)
+        .filter_map(|claim| Some((by_name(claim)?, claim)))
+        .collect();
+    if proved.is_empty() {
+        return Ok(Vec::new());
+    }
+    let claims: Vec<usize> = proved.iter().map(|(index, _)| *index).collect();
+    let found = statements(&case, &claims, options.sampling.seed)
+        .map_err(|error| format!("error: {}: {error}", outcome.path))?;
+    let origin = Origin { path: &outcome.path, text: &text, settings: &options.settings };
+    Ok(proved
+        .iter()
+        .zip(&found)
+        .map(|((_, claim), statement)| {
+            let made = certificate(&case, &origin, claim, statement, options.sampling.seed);
+            (claim.name.clone(), made.map(|json| format!("{json:#}\n")))
+        })
+        .collect())
+}
+
+/// Name of a file that no other certificate of the run has.
+fn fresh(taken: &mut HashSet<String>, path: &str, claim: &str) -> String {
+    let path = path.trim_start_matches("./").trim_start_matches("cases/");
+    let path = path.trim_end_matches(".toml");
+    let plain = |text: &str| -> String {
+        let letters = text.chars().map(|c| if c.is_alphanumeric() { c } else { '-' });
+        let words: String = letters.collect();
+        let words: Vec<&str> = words.split('-').filter(|word| !word.is_empty()).collect();
+        words.join("-").chars().take(60).collect()
+    };
+    let name = format!("{}--{}", plain(path), plain(claim));
+    let numbers = (1..).map(|count| match count {
+        1 => name.clone(),
+        _ => format!("{name}-{count}"),
+    });
+    let own = numbers.into_iter().find(|own| !taken.contains(own)).unwrap_or(name.clone());
+    taken.insert(own.clone());
+    own
+}
+
+fn summary(folder: &Path, written: usize, missing: &[Missing]) -> String {
+    let count = |reason: Missing| missing.iter().filter(|own| **own == reason).count();
+    let reasons = [
+        (Missing::NotPlain, "with dependent roots, moduli or functions such as exp"),
+        (Missing::NoProgram, "at states that no formula makes, or with too many listed values"),
+        (Missing::NoBound, "whose bound is too weak, or without value for some listed values"),
+    ];
+    let mut text = format!("{written} certificates in {}", folder.display());
+    for (reason, words) in reasons {
+        match count(reason) {
+            0 => {}
+            n => text.push_str(&format!("; {n} proofs {words} have none")),
+        }
+    }
+    text
+}

@@ -1,0 +1,38 @@
+//! The commands `liouville completions` and `liouville man`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap_complete::Shell;
+
+use super::{Answer, Arguments};
+
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// Shell to complete commands in
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct Man {
+    /// Folder to write the pages to
+    pub folder: PathBuf,
+}
+
+/// Name of the program.
+const PROGRAM: &str = "liouville";
+
+pub fn completions(options: &Completions) -> Result<Answer, String> {
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut Arguments::described(), PROGRAM, &mut script);
+    Ok(Answer { text: String::from_utf8_lossy(&script).into_owned(), code: 0 })
+}
+
+pub fn man(options: &Man) -> Result<Answer, String> {
+    let folder = options.folder.display();
+    std::fs::create_dir_all(&options.folder)
+        .and_then(|()| clap_mangen::generate_to(Arguments::described(), &options.folder))
+        .map_err(|error| format!("error: cannot write to {folder}: {error}"))?;
+    Ok(Answer { text: format!("{folder}\nnext: man -l {folder}/{PROGRAM}.1\n"), code: 0 })
+}

@@ -1,0 +1,309 @@
+//! Judging of many cases: read, judged in parallel, and reported as far as they came.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Instant;
+
+use liouville::case::{Case, Expect, Setting};
+use liouville::verdict::{self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict};
+use liouville_cli::report::{Digest, Failure, Heading, Outcome, RunReport, diagnostic};
+use rayon::prelude::*;
+
+use super::files::{self, Found, coloured, plain};
+use super::limits::{Limits, Stop, signals};
+use super::source;
+
+/// Stack of each thread; formulas nest, and what follows them does.
+const STACK: usize = 16 << 20;
+
+/// Change of a case before it is judged.
+pub type Prepare = Box<dyn Fn(&mut Case) + Send + Sync>;
+
+/// Cases to judge, and how.
+pub struct Work {
+    /// Files and folders.
+    pub paths: Vec<PathBuf>,
+    /// Values of parameters.
+    pub settings: Vec<Setting>,
+    /// Change of each case.
+    pub prepare: Prepare,
+    /// Options of the verdicts.
+    pub options: Options,
+    /// Whether claims about motion are judged.
+    pub motions: bool,
+    /// Number of threads.
+    pub threads: Option<usize>,
+    /// Limits of time and memory.
+    pub limits: Limits,
+}
+
+/// What is known of a file so far.
+struct Slot {
+    path: PathBuf,
+    heading: Heading,
+    is_read: bool,
+    /// The case, until it is judged.
+    case: Option<Case>,
+    text: String,
+    /// All claims, as yet without verdicts.
+    stated: Vec<ClaimReport>,
+    warnings: Vec<String>,
+    remarks: Vec<String>,
+    /// Verdicts so far.
+    partial: Option<CaseReport>,
+    result: Option<Result<CaseReport, Vec<Failure>>>,
+}
+
+/// Judges every case of the work.
+///
+/// A file that fails in any way leaves the others as they are. At a limit, and on Ctrl-C, claims
+/// without a verdict are undecided.
+pub fn judge(work: Work) -> Result<RunReport, String> {
+    let started = Instant::now();
+    work.limits.check()?;
+    let (limits, seed) = (work.limits, work.options.seed);
+    let signal = signals()?;
+    let files = files::collect(&work.paths);
+    let slots: Arc<Vec<Mutex<Slot>>> = Arc::new(files.into_iter().map(Slot::new).collect());
+    let threads = work.threads.unwrap_or(0).min(slots.len().max(1));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .stack_size(STACK)
+        .build()
+        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let bar = files::bar(slots.len() as u64);
+    let (sender, receiver) = channel();
+    let (own, shown) = (Arc::clone(&slots), bar.clone());
+    std::thread::Builder::new()
+        .spawn(move || {
+            pool.install(|| {
+                own.par_iter().for_each(|slot| read(slot, &work));
+                own.par_iter().for_each(|slot| {
+                    decide(slot, &work);
+                    files::advance(&shown, started);
+                });
+            });
+            // nobody waits any more if this fails
+            _ = sender.send(());
+        })
+        .map_err(|error| format!("error: cannot start a thread: {error}"))?;
+    let stop = limits.wait(&receiver, &signal).err();
+    bar.finish_and_clear();
+    let outcomes = slots.iter().map(|slot| locked(slot).outcome(stop)).collect();
+    Ok(RunReport { seed, outcomes, elapsed: started.elapsed() })
+}
+
+/// Locks a slot; what a failed thread left in it stays valid.
+fn locked(slot: &Mutex<Slot>) -> MutexGuard<'_, Slot> {
+    slot.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+impl Slot {
+    fn new(found: Found) -> Mutex<Self> {
+        let (path, result) = match found {
+            Ok(path) => (path, None),
+            Err((path, failure)) => (path, Some(Err(vec![failure]))),
+        };
+        Mutex::new(Self {
+            path,
+            heading: Heading::default(),
+            is_read: false,
+            case: None,
+            text: String::new(),
+            stated: Vec::new(),
+            warnings: Vec::new(),
+            remarks: Vec::new(),
+            partial: None,
+            result,
+        })
+    }
+
+    /// The outcome as far as it is known; `stop` tells why it is not complete.
+    fn outcome(&mut self, stop: Option<Stop>) -> Outcome {
+        let path = self.path.display().to_string();
+        let heading = std::mem::take(&mut self.heading);
+        let (result, unreached) = match (self.result.take(), stop) {
+            (Some(result), _) => (result, Vec::new()),
+            (None, stop) => self.unfinished(stop.unwrap_or(Stop::Failed)),
+        };
+        Outcome { path, heading, result, unreached }
+    }
+
+    /// Verdicts so far, and the other claims as undecided, with their names.
+    fn unfinished(&mut self, stop: Stop) -> (Result<CaseReport, Vec<Failure>>, Vec<String>) {
+        if !self.is_read {
+            let message = format!("the file was not read: {stop}");
+            let help = "give it more time or memory, or judge it alone";
+            return (Err(vec![plain(&self.path, &message, help)]), Vec::new());
+        }
+        let mut report = self.partial.take().unwrap_or_else(|| CaseReport {
+            claims: Vec::new(),
+            warnings: std::mem::take(&mut self.warnings),
+            remarks: std::mem::take(&mut self.remarks),
+            mutants: None,
+            motions_left: 0,
+            absences_left: 0,
+        });
+        report.motions_left = 0;
+        report.absences_left = 0;
+        let mut unreached = Vec::new();
+        for mut claim in std::mem::take(&mut self.stated) {
+            if !report.claims.iter().any(|known| known.name == claim.name) {
+                claim.evidence.reason = Some(format!("not reached: {stop}"));
+                unreached.push(claim.name.clone());
+                report.claims.push(claim);
+            }
+        }
+        (Ok(report), unreached)
+    }
+}
+
+/// Reads the file of a slot.
+fn read(slot: &Mutex<Slot>, work: &Work) {
+    let path = locked(slot).path.clone();
+    if locked(slot).result.is_some() {
+        return;
+    }
+    let shown = path.display().to_string();
+    let prepared = |mut case: Case| {
+        (work.prepare)(&mut case);
+        case
+    };
+    let found = catch_unwind(AssertUnwindSafe(|| {
+        let (text, case) = source::read(&path, &work.settings);
+        (text, case.map(prepared))
+    }));
+    let mut slot = locked(slot);
+    match found {
+        Err(panic) => slot.result = Some(Err(vec![fault(&path, panic.as_ref())])),
+        Ok((text, Err(error))) => {
+            slot.result = Some(Err(diagnostic::of_case(&shown, &text, &error, coloured())));
+        }
+        Ok((text, Ok(case))) => {
+            slot.heading = Heading {
+                title: case.title.clone(),
+                source: case.source.clone(),
+                system: case.system.clone(),
+                column: case.column.clone(),
+                notes: case.notes.clone(),
+                digest: Some(Digest::of(&text)),
+            };
+            slot.is_read = true;
+            slot.stated = stated(&case, work.motions);
+            (slot.warnings, slot.remarks) = (case.warnings.clone(), case.remarks.clone());
+            (slot.case, slot.text) = (Some(case), text);
+        }
+    }
+}
+
+/// Judges the case of a slot.
+fn decide(slot: &Mutex<Slot>, work: &Work) {
+    let (path, text, case) = {
+        let mut slot = locked(slot);
+        let Some(case) = slot.case.take() else { return };
+        (slot.path.clone(), std::mem::take(&mut slot.text), case)
+    };
+    let keep = |report: &CaseReport| locked(slot).partial = Some(report.clone());
+    let found = catch_unwind(AssertUnwindSafe(|| verdicts(&case, work, &keep)));
+    let shown = path.display().to_string();
+    let result = match found {
+        Err(panic) => Err(vec![fault(&path, panic.as_ref())]),
+        Ok(result) => {
+            result.map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, coloured())])
+        }
+    };
+    locked(slot).result = Some(result);
+}
+
+/// Judges the claims of a case in stages, and hands over what each stage reached.
+fn verdicts(
+    case: &Case,
+    work: &Work,
+    keep: &dyn Fn(&CaseReport),
+) -> Result<CaseReport, JudgeError> {
+    let options = &work.options;
+    let mut report = verdict::judge(case, options)?;
+    if !case.absences.is_empty() {
+        keep(&report);
+    }
+    liouville_search::complete(case, options, &mut report)?;
+    if work.motions {
+        if !case.motions.is_empty() {
+            keep(&report);
+        }
+        liouville_flow::observe::observe_each(case, options, &mut |claim| {
+            report.claims.push(claim);
+            keep(&report);
+        });
+        report.motions_left = 0;
+    }
+    Ok(report)
+}
+
+/// Lists the claims of a case without verdicts.
+fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
+    let open = |name: &str, kind: &'static str, source: &str, expect: Expect| ClaimReport {
+        name: name.to_string(),
+        formula: None,
+        kind,
+        source: source.to_string(),
+        place: "level".to_string(),
+        expect,
+        verdict: Verdict::Undecided,
+        agrees: expect == Expect::Open,
+        cell: None,
+        note: None,
+        evidence: Evidence::default(),
+    };
+    let claims = case.claims.iter().map(|own| ClaimReport {
+        formula: own.kind.text(),
+        place: own.place.name(&case.model),
+        cell: own.cell.clone(),
+        note: own.note.clone(),
+        ..open(&own.name, own.kind.name(), &own.source, own.expect)
+    });
+    let absences =
+        case.absences.iter().map(|own| open(&own.name, own.kind.name(), &own.source, own.expect));
+    let motions = case
+        .motions
+        .iter()
+        .filter(|_| motions)
+        .map(|own| open(&own.name, own.kind.name(), &own.source, own.expect));
+    claims.chain(absences).chain(motions).collect()
+}
+
+/// Failure of a file on which the program itself failed.
+fn fault(path: &Path, panic: &(dyn Any + Send)) -> Failure {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+    let message = format!("the program failed on this file: {text}");
+    plain(path, &message, "this is a fault of the program: please report it with the file")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_on_one_file_leaves_the_others() {
+        let work = Work {
+            paths: vec!["plane/balanced-ball".into(), "plane/disk".into()],
+            settings: Vec::new(),
+            prepare: Box::new(|case| assert!(!case.title.contains("Disk"), "a fault")),
+            options: Options::default(),
+            motions: false,
+            threads: Some(2),
+            limits: Limits::default(),
+        };
+        let run = judge(work).expect("a report");
+        let failed = |outcome: &&Outcome| outcome.result.is_err();
+        let faults: Vec<&Outcome> = run.outcomes.iter().filter(failed).collect();
+        assert_eq!((run.outcomes.len(), faults.len()), (2, 1));
+        let failures = faults[0].result.as_ref().expect_err("a failure");
+        assert!(failures[0].message.contains("the program failed on this file: a fault"));
+        assert_eq!(run.exit_code(), 2);
+    }
+}

@@ -1,0 +1,184 @@
+//! C99, in doubles.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Target, Term, comments, double, usual};
+
+/// C.
+pub struct C;
+
+/// Functions that have no value where the language has an infinite one.
+const HELPERS: [(&str, &str); 2] = [
+    (
+        "reciprocal(",
+        "/* 1/x; no value at 0. */\n\
+         static double reciprocal(double x) { return x == 0.0 ? NAN : 1.0/x; }\n",
+    ),
+    (
+        "logarithm(",
+        "/* log(x); no value at 0. */\n\
+         static double logarithm(double x) { return x == 0.0 ? NAN : log(x); }\n",
+    ),
+];
+
+impl Target for C {
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "auto",
+            "break",
+            "case",
+            "char",
+            "const",
+            "continue",
+            "default",
+            "do",
+            "double",
+            "else",
+            "enum",
+            "extern",
+            "float",
+            "for",
+            "goto",
+            "if",
+            "inline",
+            "int",
+            "long",
+            "register",
+            "restrict",
+            "return",
+            "short",
+            "signed",
+            "sizeof",
+            "static",
+            "struct",
+            "switch",
+            "typedef",
+            "union",
+            "unsigned",
+            "void",
+            "volatile",
+            "while",
+            "main",
+            "asm",
+            "class",
+            "private",
+            "public",
+            "template",
+            "this",
+            "new",
+            "delete",
+            "fabs",
+            "sqrt",
+            "exp",
+            "log",
+            "sin",
+            "cos",
+            "atan",
+            "pow",
+            "NAN",
+            "INFINITY",
+            "I",
+            "reciprocal",
+            "logarithm",
+            "state",
+            "parameters",
+            "values",
+            "gamma",
+            "j0",
+            "j1",
+            "y0",
+            "y1",
+            "jn",
+            "yn",
+            "bool",
+            "true",
+            "false",
+            "signgam",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        double(value, ".0")
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        let name = match function {
+            Function::Abs => "fabs",
+            Function::Ln => "logarithm",
+            other => usual(other),
+        };
+        Term::atom(format!("{name}({})", argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        let text = format!("pow({}, {})", base.text, self.number(&exponent.abs()).text);
+        match exponent.is_negative() {
+            true => Term::atom(format!("reciprocal({text})")),
+            false => Term::atom(text),
+        }
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        Term::atom(format!("pow({}, {})", base.text, exponent.text))
+    }
+
+    fn reciprocal(&self, a: &Term) -> Term {
+        Term::atom(format!("reciprocal({})", a.text))
+    }
+
+    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+        None
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let mut code = String::new();
+        for body in bodies {
+            code.push('\n');
+            code.push_str(&comments(&export.subject(body.part), "/* ", " */"));
+            code.push_str(&format!(
+                "void {}(const double *state, const double *parameters, double *values)\n{{\n",
+                body.name
+            ));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                let used = export.used(body, is_state);
+                if used.is_empty() {
+                    code.push_str(&format!("    (void){list};\n"));
+                }
+                for (index, place) in used {
+                    let own = &names.inputs[place];
+                    code.push_str(&format!("    const double {own} = {list}[{index}];\n"));
+                }
+            }
+            for (name, value) in &body.lines {
+                code.push_str(&format!("    const double {name} = {value};\n"));
+            }
+            for (index, output) in body.outputs.iter().enumerate() {
+                code.push_str(&format!("    values[{index}] = {output};\n"));
+            }
+            code.push_str("}\n");
+        }
+        let mut text = comments(&export.heading(), "/* ", " */");
+        text.push_str(&comments(&export.listed(names, 0), "/* ", " */"));
+        for body in bodies {
+            let count = body.outputs.len();
+            text.push_str(&format!("/* {} writes {count} values. */\n", body.name));
+        }
+        text.push_str("/* A number without a value is NAN. */\n\n#include <math.h>\n\n");
+        let helpers = HELPERS.iter().filter(|(call, _)| code.contains(call));
+        helpers.for_each(|(_, helper)| text.push_str(helper));
+        text + &code
+    }
+}

@@ -1,0 +1,143 @@
+//! Julia, in doubles.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Rank, Target, Term, comments, double, usual};
+
+/// Julia.
+pub struct Julia;
+
+/// Functions that have no value where the language has an infinite one.
+const HELPERS: &str = "
+# No value at 0, where 1/x and log(x) would be infinite.
+reciprocal(x) = iszero(x) ? oftype(x, NaN) : inv(x)
+logarithm(x) = iszero(x) ? oftype(x, NaN) : log(x)
+";
+
+impl Target for Julia {
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "baremodule",
+            "begin",
+            "break",
+            "catch",
+            "const",
+            "continue",
+            "do",
+            "else",
+            "elseif",
+            "end",
+            "export",
+            "false",
+            "finally",
+            "for",
+            "function",
+            "global",
+            "if",
+            "import",
+            "let",
+            "local",
+            "macro",
+            "module",
+            "quote",
+            "return",
+            "struct",
+            "true",
+            "try",
+            "using",
+            "while",
+            "abs",
+            "sqrt",
+            "exp",
+            "log",
+            "sin",
+            "cos",
+            "atan",
+            "inv",
+            "iszero",
+            "oftype",
+            "NaN",
+            "reciprocal",
+            "logarithm",
+            "state",
+            "parameters",
+            "in",
+            "isa",
+            "where",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        double(value, ".0")
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        let name = if function == Function::Ln { "logarithm" } else { usual(function) };
+        Term::atom(format!("{name}({})", argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        let above = exponent.abs();
+        let raised = match above.to_integer() {
+            Some(n) => n.to_string(),
+            None => self.number(&above).at_least(Rank::Atom),
+        };
+        let text = format!("{}^{raised}", base.at_least(Rank::Atom));
+        match exponent.is_negative() {
+            true => Term::atom(format!("reciprocal({text})")),
+            false => Term::of(text, Rank::Power),
+        }
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
+        Term::of(text, Rank::Power)
+    }
+
+    fn reciprocal(&self, a: &Term) -> Term {
+        Term::atom(format!("reciprocal({})", a.text))
+    }
+
+    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+        None
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let mut text = comments(&export.heading(), "# ", "");
+        text.push_str(&comments(&export.listed(names, 1), "# ", ""));
+        text.push_str(HELPERS);
+        for body in bodies {
+            text.push('\n');
+            text.push_str(&comments(&export.subject(body.part), "# ", ""));
+            text.push_str(&format!("function {}(state, parameters)\n", body.name));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in export.used(body, is_state) {
+                    let own = &names.inputs[place];
+                    text.push_str(&format!("    {own} = {list}[{}]\n", index + 1));
+                }
+            }
+            for (name, value) in &body.lines {
+                text.push_str(&format!("    {name} = {value}\n"));
+            }
+            text.push_str("    return [\n");
+            for output in &body.outputs {
+                text.push_str(&format!("        {output},\n"));
+            }
+            text.push_str("    ]\nend\n");
+        }
+        text
+    }
+}

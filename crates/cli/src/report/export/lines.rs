@@ -1,0 +1,118 @@
+//! Functions as lines of code: values that are used more than once, or have a name, get a line;
+//! the others are written where they are used.
+
+use liouville::graph::{Graph, Step};
+use liouville::number::{Function as Unary, Operation};
+use liouville::program::{Function, Part};
+
+use super::Export;
+use super::names::Names;
+use super::target::{Target, Term};
+
+/// A function as lines of code.
+pub struct Body {
+    /// Subject of the function.
+    pub part: Part,
+    /// Name of the function.
+    pub name: String,
+    /// Inputs that it uses, by their place among the components.
+    pub inputs: Vec<usize>,
+    /// Intermediate values with their names, in order.
+    pub lines: Vec<(String, String)>,
+    /// Values of the function.
+    pub outputs: Vec<String>,
+}
+
+/// Writes a function of the program.
+pub fn body(
+    target: &dyn Target,
+    export: &Export<'_>,
+    names: &mut Names,
+    function: &Function,
+) -> Body {
+    let graph = &export.program.graph;
+    let name = names.function(target, export, function.part);
+    let reached = graph.reached(function.outputs.iter().copied());
+    let mut uses = vec![0usize; graph.len()];
+    for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        step.arguments().for_each(|place| uses[place] += 1);
+    }
+    for output in &function.outputs {
+        uses[graph.place(*output)] += 1;
+    }
+    let (terms, has_line) = (vec![None; graph.len()], vec![false; graph.len()]);
+    let mut writer = Writer { target, graph, terms, has_line, uses };
+    let (mut inputs, mut lines, mut count) = (Vec::new(), Vec::new(), 0);
+    for place in (0..graph.len()).filter(|place| reached[*place]) {
+        let mut term = match graph.step(place) {
+            Step::Input(input) => {
+                inputs.push(input);
+                Term::atom(&names.inputs[input])
+            }
+            step => writer.term(step),
+        };
+        let is_computed = graph.step(place).arguments().next().is_some();
+        let own = names.of_step(place);
+        let is_shared = writer.uses[place] > 1 || term.weight > target.width();
+        if is_computed && (own.is_some() || is_shared) {
+            let name = own.cloned().unwrap_or_else(|| names.temporary(target, &mut count));
+            lines.push((name.clone(), term.text));
+            term = Term::atom(name);
+            writer.has_line[place] = true;
+        }
+        writer.terms[place] = Some(term);
+    }
+    inputs.sort_unstable();
+    let output =
+        |place: usize| writer.terms[place].as_ref().map_or(String::new(), |t| t.text.clone());
+    let outputs = function.outputs.iter().map(|value| output(graph.place(*value))).collect();
+    Body { part: function.part, name, inputs, lines, outputs }
+}
+
+/// The terms written so far.
+struct Writer<'w> {
+    target: &'w dyn Target,
+    graph: &'w Graph,
+    terms: Vec<Option<Term>>,
+    /// Whether a value has a line, and is a name in the lines after it.
+    has_line: Vec<bool>,
+    uses: Vec<usize>,
+}
+
+impl Writer<'_> {
+    fn term(&self, step: Step<'_>) -> Term {
+        let target = self.target;
+        let weight: usize = step.arguments().map(|place| self.at(place).weight).sum();
+        let mut term = match step {
+            Step::Constant(value) => target.number(value),
+            Step::Input(_) => return Term::atom(""),
+            Step::Unary(Unary::Neg, a) => target.negative(&self.at(a)),
+            Step::Unary(Unary::Recip, a) => target.reciprocal(&self.at(a)),
+            Step::Unary(function, a) => target.call(function, &self.at(a)),
+            Step::Power(a, exponent) => target.power(&self.at(a), exponent),
+            Step::Binary(Operation::Add, a, b) => target.sum(&self.at(a), "+", &self.at(b)),
+            Step::Binary(Operation::Sub, a, b) => target.sum(&self.at(a), "-", &self.at(b)),
+            Step::Binary(Operation::Pow, a, b) => target.power_of(&self.at(a), &self.at(b)),
+            Step::Binary(Operation::Mul, a, b) => self
+                .quotient(a, b)
+                .or_else(|| self.quotient(b, a))
+                .unwrap_or_else(|| target.product(&self.at(a), &self.at(b))),
+        };
+        term.weight = weight.max(1);
+        term
+    }
+
+    /// a/c where b is 1/c and written nowhere else.
+    fn quotient(&self, a: usize, b: usize) -> Option<Term> {
+        match self.graph.step(b) {
+            Step::Unary(Unary::Recip, c) if self.uses[b] == 1 && !self.has_line[b] => {
+                self.target.quotient(&self.at(a), &self.at(c))
+            }
+            _ => None,
+        }
+    }
+
+    fn at(&self, place: usize) -> Term {
+        self.terms[place].clone().unwrap_or_else(|| Term::atom(""))
+    }
+}

@@ -1,0 +1,161 @@
+//! Maple, exact.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::mathematica::{exact, raised};
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Rank, Target, Term, comments};
+
+/// Maple.
+pub struct Maple;
+
+impl Target for Maple {
+    fn is_exact(&self) -> bool {
+        true
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "and",
+            "assuming",
+            "break",
+            "by",
+            "catch",
+            "description",
+            "do",
+            "done",
+            "elif",
+            "else",
+            "end",
+            "error",
+            "export",
+            "fi",
+            "finally",
+            "for",
+            "from",
+            "global",
+            "if",
+            "implies",
+            "in",
+            "intersect",
+            "local",
+            "minus",
+            "mod",
+            "module",
+            "next",
+            "not",
+            "od",
+            "option",
+            "options",
+            "or",
+            "proc",
+            "quit",
+            "read",
+            "return",
+            "save",
+            "stop",
+            "subset",
+            "then",
+            "to",
+            "try",
+            "union",
+            "use",
+            "uses",
+            "while",
+            "xor",
+            "D",
+            "I",
+            "O",
+            "Pi",
+            "Beta",
+            "Zeta",
+            "Psi",
+            "GAMMA",
+            "gamma",
+            "Catalan",
+            "constants",
+            "infinity",
+            "undefined",
+            "abs",
+            "sqrt",
+            "exp",
+            "ln",
+            "sin",
+            "cos",
+            "arctan",
+            "state",
+            "parameters",
+            "Re",
+            "Im",
+            "Chi",
+            "Si",
+            "Ci",
+            "Ei",
+            "Li",
+            "type",
+            "op",
+            "lambda",
+            "value",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        exact(value)
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        let name = match function {
+            Function::Ln => "ln",
+            Function::Atan => "arctan",
+            other => super::target::usual(other),
+        };
+        Term::atom(format!("{name}({})", argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        raised(base, exponent)
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
+        Term::of(text, Rank::Power)
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let mut text = comments(&export.heading(), "# ", "");
+        text.push_str(&comments(&export.listed(names, 1), "# ", ""));
+        text.push_str("# Each function takes two lists, of numbers or of names.\n");
+        for body in bodies {
+            text.push('\n');
+            text.push_str(&comments(&export.subject(body.part), "# ", ""));
+            text.push_str(&format!("{} := proc(state, parameters)\n", body.name));
+            let own = |is_state| export.used(body, is_state);
+            let used = own(false).into_iter().chain(own(true));
+            let used: Vec<&str> = used.map(|(_, place)| names.inputs[place].as_str()).collect();
+            let lines = body.lines.iter().map(|(name, _)| name.as_str());
+            let locals: Vec<&str> = used.into_iter().chain(lines).collect();
+            if !locals.is_empty() {
+                text.push_str(&format!("  local {};\n", locals.join(", ")));
+            }
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in own(is_state) {
+                    let own = &names.inputs[place];
+                    text.push_str(&format!("  {own} := {list}[{}];\n", index + 1));
+                }
+            }
+            for (name, value) in &body.lines {
+                text.push_str(&format!("  {name} := {value};\n"));
+            }
+            text.push_str(&format!("  [\n    {}\n  ]\nend proc:\n", body.outputs.join(",\n    ")));
+        }
+        text
+    }
+}

@@ -1,0 +1,130 @@
+//! Mathematica, exact.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Rank, Target, Term, comments};
+
+/// Mathematica.
+pub struct Mathematica;
+
+impl Target for Mathematica {
+    fn is_exact(&self) -> bool {
+        true
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "C",
+            "D",
+            "E",
+            "I",
+            "K",
+            "N",
+            "O",
+            "Pi",
+            "Beta",
+            "Gamma",
+            "Zeta",
+            "List",
+            "Module",
+            "state",
+            "parameters",
+        ]
+    }
+
+    /// Names have no underscores, and begin with a small letter so that none is a built-in one.
+    fn name(&self, name: &str) -> String {
+        let plain = code_name(name).replace('_', "$");
+        match plain.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => format!("v{plain}"),
+            false => plain,
+        }
+    }
+
+    fn function_name(&self, words: &[&str]) -> String {
+        words.join("$")
+    }
+
+    fn another(&self, name: &str, count: usize) -> String {
+        format!("{name}$n{count}")
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        exact(value)
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        let name = match function {
+            Function::Sqrt => "Sqrt",
+            Function::Abs => "Abs",
+            Function::Exp => "Exp",
+            Function::Ln => "Log",
+            Function::Sin => "Sin",
+            Function::Cos => "Cos",
+            Function::Atan => "ArcTan",
+            Function::Neg | Function::Recip => "Identity",
+        };
+        Term::atom(format!("{name}[{}]", argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        raised(base, exponent)
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
+        Term::of(text, Rank::Power)
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let mut text = comments(&export.heading(), "(* ", " *)");
+        text.push_str(&comments(&export.listed(names, 1), "(* ", " *)"));
+        text.push_str("(* Each function takes two lists, of numbers or of symbols. *)\n");
+        for body in bodies {
+            text.push('\n');
+            text.push_str(&comments(&export.subject(body.part), "(* ", " *)"));
+            let own = |is_state| export.used(body, is_state);
+            let used = own(false).into_iter().chain(own(true));
+            let used: Vec<&str> = used.map(|(_, place)| names.inputs[place].as_str()).collect();
+            let lines = body.lines.iter().map(|(name, _)| name.as_str());
+            let locals: Vec<&str> = used.into_iter().chain(lines).collect();
+            text.push_str(&format!(
+                "{}[state_List, parameters_List] := Module[{{{}}},\n",
+                body.name,
+                locals.join(", ")
+            ));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in own(is_state) {
+                    let own = &names.inputs[place];
+                    text.push_str(&format!("  {own} = {list}[[{}]];\n", index + 1));
+                }
+            }
+            for (name, value) in &body.lines {
+                text.push_str(&format!("  {name} = {value};\n"));
+            }
+            text.push_str(&format!("  {{\n    {}\n  }}\n];\n", body.outputs.join(",\n    ")));
+        }
+        text
+    }
+}
+
+/// An exact number: an integer or a quotient of integers.
+pub fn exact(value: &Rational) -> Term {
+    let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
+    let (above, below) = value.parts();
+    match below == 1.into() {
+        true => Term::of(above.to_string(), rank(Rank::Atom)),
+        false => Term::of(format!("{above}/{below}"), rank(Rank::Product)),
+    }
+}
+
+/// A power with an exact exponent, as x^q.
+pub fn raised(base: &Term, exponent: &Rational) -> Term {
+    let exponent = exact(exponent).at_least(Rank::Atom);
+    Term::of(format!("{}^{exponent}", base.at_least(Rank::Atom)), Rank::Power)
+}

@@ -1,0 +1,162 @@
+//! MATLAB and Octave, in doubles: one file that returns handles of its functions.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Rank, Target, Term, comments, double};
+
+/// MATLAB.
+pub struct Matlab;
+
+/// Functions that have no value where the language has an infinite one.
+const HELPERS: &str = "
+% No value at 0, where 1/x and log(x) would be infinite.
+function y = reciprocal(x)
+  if x == 0
+    y = NaN;
+  else
+    y = 1/x;
+  end
+end
+
+function y = logarithm(x)
+  if x == 0
+    y = NaN;
+  else
+    y = reallog(x);
+  end
+end
+";
+
+impl Target for Matlab {
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "break",
+            "case",
+            "catch",
+            "classdef",
+            "continue",
+            "else",
+            "elseif",
+            "end",
+            "endif",
+            "endfunction",
+            "endwhile",
+            "for",
+            "function",
+            "global",
+            "if",
+            "otherwise",
+            "parfor",
+            "persistent",
+            "return",
+            "spmd",
+            "switch",
+            "try",
+            "while",
+            "until",
+            "unwind_protect",
+            "abs",
+            "realsqrt",
+            "reallog",
+            "realpow",
+            "exp",
+            "sin",
+            "cos",
+            "atan",
+            "NaN",
+            "do",
+            "reciprocal",
+            "logarithm",
+            "state",
+            "parameters",
+            "values",
+            "functions",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        double(value, "")
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        // The real functions raise an error where the others are complex.
+        let name = match function {
+            Function::Sqrt => "realsqrt",
+            Function::Ln => "logarithm",
+            other => super::target::usual(other),
+        };
+        Term::atom(format!("{name}({})", argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        let above = self.number(&exponent.abs());
+        let (text, rank) = match exponent.to_integer() {
+            Some(_) => (format!("{}^{}", base.at_least(Rank::Atom), above.text), Rank::Power),
+            None => (format!("realpow({}, {})", base.text, above.text), Rank::Atom),
+        };
+        match exponent.is_negative() {
+            true => Term::atom(format!("reciprocal({text})")),
+            false => Term::of(text, rank),
+        }
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        Term::atom(format!("realpow({}, {})", base.text, exponent.text))
+    }
+
+    fn reciprocal(&self, a: &Term) -> Term {
+        Term::atom(format!("reciprocal({})", a.text))
+    }
+
+    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+        None
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let module = export.module;
+        let mut text = format!("function functions = {module}()\n");
+        text.push_str(&comments(&export.heading(), "% ", ""));
+        text.push_str(&comments(&export.listed(names, 1), "% ", ""));
+        text.push_str(&format!(
+            "%\n% Save as {module}.m; f = {module}(); f.{}(state, parameters)\n",
+            bodies.first().map_or("field", |body| body.name.as_str())
+        ));
+        for body in bodies {
+            text.push_str(&format!("  functions.{0} = @{0};\n", body.name));
+        }
+        text.push_str("end\n");
+        for body in bodies {
+            text.push('\n');
+            text.push_str(&comments(&export.subject(body.part), "% ", ""));
+            text.push_str(&format!("function values = {}(state, parameters)\n", body.name));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in export.used(body, is_state) {
+                    let own = &names.inputs[place];
+                    text.push_str(&format!("  {own} = {list}({});\n", index + 1));
+                }
+            }
+            for (name, value) in &body.lines {
+                text.push_str(&format!("  {name} = {value};\n"));
+            }
+            text.push_str("  values = [\n");
+            for output in &body.outputs {
+                text.push_str(&format!("    ({output});\n"));
+            }
+            text.push_str("  ];\nend\n");
+        }
+        text + HELPERS
+    }
+}

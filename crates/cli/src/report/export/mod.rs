@@ -1,0 +1,197 @@
+//! Straight-line code of a case in other languages: one file a language, behind [`Target`].
+
+mod c;
+mod julia;
+mod latex;
+mod lines;
+mod maple;
+mod mathematica;
+mod matlab;
+mod names;
+mod python;
+mod rust;
+mod target;
+
+use liouville::case::Case;
+use liouville::formula::Type;
+use liouville::graph::Step;
+use liouville::mechanics::Origin;
+use liouville::program::{Part, Program, Role};
+
+use lines::Body;
+use names::Names;
+use target::Target;
+
+/// A language of the exported code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// Python with `math`, in doubles.
+    Python,
+    /// Python with SymPy, exact.
+    Sympy,
+    /// Julia, in doubles.
+    Julia,
+    /// MATLAB or Octave, in doubles.
+    Matlab,
+    /// Mathematica, exact.
+    Mathematica,
+    /// Maple, exact.
+    Maple,
+    /// C99, in doubles.
+    C,
+    /// Rust, in doubles.
+    Rust,
+    /// LaTeX with amsmath.
+    Latex,
+}
+
+/// A case ready to be written in another language.
+pub struct Export<'e> {
+    /// The case.
+    pub case: &'e Case,
+    /// Its program.
+    pub program: &'e Program,
+    /// Name of the module, where the language wants one.
+    pub module: &'e str,
+    /// Origin of the case: path, digest, values given to parameters.
+    pub origin: &'e [String],
+}
+
+/// Writes the program of a case in a language; fails if a constant is beyond the range of doubles
+/// in a language that has no other numbers.
+pub fn render(export: &Export<'_>, language: Language) -> Result<String, String> {
+    let target: &dyn Target = match language {
+        Language::Python => &python::Python { is_symbolic: false },
+        Language::Sympy => &python::Python { is_symbolic: true },
+        Language::Julia => &julia::Julia,
+        Language::Matlab => &matlab::Matlab,
+        Language::Mathematica => &mathematica::Mathematica,
+        Language::Maple => &maple::Maple,
+        Language::C => &c::C,
+        Language::Rust => &rust::Rust,
+        Language::Latex => &latex::Latex,
+    };
+    let graph = &export.program.graph;
+    let outputs = export.program.functions.iter().flat_map(|own| own.outputs.iter().copied());
+    let reached = graph.reached(outputs);
+    let is_beyond = |(place, step): (usize, Step<'_>)| match step {
+        Step::Constant(value) if reached[place] => !value.to_f64().0.is_finite(),
+        _ => false,
+    };
+    if !target.is_exact() && graph.steps().enumerate().any(is_beyond) {
+        return Err("a number of the case is beyond the range of doubles".to_string());
+    }
+    let mut names = Names::new(target, export);
+    let bodies: Vec<Body> = export
+        .program
+        .functions
+        .iter()
+        .map(|own| lines::body(target, export, &mut names, own))
+        .collect();
+    Ok(target.file(export, &names, &bodies))
+}
+
+impl Export<'_> {
+    /// Lines that describe the case and its origin, for the head of a file.
+    fn heading(&self) -> Vec<String> {
+        let case = self.case;
+        let mut lines = vec![case.title.clone()];
+        if !case.source.is_empty() {
+            lines.push(format!("Source: {}.", case.source));
+        }
+        lines.push(format!("System: {}.", case.system));
+        let is_body = ["rubber-plane", "rubber-sphere", "rolling-plane", "rolling-sphere"];
+        if is_body.contains(&case.system.as_str()) {
+            lines.push("Vectors are in the body's axes.".to_string());
+        }
+        lines.push("Any consistent units.".to_string());
+        lines.extend(self.origin.iter().cloned());
+        for parameter in &case.model.parameters {
+            let values = match &parameter.origin {
+                Origin::Fixed(values) => values.iter().map(|x| x.to_string()).collect::<Vec<_>>(),
+                Origin::Formula(formula) => vec![formula.text().to_string()],
+                Origin::Free(_) => continue,
+            };
+            lines.push(format!("Built in: {} = {}.", parameter.name, values.join(", ")));
+        }
+        lines.extend(self.matrices());
+        lines.iter().map(|line| one_line(line)).collect()
+    }
+
+    /// Lines that describe a function.
+    fn subject(&self, part: Part) -> Vec<String> {
+        let claims = &self.case.claims;
+        let lines = match part {
+            Part::Field if self.case.model.system.is_map() => {
+                vec!["Image of the state under the map, component by component.".to_string()]
+            }
+            Part::Field => {
+                vec!["Time derivatives of the state, component by component.".to_string()]
+            }
+            Part::Level => {
+                let equations = self.case.model.level.iter().map(|own| own.text.clone());
+                let equations = equations.collect::<Vec<_>>().join("; ");
+                vec![format!("Left minus right sides of the level equations: {equations}.")]
+            }
+            Part::Value(index) => {
+                let claim = &claims[index];
+                let formula = claim.kind.formula().map_or("", |formula| formula.text());
+                vec![format!("Value of claim `{}`: {formula}.", claim.name)]
+            }
+            Part::Residual(index) => {
+                let claim = &claims[index];
+                let text = claim.kind.text().map_or(String::new(), |text| format!(" {text}"));
+                let place = claim.place.name(&self.case.model);
+                let meaning = match claim.kind.is_negated() {
+                    false => "all are 0 where the claim holds",
+                    true => "the claim is that they are not all 0 everywhere",
+                };
+                vec![
+                    format!("Residual of claim `{}`, {}:{text}.", claim.name, claim.kind.name()),
+                    format!("Claimed: {place}; {meaning}."),
+                ]
+            }
+        };
+        lines.iter().map(|line| one_line(line)).collect()
+    }
+
+    /// Components of the inputs of a role: place among the inputs of the program, and name.
+    fn inputs(&self, is_state: bool) -> Vec<(usize, String)> {
+        let all = self.program.components().into_iter().enumerate();
+        let own = all.filter(|(_, (_, role))| (*role == Role::State) == is_state);
+        own.map(|(place, (name, _))| (place, name)).collect()
+    }
+
+    /// Input components that a function uses: place in its list, and among all components.
+    fn used(&self, body: &Body, is_state: bool) -> Vec<(usize, usize)> {
+        let own = self.inputs(is_state).into_iter().enumerate();
+        let own = own.map(|(index, (place, _))| (index, place));
+        own.filter(|(_, place)| body.inputs.contains(place)).collect()
+    }
+
+    /// Lines on the order of the inputs: place in the list, name in the code, name in the case.
+    fn listed(&self, names: &Names, first: usize) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (list, is_state) in [("state", true), ("parameters", false)] {
+            for (index, (place, name)) in self.inputs(is_state).into_iter().enumerate() {
+                let own = &names.inputs[place];
+                let origin = if *own == name { String::new() } else { format!(" = {name}") };
+                lines.push(format!("{list}[{}]: {own}{origin}", index + first));
+            }
+        }
+        lines
+    }
+
+    /// Sentences on the order of the entries of matrices among the inputs.
+    fn matrices(&self) -> Vec<String> {
+        let inputs = self.program.inputs.iter();
+        let matrices = inputs.filter(|input| matches!(input.kind, Type::Matrix(..)));
+        matrices.map(|input| format!("The entries of {} follow row by row.", input.name)).collect()
+    }
+}
+
+/// Text on one line, without characters that end comments or strings.
+fn one_line(text: &str) -> String {
+    let text: Vec<&str> = text.split_whitespace().collect();
+    text.join(" ").replace("*/", "* /").replace("(*", "( *").replace("*)", "* )")
+}

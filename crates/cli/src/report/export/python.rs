@@ -1,0 +1,178 @@
+//! Python: with `math` in doubles, or with SymPy in exact numbers and symbols.
+
+use liouville::formula::ascii_name;
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::target::{Rank, Target, Term, comments, double, usual};
+
+/// Python, numerical or symbolic.
+pub struct Python {
+    /// Whether values are SymPy's instead of floats.
+    pub is_symbolic: bool,
+}
+
+impl Python {
+    fn library(&self) -> &'static str {
+        if self.is_symbolic { "sympy" } else { "math" }
+    }
+}
+
+impl Target for Python {
+    fn is_exact(&self) -> bool {
+        self.is_symbolic
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "False",
+            "None",
+            "True",
+            "and",
+            "as",
+            "assert",
+            "async",
+            "await",
+            "break",
+            "class",
+            "continue",
+            "def",
+            "del",
+            "elif",
+            "else",
+            "except",
+            "finally",
+            "for",
+            "from",
+            "global",
+            "if",
+            "import",
+            "in",
+            "is",
+            "lambda",
+            "nonlocal",
+            "not",
+            "or",
+            "pass",
+            "raise",
+            "return",
+            "try",
+            "while",
+            "with",
+            "yield",
+            "abs",
+            "math",
+            "sympy",
+            "state",
+            "parameters",
+            "STATE",
+            "PARAMETERS",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
+        match (self.is_symbolic, value.parts()) {
+            (false, _) => double(value, ""),
+            (true, (above, below)) if below == 1.into() => {
+                Term::of(above.to_string(), rank(Rank::Atom))
+            }
+            (true, (above, below)) => Term::atom(format!("sympy.Rational({above}, {below})")),
+        }
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        let name = match (function, self.is_symbolic) {
+            (Function::Abs, false) => return Term::atom(format!("abs({})", argument.text)),
+            (Function::Abs, true) => "Abs",
+            (function, _) => usual(function),
+        };
+        Term::atom(format!("{}.{name}({})", self.library(), argument.text))
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        let raised = self.number(exponent).at_least(Rank::Atom);
+        // A float to a fractional power would be complex where the base is negative.
+        match exponent.to_integer().is_none() && !self.is_symbolic {
+            true => Term::atom(format!("math.pow({}, {})", base.text, self.number(exponent).text)),
+            false => {
+                let text = format!("{}**{raised}", base.at_least(Rank::Atom));
+                Term::of(text, Rank::Power)
+            }
+        }
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        match self.is_symbolic {
+            true => {
+                let exponent = exponent.at_least(Rank::Atom);
+                Term::of(format!("{}**{exponent}", base.at_least(Rank::Atom)), Rank::Power)
+            }
+            false => Term::atom(format!("math.pow({}, {})", base.text, exponent.text)),
+        }
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let mut text = comments(&export.heading(), "# ", "");
+        text.push_str(match self.is_symbolic {
+            true => {
+                "#\n# Each function takes lists of numbers or of symbols; without arguments, the \
+                 symbols below.\n"
+            }
+            false => {
+                "#\n# Each function takes two lists of floats, and raises an exception where it \
+                 has no value.\n"
+            }
+        });
+        text.push_str(&format!("\nimport {}\n", self.library()));
+        for (title, is_state) in [("PARAMETERS", false), ("STATE", true)] {
+            let all = export.inputs(is_state);
+            text.push_str(&format!("\n{title} = ["));
+            for (place, name) in &all {
+                let own = &names.inputs[*place];
+                let value = match self.is_symbolic {
+                    true => format!("sympy.Symbol(\"{own}\", real=True)"),
+                    false => format!("\"{own}\""),
+                };
+                let origin = if own == name { String::new() } else { format!("  # {name}") };
+                text.push_str(&format!("\n    {value},{origin}"));
+            }
+            text.push_str(if all.is_empty() { "]\n" } else { "\n]\n" });
+        }
+        for body in bodies {
+            let arguments = match self.is_symbolic {
+                true => "state=STATE, parameters=PARAMETERS",
+                false => "state, parameters",
+            };
+            text.push_str(&format!("\n\ndef {}({arguments}):\n", body.name));
+            text.push_str(&comments(&export.subject(body.part), "    # ", ""));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in export.used(body, is_state) {
+                    text.push_str(&format!("    {} = {list}[{index}]\n", names.inputs[place]));
+                }
+            }
+            for (name, value) in &body.lines {
+                text.push_str(&format!("    {name} = {value}\n"));
+            }
+            text.push_str("    return [\n");
+            for output in &body.outputs {
+                text.push_str(&format!("        {output},\n"));
+            }
+            text.push_str("    ]\n");
+        }
+        text
+    }
+}
+
+/// Spelling of a component's name in ASCII: `ω1` → `omega1`, `L[2,1]` → `L_2_1`.
+pub fn code_name(name: &str) -> String {
+    let plain = name.replace(']', "").replace(['[', ','], "_");
+    ascii_name(&plain)
+}

@@ -1,0 +1,170 @@
+//! Rust, in doubles.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+use super::python::code_name;
+use super::target::{Target, Term, comments, double, usual};
+
+/// Rust.
+pub struct Rust;
+
+/// Functions that have no value where the language has an infinite one.
+const HELPERS: [(&str, &str); 2] = [
+    (
+        "reciprocal(",
+        "\n/// 1/x; no value at 0.\nfn reciprocal(x: f64) -> f64 {\n    \
+         if x == 0.0 { f64::NAN } else { 1.0/x }\n}\n",
+    ),
+    (
+        "logarithm(",
+        "\n/// ln x; no value at 0.\nfn logarithm(x: f64) -> f64 {\n    \
+         if x == 0.0 { f64::NAN } else { x.ln() }\n}\n",
+    ),
+];
+
+impl Target for Rust {
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "as",
+            "async",
+            "await",
+            "box",
+            "break",
+            "const",
+            "continue",
+            "crate",
+            "do",
+            "dyn",
+            "else",
+            "enum",
+            "extern",
+            "false",
+            "final",
+            "fn",
+            "for",
+            "if",
+            "impl",
+            "in",
+            "let",
+            "loop",
+            "macro",
+            "match",
+            "mod",
+            "move",
+            "mut",
+            "override",
+            "priv",
+            "pub",
+            "ref",
+            "return",
+            "self",
+            "Self",
+            "static",
+            "struct",
+            "super",
+            "trait",
+            "true",
+            "try",
+            "type",
+            "typeof",
+            "unsafe",
+            "unsized",
+            "use",
+            "virtual",
+            "where",
+            "while",
+            "yield",
+            "abstract",
+            "become",
+            "gen",
+            "f64",
+            "reciprocal",
+            "logarithm",
+            "state",
+            "parameters",
+            "main",
+        ]
+    }
+
+    fn name(&self, name: &str) -> String {
+        code_name(name)
+    }
+
+    fn number(&self, value: &Rational) -> Term {
+        double(value, ".0")
+    }
+
+    fn call(&self, function: Function, argument: &Term) -> Term {
+        match function {
+            Function::Ln => Term::atom(format!("logarithm({})", argument.text)),
+            other => Term::atom(format!("f64::{}({})", usual(other), argument.text)),
+        }
+    }
+
+    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+        let text = format!("f64::powf({}, {})", base.text, self.number(&exponent.abs()).text);
+        match exponent.is_negative() {
+            true => Term::atom(format!("reciprocal({text})")),
+            false => Term::atom(text),
+        }
+    }
+
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        Term::atom(format!("f64::powf({}, {})", base.text, exponent.text))
+    }
+
+    fn reciprocal(&self, a: &Term) -> Term {
+        Term::atom(format!("reciprocal({})", a.text))
+    }
+
+    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+        None
+    }
+
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+        let (state, parameters) = (export.inputs(true).len(), export.inputs(false).len());
+        let mut code = String::new();
+        for body in bodies {
+            code.push('\n');
+            code.push_str(&comments(&export.subject(body.part), "/// ", ""));
+            let count = body.outputs.len();
+            let argument = |name: &str, is_state| match export.used(body, is_state).is_empty() {
+                true => format!("_{name}"),
+                false => name.to_string(),
+            };
+            code.push_str(&format!(
+                "#[allow(non_snake_case, clippy::all)]\npub fn {}({}: &[f64; {state}], {}: &[f64; {parameters}]) -> [f64; {count}] {{\n",
+                body.name,
+                argument("state", true),
+                argument("parameters", false),
+            ));
+            for (list, is_state) in [("parameters", false), ("state", true)] {
+                for (index, place) in export.used(body, is_state) {
+                    code.push_str(&format!("    let {} = {list}[{index}];\n", names.inputs[place]));
+                }
+            }
+            for (name, value) in &body.lines {
+                code.push_str(&format!("    let {name} = {value};\n"));
+            }
+            code.push_str("    [\n");
+            for output in &body.outputs {
+                code.push_str(&format!("        {output},\n"));
+            }
+            code.push_str("    ]\n}\n");
+        }
+        let mut text = comments(&export.heading(), "// ", "");
+        text.push_str(&comments(&export.listed(names, 0), "// ", ""));
+        text.push_str("// A number without a value is NaN.\n\n");
+        let helpers = HELPERS.iter().filter(|(call, _)| code.contains(call));
+        helpers.for_each(|(_, helper)| text.push_str(helper));
+        text + &code
+    }
+}

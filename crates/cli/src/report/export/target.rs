@@ -1,0 +1,176 @@
+//! The interface of a language: names, numbers, operations, and the frame of a file.
+
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+use super::Export;
+use super::lines::Body;
+use super::names::Names;
+
+/// Binding strength of a term, from the weakest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    /// A sum, a difference, or a negative value.
+    Sum,
+    /// A product or a quotient.
+    Product,
+    /// A power.
+    Power,
+    /// A name, a number, a call, or anything in brackets.
+    Atom,
+}
+
+/// An expression as text.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Text of the expression.
+    pub text: String,
+    /// Binding strength of its outermost operation.
+    pub rank: Rank,
+    /// Number of names and numbers in it.
+    pub weight: usize,
+}
+
+impl Term {
+    /// Makes a term of one name, number or call.
+    pub fn atom(text: impl Into<String>) -> Self {
+        Self { text: text.into(), rank: Rank::Atom, weight: 1 }
+    }
+
+    /// Makes a term with the given binding strength.
+    pub fn of(text: String, rank: Rank) -> Self {
+        Self { text, rank, weight: 1 }
+    }
+
+    /// Text as an operand that has to bind at least as strongly as `rank`.
+    pub fn at_least(&self, rank: Rank) -> String {
+        match self.rank >= rank {
+            true => self.text.clone(),
+            false => format!("({})", self.text),
+        }
+    }
+}
+
+/// A language to which a program is written.
+///
+/// The defaults are those of most languages: infix operations, `f(x)`, quotients as `a/b`.
+pub trait Target {
+    /// Whether numbers are exact rationals, not doubles.
+    fn is_exact(&self) -> bool;
+
+    /// Words that cannot be names.
+    fn reserved(&self) -> &'static [&'static str];
+
+    /// Largest number of names and numbers in one expression.
+    fn width(&self) -> usize {
+        24
+    }
+
+    /// Spelling of a name of the case.
+    fn name(&self, name: &str) -> String;
+
+    /// Spelling of the name of a function: a word, and the words of a claim's name.
+    fn function_name(&self, words: &[&str]) -> String {
+        words.join("_")
+    }
+
+    /// Spelling of a name that is taken already, or reserved, for the nth time.
+    fn another(&self, name: &str, count: usize) -> String {
+        format!("{name}_{count}")
+    }
+
+    /// Name of an intermediate value.
+    fn temporary(&self, count: usize) -> String {
+        format!("t{count}")
+    }
+
+    /// Number.
+    fn number(&self, value: &Rational) -> Term;
+
+    /// f(x), for functions other than the sign and the reciprocal.
+    fn call(&self, function: Function, argument: &Term) -> Term;
+
+    /// x^q for a constant q.
+    fn power(&self, base: &Term, exponent: &Rational) -> Term;
+
+    /// x^y.
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term;
+
+    /// −x
+    fn negative(&self, a: &Term) -> Term {
+        Term::of(format!("-{}", a.at_least(Rank::Product)), Rank::Sum)
+    }
+
+    /// 1/x
+    fn reciprocal(&self, a: &Term) -> Term {
+        Term::of(format!("{}/{}", self.one(), a.at_least(Rank::Power)), Rank::Product)
+    }
+
+    /// a/b; `None` if quotients are written as products with reciprocals.
+    fn quotient(&self, a: &Term, b: &Term) -> Option<Term> {
+        let text = format!("{}/{}", a.at_least(Rank::Product), b.at_least(Rank::Power));
+        Some(Term::of(text, Rank::Product))
+    }
+
+    /// a + b, a − b
+    fn sum(&self, a: &Term, sign: &str, b: &Term) -> Term {
+        Term::of(format!("{} {sign} {}", a.text, b.at_least(Rank::Product)), Rank::Sum)
+    }
+
+    /// a b
+    fn product(&self, a: &Term, b: &Term) -> Term {
+        let text = format!("{}*{}", a.at_least(Rank::Product), b.at_least(Rank::Power));
+        Term::of(text, Rank::Product)
+    }
+
+    /// The number 1.
+    fn one(&self) -> String {
+        self.number(&Rational::from(1)).text
+    }
+
+    /// Whole file.
+    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String;
+}
+
+/// A number in doubles: integers and short decimals as they are, others as a quotient of integers
+/// where both are doubles, or rounded. `point` is written after integers.
+pub fn double(value: &Rational, point: &str) -> Term {
+    let (nearest, _) = value.to_f64();
+    let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
+    const EXACT: i64 = 1 << 53;
+    let is_exact = |n: i64| (-EXACT..=EXACT).contains(&n);
+    match value.small_parts() {
+        Some((above, 1)) if is_exact(above) => {
+            Term::of(format!("{above}{point}"), rank(Rank::Atom))
+        }
+        Some((above, below)) if is_exact(above) && is_exact(below) => {
+            let decimal = format!("{nearest:?}");
+            let is_decimal = decimal.len() < 9 && decimal.parse() == Ok(value.clone());
+            match is_decimal {
+                true => Term::of(decimal, rank(Rank::Atom)),
+                false => Term::of(format!("{above}{point}/{below}{point}"), rank(Rank::Product)),
+            }
+        }
+        _ => Term::of(format!("{nearest:?}"), rank(Rank::Atom)),
+    }
+}
+
+/// Name of a function as most languages have it.
+pub fn usual(function: Function) -> &'static str {
+    match function {
+        Function::Sqrt => "sqrt",
+        Function::Abs => "abs",
+        Function::Exp => "exp",
+        Function::Ln => "log",
+        Function::Sin => "sin",
+        Function::Cos => "cos",
+        Function::Atan => "atan",
+        Function::Neg => "-",
+        Function::Recip => "1/",
+    }
+}
+
+/// Lines as comments.
+pub fn comments(lines: &[String], before: &str, after: &str) -> String {
+    lines.iter().map(|line| format!("{before}{line}{after}\n")).collect()
+}

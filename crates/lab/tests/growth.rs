@@ -1,0 +1,105 @@
+//! Guards the growth of recording against regressions: the exponent of instructions in the
+//! operations of the residuals, by valgrind's callgrind, from two sizes of each family.
+//!
+//! A count is the same in every run, and an exponent hardly depends on the compiler. Without
+//! valgrind, or on another processor, the nodes of the graph are counted alone.
+
+use std::process::Command;
+
+use liouville::case::Case;
+use liouville::verdict::{RecordedSize, recorded_size};
+use liouville_lab::growth::{FAMILIES, Family};
+
+/// Families with a small size, which is doubled, and the greatest exponent allowed. Claims of one
+/// field share most of their operations, and are left out.
+const MEMBERS: [(&str, u64, f64); 8] = [
+    ("chain", 40, 1.3),
+    ("pendulum", 12, 1.3),
+    ("toda", 50, 1.3),
+    ("calogero", 12, 1.3),
+    ("lotka-volterra", 20, 1.3),
+    ("bodies", 5, 1.3),
+    ("terms", 125, 1.3),
+    ("roots", 25, 1.3),
+];
+
+const MEMBER: &str = "LIOUVILLE_COUNTED_MEMBER";
+
+fn family(name: &str) -> &'static Family {
+    FAMILIES.iter().find(|family| family.name == name).expect("a family of this name")
+}
+
+fn case(name: &str, size: u64) -> Case {
+    Case::parse(&family(name).case(size), &[]).expect("members of families are cases")
+}
+
+#[inline(never)]
+fn counted_record(case: &Case) -> RecordedSize {
+    recorded_size(case).expect("records")
+}
+
+/// The counted work: run by the test below under valgrind.
+#[test]
+fn workload() {
+    let Ok(member) = std::env::var(MEMBER) else { return };
+    let (name, size) = member.split_once(' ').expect("a name and a size");
+    let case = case(name, size.parse().expect("a size"));
+    assert!(counted_record(&case).operations > 0, "the residuals have operations");
+}
+
+/// Counts instructions of recording; fails with the reason if they cannot be counted.
+fn count(name: &str, size: u64) -> Result<u64, String> {
+    let own = std::env::current_exe().map_err(|error| error.to_string())?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg("--toggle-collect=*counted_record*")
+        .arg(own)
+        .args(["--exact", "workload", "--test-threads=1"])
+        .env(MEMBER, format!("{name} {size}"))
+        .output()
+        .map_err(|error| format!("no valgrind: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    let collected = text.lines().find_map(|line| line.split("Collected :").nth(1));
+    let count = collected.and_then(|count| count.trim().parse().ok());
+    count.filter(|count| *count > 0).ok_or_else(|| format!("valgrind counted nothing: {text}"))
+}
+
+/// Exponent e of y ~ x^e from two points.
+fn exponent(x: [usize; 2], y: [f64; 2]) -> f64 {
+    (y[1] / y[0]).ln() / (x[1] as f64 / x[0] as f64).ln()
+}
+
+#[test]
+fn a_graph_grows_as_its_residuals() {
+    for (name, size, most) in MEMBERS {
+        let [small, large] = [size, 2 * size].map(|size| counted_record(&case(name, size)));
+        let found = exponent(
+            [small.operations, large.operations],
+            [small.nodes as f64, large.nodes as f64],
+        );
+        println!("{name}: nodes grow with exponent {found:.2} in the operations");
+        assert!(found <= most, "{name}: {found:.2} from {small:?} to {large:?}");
+    }
+}
+
+#[test]
+fn instructions_of_recording_grow_as_its_residuals() {
+    if !cfg!(target_arch = "x86_64") {
+        println!("counted on x86-64 only");
+        return;
+    }
+    for (name, size, most) in MEMBERS {
+        let counts = match (count(name, size), count(name, 2 * size)) {
+            (Ok(small), Ok(large)) => [small, large],
+            (Err(reason), _) | (_, Err(reason)) if reason.starts_with("no valgrind") => {
+                println!("not counted, {reason}");
+                return;
+            }
+            (Err(reason), _) | (_, Err(reason)) => panic!("{name}: {reason}"),
+        };
+        let sizes = [size, 2 * size].map(|size| counted_record(&case(name, size)).operations);
+        let found = exponent(sizes, counts.map(|count| count as f64));
+        println!("{name}: {counts:?} instructions for {sizes:?} operations, exponent {found:.2}");
+        assert!(found <= most, "{name}: {found:.2}, {counts:?} instructions");
+    }
+}

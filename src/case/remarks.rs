@@ -1,0 +1,208 @@
+//! Remarks on what a file may say by mistake: parameters without use, tables that are not read,
+//! differences in place of ranges, densities that are no measures.
+
+use rustc_hash::FxHashSet;
+use toml::de::DeValue;
+
+use super::PlacedClaim;
+use super::mistakes::bases;
+use super::section::Section;
+use crate::claim::Kind;
+use crate::formula::{Type, canonical_name, names_in};
+use crate::mechanics::{Model, Origin, System};
+use crate::number::rational::Rational;
+
+/// Keys whose texts are words, and no formulas.
+const WORDS: [&str; 7] = ["title", "source", "note", "name", "system", "cell", "table"];
+
+/// Names that the tables of a system read without being told.
+fn implied(system: &System) -> &'static [&'static str] {
+    match system {
+        System::Rubber(_) | System::Spinning(_) => &["m", "I", "R", "c", "B", "k"],
+        System::FlatBase(_) => &["m", "I", "k", "z"],
+        System::Ball(_) => &["m", "R", "μ"],
+        _ => &[],
+    }
+}
+
+/// Remarks on a file that has no mistakes.
+pub fn remarks(
+    root: &Section<'_>,
+    system: &str,
+    model: &Model,
+    claims: &[PlacedClaim],
+    is_without_claims: bool,
+) -> Vec<String> {
+    let mut all = unread(root, system, model);
+    all.extend(without_use(root, model));
+    all.extend(of_components(model));
+    all.extend(differences(root));
+    all.extend(claims.iter().filter_map(of_density));
+    if is_without_claims {
+        let text = "there are no claims: `liouville report` lists the invariants of a system, \
+                    `liouville search` looks for others";
+        all.push(text.to_string());
+    }
+    all
+}
+
+/// Tables that the system does not read.
+fn unread(root: &Section<'_>, system: &str, model: &Model) -> Vec<String> {
+    let mut all: Vec<String> = root
+        .unread()
+        .iter()
+        .map(|key| {
+            format!("[{key}] is not read: a case with system = \"{system}\" does not use it")
+        })
+        .collect();
+    if root.has("section") && !matches!(model.system, System::Rubber(_)) {
+        all.push(
+            "[section] is not read: sections are drawn of bodies that roll without spinning"
+                .to_string(),
+        );
+    }
+    if root.has("poisson") && !root.has("variables") {
+        all.push("[poisson] is not read without [variables]".to_string());
+    }
+    all
+}
+
+/// Parameters that stand in no formula.
+fn without_use(root: &Section<'_>, model: &Model) -> Vec<String> {
+    let mut used = FxHashSet::default();
+    for (key, value) in root.entries() {
+        let table = key.get_ref().as_ref();
+        if WORDS.contains(&table) {
+            continue;
+        }
+        match (table, value.get_ref()) {
+            ("parameters", DeValue::Table(entries)) => {
+                for (name, value) in entries.iter() {
+                    let own = canonical_name(name.get_ref()).unwrap_or_default();
+                    gather(value.get_ref(), &own, &mut used);
+                }
+            }
+            (_, value) => gather(value, "", &mut used),
+        }
+    }
+    let implied = implied(&model.system);
+    let is_idle =
+        |name: &&str| !name.contains('[') && !used.contains(*name) && !implied.contains(name);
+    let names = model.parameters.iter().map(|parameter| parameter.name.as_str());
+    let idle: Vec<&str> = names.filter(is_idle).collect();
+    idle.iter().map(|name| format!("the parameter `{name}` stands in no formula")).collect()
+}
+
+/// Adds the names in the texts and keys of a value, but for one.
+fn gather(value: &DeValue<'_>, own: &str, used: &mut FxHashSet<String>) {
+    let mut add = |text: &str| {
+        for name in names_in(text) {
+            for base in bases(&name).filter(|base| *base != own) {
+                if !used.contains(base) {
+                    used.insert(base.to_string());
+                }
+            }
+        }
+    };
+    match value {
+        DeValue::String(text) => add(text),
+        DeValue::Array(items) => items.iter().for_each(|item| gather(item.get_ref(), own, used)),
+        DeValue::Table(entries) => {
+            for (key, value) in entries.iter() {
+                for name in names_in(key.get_ref()) {
+                    used.extend(bases(&name).filter(|base| *base != own).map(String::from));
+                }
+                if !WORDS.contains(&key.get_ref().as_ref()) {
+                    gather(value.get_ref(), own, used);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Parameters named like a component of another that is not made of them.
+fn of_components(model: &Model) -> Vec<String> {
+    let find = |name: &str| model.parameters.iter().find(|own| own.name == name);
+    let told = |name: &str| {
+        let base = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let list = find(base).filter(|own| own.kind != Type::Scalar && base.len() < name.len())?;
+        let is_made_of_it = match &list.origin {
+            Origin::Formula(formula) => names_in(formula.text()).iter().any(|used| used == name),
+            _ => false,
+        };
+        let is_component = name[base.len()..]
+            .parse()
+            .is_ok_and(|index: usize| (1..=list.kind.size()).contains(&index) || index > 10);
+        (is_component && !is_made_of_it).then(|| {
+            format!("`{name}` is a parameter of its own, and hides that component of `{base}`")
+        })
+    };
+    model.parameters.iter().filter_map(|parameter| told(&parameter.name)).collect()
+}
+
+/// Differences such as `1-3`, where a range may be meant.
+fn differences(root: &Section<'_>) -> Vec<String> {
+    let mut all = Vec::new();
+    for table in ["parameters", "state"] {
+        let entries = root.table(table);
+        for (key, value) in entries.map(|section| section.entries()).unwrap_or_default() {
+            let DeValue::String(text) = value.get_ref() else { continue };
+            let Some((low, high)) = text.trim().split_once(['-', '−']) else { continue };
+            let number = |text: &str| text.trim().parse::<Rational>().ok();
+            let (Some(a), Some(b)) = (number(low), number(high)) else { continue };
+            let (low, high) = (low.trim(), high.trim());
+            all.push(format!(
+                "`{} = \"{text}\"` is the number {}; a range is written \"{low}..{high}\"",
+                key.get_ref(),
+                &a - &b
+            ));
+        }
+    }
+    all
+}
+
+/// A density that is a number, and not positive.
+fn of_density(claim: &PlacedClaim) -> Option<String> {
+    let Kind::Density(_) = &claim.kind else { return None };
+    let number = claim.kind.text()?.replace('−', "-").parse::<Rational>().ok()?;
+    let is_positive = !number.is_zero() && !number.is_negative();
+    (!is_positive).then(|| {
+        format!("the density of `{}` is {number}: that of a measure is positive", claim.name)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    fn remarks(more: &str) -> Vec<String> {
+        let text = format!("title = 't'\n{more}");
+        Case::parse(&text, &[]).expect("a case").remarks
+    }
+
+    const FLOW: &str = "[state]\nx = '1..2'\n[field]\n\"x'\" = 'k*x'\n";
+    const CLAIM: &str = "[[claim]]\nrate = 'x'\nequals = 'k*x'\n";
+
+    #[test]
+    fn slips_that_are_no_mistakes_are_remarked() {
+        let told = |parameters: &str, more: &str, wanted: &str| {
+            let all = remarks(&format!("[parameters]\n{parameters}\n{FLOW}{CLAIM}{more}"));
+            assert_eq!(all.len(), usize::from(!wanted.is_empty()), "{all:?}");
+            assert!(all.iter().all(|text| text.contains(wanted)), "{all:?}");
+        };
+        told("k = 1", "", "");
+        told("k = 1\nspare = 2", "", "`spare` stands in no formula");
+        told("k = 1\nspare = 'spare2'\nspare2 = 1", "", "`spare` stands in no formula");
+        told("k = '1-3'", "", "`k = \"1-3\"` is the number -2; a range is written \"1..3\"");
+        told("k = '3 − 1'", "", "is the number 2");
+        told("k = 1", "[body]\nshape = 'ball'\n", "[body] is not read");
+        told("k = 1", "[section]\ng0 = 'pi'\nenergy = 1\n", "[section] is not read");
+        told("k = 1", "[[claim]]\ndensity = '0'\nexpect = 'open'\n", "of a measure is positive");
+        told("k = 1", "[[claim]]\ndensity = -1\nexpect = 'open'\n", "of a measure is positive");
+        told("k = 1", "[[claim]]\ndensity = '1/x'\nexpect = 'open'\n", "");
+        told("k = 'A1'\nA = [1, 2]\nA1 = 3", "[let]\nB = 'A'\n", "hides that component of `A`");
+        let all = remarks(&format!("[parameters]\nk = 1\n{FLOW}"));
+        assert!(all.len() == 1 && all[0].contains("there are no claims"), "{all:?}");
+    }
+}

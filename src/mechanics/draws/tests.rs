@@ -1,0 +1,81 @@
+use super::*;
+
+#[test]
+fn the_stream_is_frozen() {
+    let draws = vec![Draw::Within(Range::between((1, 2), (2, 1))); 3];
+    let shown: Vec<String> = Draws::new(&draws).state(7, 3).iter().map(|x| x.to_string()).collect();
+    assert_eq!(shown, FROZEN, "a change here changes every witness ever printed");
+}
+
+const FROZEN: [&str; 3] = ["0.772", "0.64", "1.967"];
+
+#[test]
+fn the_nearest_f64_is_that_of_the_number() {
+    let ends = [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
+    let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
+    let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
+    let draws = Draws::new(&[&ranges[..], &[list]].concat());
+    for index in 0..2000 {
+        let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
+        assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
+    }
+    for start in [0, 40, 64, 1 << 33] {
+        let mut columns = vec![Balls::<64>::about(|_| (f64::NAN, true)); draws.len()];
+        draws.fill(5, start, &mut columns);
+        for lane in 0..64 {
+            let expected = draws.nearest(5, start + lane as u64, 0);
+            for (column, expected) in columns.iter().zip(expected) {
+                let found = (column.mid[lane], column.rad[lane]);
+                assert_eq!(found, about(expected), "state {start} + {lane}");
+            }
+        }
+    }
+}
+
+#[test]
+fn draws_stay_inside_and_off_zero() {
+    let range = Range::between((-1, 1), (1, 1));
+    let draws = vec![Draw::Within(range.clone()); 2000];
+    for value in Draws::new(&draws).state(1, 0) {
+        assert!(value > range.low && value < range.high && !value.is_zero(), "{value}");
+    }
+    let narrow = Draw::Within(Range::between((1, 1_000_000), (2, 1_000_000)));
+    let value = Draws::new(&[narrow]).state(1, 0)[0].clone();
+    assert!(value > Rational::new(1, 1_000_000) && value < Rational::new(2, 1_000_000));
+}
+
+#[test]
+fn later_states_have_all_digits() {
+    let range = Range::between((-2, 1), (2, 1));
+    let draws = Draws::new(&[Draw::Within(range.clone()), Draw::Sign]);
+    let lengths = |indices: std::ops::Range<u64>| {
+        indices.map(|index| draws.state(1, index)[0].bits()).max().unwrap_or(0)
+    };
+    assert!(lengths(0..64) < 30, "the first are short");
+    assert!(lengths(64..128) > 50, "the others are not");
+    let sign = |index| draws.state(1, index)[1].clone();
+    assert!((0..64).any(|k| sign(k) == Rational::from(1)), "some signs are positive");
+    assert!((0..64).any(|k| sign(k) == Rational::from(-1)), "some are not");
+    assert_ne!(draws.attempt(1, 3, 1), draws.state(1, 3), "another attempt");
+    assert_eq!(draws.attempt(1, 3, 0), draws.state(1, 3), "the first attempt");
+}
+
+#[test]
+fn edges_are_near_the_ends_and_near_zero() {
+    let draws = Draws::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
+    let found: Vec<f64> = (0..64).map(|k| draws.edge(1, k)[0].to_f64().0).collect();
+    assert!(found.iter().all(|x| *x > -1.0 && *x < 1000.0), "inside: {found:?}");
+    assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
+    assert!(found.iter().any(|x| *x > 999.0), "near the upper end");
+    assert!(found.iter().any(|x| (2.0..998.0).contains(x)), "anywhere");
+    let nearest: Vec<f64> = (0..64).map(|k| draws.nearest_edge(1, k)[0].0).collect();
+    assert_eq!(nearest, found, "the same numbers");
+}
+
+#[test]
+fn states_differ_and_do_not_depend_on_each_other() {
+    let draws = vec![Draw::Within(Range::between((0, 1), (1, 1))); 4];
+    let (four, two) = (Draws::new(&draws), Draws::new(&draws[..2]));
+    assert_ne!(four.state(1, 0), four.state(1, 1), "each state has numbers of its own");
+    assert_eq!(four.state(1, 5)[..2], two.state(1, 5)[..], "further draws change nothing");
+}

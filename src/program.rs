@@ -1,0 +1,192 @@
+//! Straight-line programs of a case: the field, the level equations and the claims over named
+//! inputs, for use outside the verifier.
+
+use crate::case::Case;
+use crate::formula::{Formula, Type};
+use crate::graph::{Expr, Fault, Graph, record};
+use crate::mechanics::calculus::Jet;
+use crate::mechanics::{Meaning, Origin, Phase, components};
+
+/// A case recorded as one graph, with names for its inputs and functions for its outputs.
+pub struct Program {
+    /// All operations.
+    pub graph: Graph,
+    /// Inputs in the order of the graph: free parameters, state, values of antiderivatives.
+    pub inputs: Vec<Input>,
+    /// Functions of the inputs.
+    pub functions: Vec<Function>,
+    /// Named intermediate values of the functions, component by component.
+    pub named: Vec<Named>,
+}
+
+/// A named group of inputs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// Canonical name.
+    pub name: String,
+    /// Type of the value, which gives the number of components and their order.
+    pub kind: Type,
+    /// Role of the input.
+    pub role: Role,
+}
+
+/// The role of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A free parameter.
+    Parameter,
+    /// A variable of the state.
+    State,
+    /// The value of an antiderivative at the state, whose constant is free.
+    Antiderivative,
+}
+
+/// The subject of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Time derivatives of the state's components; of a map, their images.
+    Field,
+    /// Differences of the sides of the level equations.
+    Level,
+    /// Value of the formula of a claim, by its index in the case.
+    Value(usize),
+    /// Numbers that vanish where a claim holds, by its index in the case.
+    Residual(usize),
+}
+
+/// A function with several values.
+pub struct Function {
+    /// Subject of the function.
+    pub part: Part,
+    /// Values, in order.
+    pub outputs: Vec<Expr>,
+}
+
+/// A named value of the case.
+pub struct Named {
+    /// Canonical name.
+    pub name: String,
+    /// Type of the value.
+    pub kind: Type,
+    /// Components, in order.
+    pub values: Vec<Expr>,
+}
+
+impl Program {
+    /// Records the field, the level equations, and the claims of a case that `keep` accepts, by
+    /// index. A function without values is left out.
+    pub fn of(case: &Case, keep: impl Fn(usize) -> bool) -> Result<Self, Fault> {
+        let model = &case.model;
+        let free = model.free_components();
+        let kept: Vec<usize> = (0..case.claims.len()).filter(|index| keep(*index)).collect();
+        let (graph, (functions, named)) = record(free + model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            let jet = Jet::new(Phase::new(model, parameters, state));
+            let phase = &jet.phase;
+            let level = model.level.iter().map(|e| phase.level_function(&e.function)).collect();
+            let mut functions = vec![
+                Function { part: Part::Field, outputs: phase.field().to_vec() },
+                Function { part: Part::Level, outputs: level },
+            ];
+            for index in kept.iter().copied() {
+                let claim = &case.claims[index];
+                let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
+                let residual = claim.kind.residual(&jet, &claim.place.kept);
+                let own = [
+                    (Part::Value(index), value.unwrap_or_default()),
+                    (Part::Residual(index), residual),
+                ];
+                functions.extend(own.into_iter().map(|(part, outputs)| Function { part, outputs }));
+            }
+            functions.retain(|function| !function.outputs.is_empty());
+            let formulas = kept.iter().flat_map(|index| case.claims[*index].kind.formulas());
+            (functions, named(phase, formulas))
+        })?;
+        let mut inputs: Vec<Input> = Vec::new();
+        let of_role =
+            |role: Role| move |name: &str, kind| Input { name: name.to_string(), kind, role };
+        let parameter = of_role(Role::Parameter);
+        inputs.extend(model.free_parameters().map(|own| parameter(&own.name, own.kind)));
+        let state = of_role(Role::State);
+        inputs.extend(model.state.iter().map(|own| state(&own.name, own.kind)));
+        let count = free + model.dimension();
+        inputs.extend((count..graph.inputs()).map(|index| {
+            of_role(Role::Antiderivative)(&format!("integral_{}", index - count + 1), Type::Scalar)
+        }));
+        Ok(Self { graph, inputs, functions, named })
+    }
+
+    /// Names of all input components in the order of the graph, with their roles.
+    pub fn components(&self) -> Vec<(String, Role)> {
+        let of = |input: &Input| {
+            let (kind, role) = (input.kind, input.role);
+            let name = input.name.clone();
+            (0..components(kind)).map(move |place| (kind.component(&name, place), role))
+        };
+        self.inputs.iter().flat_map(of).collect()
+    }
+}
+
+/// Records the parameters that are formulas, and the abbreviations and quantities named in some
+/// formulas.
+fn named<'f>(
+    phase: &Phase<'_, Expr>,
+    formulas: impl IntoIterator<Item = &'f Formula>,
+) -> Vec<Named> {
+    let model = phase.model();
+    let mut symbols: Vec<_> = formulas.into_iter().flat_map(Formula::symbols).collect();
+    let is_formula = |index: usize| {
+        matches!(model.parameters.get(index).map(|own| &own.origin), Some(Origin::Formula(_)))
+    };
+    let of_parameters = model.vocabulary.iter().filter(|(_, entry)| match entry.meaning {
+        Meaning::Parameter(index) => is_formula(index),
+        _ => false,
+    });
+    symbols.extend(of_parameters.map(|(symbol, _)| symbol));
+    symbols.sort();
+    symbols.dedup();
+    let is_named = |symbol: &crate::formula::Symbol| match model.vocabulary.entry(*symbol).meaning {
+        Meaning::Parameter(index) => is_formula(index),
+        Meaning::Abbreviation(_) | Meaning::Quantity(_) => true,
+        Meaning::State(_) => false,
+    };
+    symbols
+        .into_iter()
+        .filter(is_named)
+        .map(|symbol| {
+            let entry = model.vocabulary.entry(symbol);
+            let values = phase.value(symbol).components();
+            Named { name: entry.name.clone(), kind: entry.kind, values }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::{Evaluator, Tape};
+    use crate::number::float::Float;
+
+    #[test]
+    fn inputs_and_functions_are_named() {
+        let case = Case::parse(
+            "title = 't'\n[parameters]\nk = '1..2'\n[state]\nx = '-2..2'\n\
+             omega = 'vector(-1..1)'\n[field]\n\"x'\" = 'k*x'\n\"omega'\" = 'x*ω'\n\
+             [[claim]]\nname = 'F'\nintegral = 'ln(x)'\n",
+            &[],
+        )
+        .unwrap_or_else(|error| panic!("{error}"));
+        let program = Program::of(&case, |_| true).expect("records");
+        let names: Vec<String> = program.components().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["k", "x", "ω1", "ω2", "ω3"], "in the order of the graph");
+        let parts: Vec<Part> = program.functions.iter().map(|own| own.part).collect();
+        assert_eq!(parts, [Part::Field, Part::Value(0), Part::Residual(0)], "no empty level");
+        let tape = Tape::new(&program.graph, &program.functions[0].outputs);
+        let mut evaluator = Evaluator::new(&tape, Float::<1>);
+        evaluator.run(&[[2.0], [3.0], [1.0], [0.0], [-1.0]]);
+        let field: Vec<f64> = evaluator.outputs().map(|block| block[0]).collect();
+        assert_eq!(field, [6.0, 3.0, 0.0, -3.0], "k x, x ω");
+        let none = Program::of(&case, |_| false).expect("records");
+        assert_eq!(none.functions.len(), 1, "the field alone");
+    }
+}

@@ -1,0 +1,110 @@
+//! Further states, for claims that are still undecided: blocks of states are evaluated, and only a
+//! block that seems to refute a claim is examined closely.
+
+use std::ops::Range;
+
+use super::bench::Bench;
+use super::examine::Seen;
+use super::finding::Finding;
+use super::ladder::Open;
+use super::pass::{Passed, Total};
+use super::recorded::Layout;
+use super::run::{MOST_KEPT, MOST_PASSED, Run, waves};
+use super::sampler::{LANES, Sampler};
+
+impl Bench<'_> {
+    /// Evaluates balls over f64 at the other blocks, for claims that the fields did not decide.
+    pub(super) fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let mut laid_out: Option<(Run, Layout, usize)> = None;
+        for blocks in waves(1..self.blocks(), MOST_PASSED) {
+            let mut left: Vec<_> = open
+                .iter_mut()
+                .filter(|(_, finding)| {
+                    finding.settled.is_none() && !finding.is_nonzero() && !finding.is_zero
+                })
+                .collect();
+            if left.is_empty() {
+                return;
+            }
+            if laid_out.as_ref().is_none_or(|(_, _, count)| *count != left.len()) {
+                let (run, layout) =
+                    self.lay_out(sampler, left.iter().map(|(item, _)| *item), false);
+                laid_out = Some((run, layout, left.len()));
+            }
+            let Some((run, layout, _)) = &laid_out else { return };
+            let mut findings: Vec<&mut Finding> =
+                left.iter_mut().map(|(_, finding)| &mut **finding).collect();
+            match run.pass(sampler, blocks.clone(), layout) {
+                Some(passed) => {
+                    let passed = blocks.zip(passed);
+                    self.weigh_passed(sampler, (run, layout), passed, &mut findings);
+                }
+                None => {
+                    for start in blocks.clone().step_by(MOST_KEPT as usize) {
+                        let some = start..blocks.end.min(start + MOST_KEPT);
+                        self.look_at(sampler, (run, layout), some, &mut findings);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the results of blocks of states to the evidence; a block that seems to refute a claim is
+    /// examined closely.
+    fn weigh_passed(
+        &self,
+        sampler: &Sampler,
+        laid_out: (&Run, &Layout),
+        passed: impl Iterator<Item = (u64, Vec<Passed>)>,
+        findings: &mut [&mut Finding],
+    ) {
+        let mut totals: Vec<Option<Total>> = findings.iter().map(|_| None).collect();
+        for (block, passed) in passed {
+            let is_open = |finding: &Finding| finding.settled.is_none();
+            let mut suspect = false;
+            for ((finding, total), own) in findings.iter_mut().zip(&mut totals).zip(&passed) {
+                if is_open(finding) && own.excludes_zero {
+                    self.add(sampler, total.take(), finding);
+                    suspect = true;
+                } else if is_open(finding) {
+                    total.get_or_insert_default().add(own);
+                }
+            }
+            if suspect {
+                let mut refuted: Vec<&mut Finding> = Vec::new();
+                let mut layout = Layout { common: laid_out.1.common.clone(), spans: Vec::new() };
+                let all = findings.iter_mut().zip(&laid_out.1.spans).zip(&passed);
+                for ((finding, span), _) in all.filter(|(_, own)| own.excludes_zero) {
+                    refuted.push(&mut **finding);
+                    layout.spans.push(span.clone());
+                }
+                let one = block..block + 1;
+                self.look_at(sampler, (laid_out.0, &layout), one, &mut refuted);
+            }
+        }
+        for (finding, total) in findings.iter_mut().zip(totals) {
+            self.add(sampler, total, finding);
+        }
+    }
+
+    /// Examines the values of all claims that are open at some blocks.
+    fn look_at(
+        &self,
+        sampler: &Sampler,
+        (run, layout): (&Run, &Layout),
+        blocks: Range<u64>,
+        findings: &mut [&mut Finding],
+    ) {
+        let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
+        for (block, values) in blocks.zip(values) {
+            let start = block * LANES as u64;
+            for (finding, span) in findings.iter_mut().zip(&layout.spans) {
+                if finding.settled.is_none() {
+                    let existing = layout.existing(&values, span);
+                    let seen = Seen { values: &values, existing: &existing };
+                    self.examine(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Results of a claim at a block of states, without values of single states and without allocation
+//! for each state.
+
+#![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
+
+use std::ops::Range;
+
+use super::recorded::Layout;
+use super::run::Doubles;
+use super::sampler::LANES;
+use crate::graph::{Evaluator, Work, with_widest_vectors};
+use crate::number::ball::Balls;
+
+/// Residuals of a claim at a block of states.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Passed {
+    /// Number of states that count, with all residuals enclosed.
+    pub states: usize,
+    /// Largest midpoint, in magnitude.
+    pub largest: f64,
+    /// Largest ratio of a midpoint to its radius, in magnitude.
+    pub scaled: f64,
+    /// Whether some enclosure excludes 0.
+    pub excludes_zero: bool,
+}
+
+/// Combined results of several blocks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Total {
+    /// Sum over the blocks.
+    pub all: Passed,
+    /// The last block.
+    pub last: Passed,
+}
+
+impl Total {
+    /// Adds a block.
+    pub fn add(&mut self, block: &Passed) {
+        self.all.states += block.states;
+        self.all.largest = self.all.largest.max(block.largest);
+        self.all.scaled = self.all.scaled.max(block.scaled);
+        self.last = *block;
+    }
+}
+
+/// Examines the values of all claims at one block of states.
+pub fn passed(
+    states: &[&Balls<LANES>],
+    evaluator: &Evaluator<'_, Doubles>,
+    layout: &Layout,
+) -> Vec<Passed> {
+    let mut found = vec![Passed::default(); layout.spans.len()];
+    with_widest_vectors(Pass { states, evaluator, layout, found: &mut found });
+    found
+}
+
+struct Pass<'p, 't> {
+    states: &'p [&'p Balls<LANES>],
+    evaluator: &'p Evaluator<'t, Doubles>,
+    layout: &'p Layout,
+    found: &'p mut [Passed],
+}
+
+/// For each lane, 0 if all values so far are finite, and NaN otherwise.
+type Traces = [f64; LANES];
+
+impl Work for Pass<'_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { states, evaluator, layout, found } = self;
+        let mut common = [0.0; LANES];
+        states.iter().for_each(|block| trace(&mut common, block));
+        trace_all(&mut common, evaluator, layout.common.clone());
+        for (found, span) in found.iter_mut().zip(&layout.spans) {
+            let mut traces = common;
+            trace_all(&mut traces, evaluator, span.requirement.clone());
+            trace_all(&mut traces, evaluator, span.residual.clone());
+            found.states = traces.iter().map(|trace| usize::from(!trace.is_nan())).sum();
+            let mut largest = [0.0; LANES];
+            let (mut scaled, mut outside) = (largest, largest);
+            for index in span.residual.clone() {
+                let Balls { mid, rad } = evaluator.output(index);
+                for lane in 0..LANES {
+                    // NaN if the state does not count; maxima ignore it.
+                    let mid = mid[lane].abs() + traces[lane];
+                    let ratio = mid / rad[lane];
+                    let ratio = if mid == 0.0 { 0.0 } else { ratio };
+                    let beyond = mid - rad[lane];
+                    largest[lane] = if mid > largest[lane] { mid } else { largest[lane] };
+                    scaled[lane] = if ratio > scaled[lane] { ratio } else { scaled[lane] };
+                    outside[lane] = if beyond > outside[lane] { beyond } else { outside[lane] };
+                }
+            }
+            found.excludes_zero = outside.iter().any(|beyond| *beyond > 0.0);
+            found.largest = largest.into_iter().fold(0.0, f64::max);
+            found.scaled = scaled.into_iter().fold(0.0, f64::max);
+        }
+    }
+}
+
+#[inline(always)]
+fn trace_all(traces: &mut Traces, evaluator: &Evaluator<'_, Doubles>, outputs: Range<usize>) {
+    for index in outputs {
+        trace(traces, evaluator.output(index));
+    }
+}
+
+/// Adds 0 where the lane is finite, and NaN elsewhere.
+#[inline(always)]
+fn trace(traces: &mut Traces, block: &Balls<LANES>) {
+    for lane in 0..LANES {
+        traces[lane] += block.mid[lane] * 0.0 + block.rad[lane] * 0.0;
+    }
+}
