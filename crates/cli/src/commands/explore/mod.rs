@@ -32,7 +32,7 @@ pub enum Command {
     /// Follow motions: orbits, sections, exponents, charts, periodic points
     Motion {
         #[command(subcommand)]
-        command: Motion,
+        command: Box<Motion>,
     },
     /// Measure the program: run time against error, numerical stability, growth
     Measure {

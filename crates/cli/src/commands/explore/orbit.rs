@@ -14,7 +14,7 @@ use super::eval::wrong_state;
 use super::motion::{Ink, Subject, Threads, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::progress::progress;
-use super::starts::{Given, Starts, misfit};
+use super::starts::{Given, Named, Starts, misfit};
 use super::{Answer, write};
 
 /// Number of intervals between samples where no interval is given.
@@ -141,7 +141,7 @@ fn columns(case: &Case, options: &Orbit) -> Result<Columns, String> {
 }
 
 /// Starts with their names.
-fn starts(case: &Case, options: &Orbit) -> Result<Vec<(String, Result<Start, FlowError>)>, String> {
+fn starts(case: &Case, options: &Orbit) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
         Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };

@@ -7,6 +7,7 @@ use liouville::case::Case;
 use liouville::formula::canonical_name;
 use liouville::number::rational::Rational;
 use liouville::verdict;
+use liouville_flow::{FlowError, Start};
 
 use super::motion::number_with_pi;
 
@@ -21,6 +22,9 @@ pub struct Starts {
     #[arg(long, value_name = "FILE.csv")]
     pub starts: Option<PathBuf>,
 }
+
+/// Starts with their names, or the reasons why there are none.
+pub type Named = Vec<(String, Result<Start, FlowError>)>;
 
 /// A start as a user gives it.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,14 +5,14 @@ use liouville::number::pair::Pair;
 use liouville_cli::report::data::Data;
 use liouville_cli::report::surface::{SurfaceReport, picture};
 use liouville_flow::{
-    Begin, Columns, FlowError, Launches, Launchpad, Lexicon, Precision, Start, Surface,
-    SurfaceOrbit, SurfaceRequest,
+    Begin, Columns, FlowError, Launches, Launchpad, Lexicon, Precision, Surface, SurfaceOrbit,
+    SurfaceRequest,
 };
 
 use super::motion::{rendered, whole, wrong_formula};
 use super::progress::progress;
 use super::section::Section;
-use super::starts::{Given, misfit};
+use super::starts::{Given, Named, misfit};
 use super::{Answer, write};
 
 /// Default numbers of orbits and of crossings.
@@ -114,7 +114,7 @@ fn starts(
     surface: &Surface,
     axes: &Columns,
     direction: Direction,
-) -> Result<Vec<(String, Result<Start, FlowError>)>, String> {
+) -> Result<Named, String> {
     let launches = Launches {
         case,
         energy: options.plane.energy.as_ref(),
