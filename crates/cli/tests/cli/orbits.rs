@@ -100,7 +100,7 @@ fn samples_that_cannot_be_written_say_why() {
     };
     let out = path(&folder, "x.csv");
     orbit(&["--out", "x.xyz"], "is none of .svg, .png, .csv, .npy, .json");
-    orbit(&["--out", "no/such/x.csv"], "there is no such folder");
+    orbit(&["--out", "no/such/x.csv"], "in a folder that exists");
     orbit(&["--start", "1", "--columns", "t, y", "--out", &out], "unknown name `y`");
     orbit(&["--start", "1", "--columns", "t,,x", "--out", &out], "a column is empty");
     orbit(&["--start", "1,2"], "a start has 2 values, and the state has 1");
