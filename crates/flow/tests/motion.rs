@@ -60,7 +60,7 @@ fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
 #[test]
 fn every_kind_is_used_and_fails_somewhere() {
     let mut seen = Vec::new();
-    for folder in ["figures", "one-sided", "suslov"] {
+    for folder in ["figures", "one-sided", "spin", "suslov"] {
         let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases")).join(folder);
         for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
             if entry.path().extension().is_some_and(|extension| extension == "toml") {

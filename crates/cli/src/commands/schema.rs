@@ -35,8 +35,9 @@ const TABLES: [&str; 16] = [
 ];
 
 /// Keys whose values are lists, or one text.
-const LISTS: [&str; 20] = [
+const LISTS: [&str; 21] = [
     "independent",
+    "compatible",
     "bracket",
     "spectrum",
     "characteristic-polynomial",

@@ -8,9 +8,9 @@ use predicates::str::contains;
 use crate::{GOOD, folder, json, liouville};
 
 /// A system that keeps a judge busy for minutes.
-const LONG: &str = "title = 'long'\n[parameters]\nn = 900\n[state]\nx = 'vector(n, -1..1)'\n[field]\n\
-                    \"x[i]'\" = 'x[i]*(x[i+1 mod n] − x[i−1 mod n])'\n[[claim]]\n\
-                    integral = 'sum(i, 1..n, x[i])'\n[[claim]]\nname = 'other'\ndensity = '1'\n";
+const LONG: &str = "title = 'long'\n[parameters]\nn = 16\n[state]\nx = 'matrix(n, n, -1..1)'\n[field]\n\
+                    \"x'\" = 'x*inverse(x + E(n))*x*inverse(x − 2*E(n))*x'\n[[claim]]\n\
+                    integral = 'det(x*x + x)'\n[[claim]]\nname = 'other'\ndensity = '1'\n";
 
 #[test]
 fn claims_beyond_a_limit_are_undecided_and_told() {
