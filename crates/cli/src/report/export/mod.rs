@@ -1,4 +1,4 @@
-//! Straight-line code of a case in other languages: one file a language, behind [`Target`].
+//! Straight-line code of a case in other languages, each in one file behind a common trait.
 
 mod c;
 mod julia;
