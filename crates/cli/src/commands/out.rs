@@ -19,7 +19,7 @@ pub fn check(path: &Path, option: &str, read: &[&Path]) -> Result<(), String> {
     }
     match read.iter().any(|own| is_same(own, path)) {
         true => Err(format!(
-            "error: {shown} is the case itself\nhelp: give {option} another file, or it would be lost"
+            "error: {shown} is a file that the command reads\nhelp: give {option} another file, or it would be lost"
         )),
         false => Ok(()),
     }

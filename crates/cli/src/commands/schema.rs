@@ -88,6 +88,14 @@ pub fn schema() -> Value {
                 "type": "object",
                 "additionalProperties": { "type": ["string", "number", "array"] },
             }),
+            // one bracket, or several with names
+            "poisson" => json!({
+                "type": "object",
+                "additionalProperties": {
+                    "type": ["string", "number", "object"],
+                    "additionalProperties": { "type": ["string", "number"] },
+                },
+            }),
             _ => formulas.clone(),
         };
         properties.insert(key.clone(), explained(&key, value));

@@ -68,7 +68,7 @@ fn files_are_written_whole_or_not_at_all() {
             .stderr(contains(message))
             .stderr(contains("help: "));
     };
-    refuse("good.toml", "is the case itself");
+    refuse("good.toml", "is a file that the command reads");
     assert_eq!(fs::read_to_string(&case).expect("the case"), GOOD, "it is as it was");
     refuse("k.pdf", "the ending of");
     refuse("k", "the ending of");
@@ -89,9 +89,9 @@ fn files_are_written_whole_or_not_at_all() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(&case, file("link.html")).expect("a link");
-        refuse("link.html", "is the case itself");
+        refuse("link.html", "is a file that the command reads");
         fs::hard_link(&case, file("hard.html")).expect("a link");
-        refuse("hard.html", "is the case itself");
+        refuse("hard.html", "is a file that the command reads");
     }
 }
 
