@@ -170,7 +170,7 @@ fn wrong_input_is_refused_in_its_words() {
         ("limit-cycle = 0\nstart = [1, 0]\ncrossings = 10", "is not a count"),
         ("confined = \"l > 2\"\nstart = [1, 0]\ncrossings = 10", "not a part of the section"),
         ("confined = \"0 < l < 2\"\nshare = 2\nstart = [1, 0]\ncrossings = 9", "is not a share"),
-        ("contacts = [\"grazes at 2\"]\ntime = 10", "nothing that happens"),
+        ("contacts = [\"grazes at 2\"]\ntime = 10", "is not an event at a constraint"),
     ];
     for (claim, message) in wrong {
         let found = ball(claim).err().unwrap_or_else(|| panic!("accepted: {claim}"));
