@@ -1,6 +1,6 @@
 //! Arena of a parsed formula: a flat list of typed nodes, arguments before their users.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::error::Span;
 use super::kind::Type;
@@ -193,7 +193,7 @@ pub(super) struct Arena {
     pub names: Vec<String>,
     /// Symbols whose values are written into the formula: those in indices, bounds and sizes.
     pub fixed: Vec<Symbol>,
-    slots: HashMap<Symbol, usize>,
+    slots: BTreeMap<Symbol, usize>,
 }
 
 impl Arena {

@@ -1,6 +1,6 @@
 //! Weights of symbols in one base dimension, and the equations between them.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use super::scope::Symbol;
 use crate::number::rational::Rational;
@@ -58,10 +58,10 @@ impl Form {
 #[derive(Clone, Debug)]
 pub struct WeightSystem {
     dimension: String,
-    symbols: HashMap<Symbol, usize>,
+    symbols: BTreeMap<Symbol, usize>,
     unknowns: usize,
     /// Unknowns expressed in unknowns of smaller number.
-    solved: HashMap<usize, Form>,
+    solved: BTreeMap<usize, Form>,
 }
 
 impl WeightSystem {
@@ -69,9 +69,9 @@ impl WeightSystem {
     pub fn new(dimension_name: &str) -> Self {
         Self {
             dimension: dimension_name.to_string(),
-            symbols: HashMap::new(),
+            symbols: BTreeMap::new(),
             unknowns: 0,
-            solved: HashMap::new(),
+            solved: BTreeMap::new(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The truth about a claim, as far as states show it.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::claim::{At, Claim};
 use super::expr::Tree;
@@ -110,7 +110,7 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
         let values = scene.rough_values(point)?;
         Some(scout::sight(claim.trees(), &values))
     };
-    let mut cells: HashMap<u64, (bool, Vec<Point>)> = HashMap::new();
+    let mut cells: BTreeMap<u64, (bool, Vec<Point>)> = BTreeMap::new();
     let mut order: Vec<u64> = Vec::new();
     let mut note = |point: &Point, sight: Sight| {
         let cell = cells.entry(sight.pattern).or_insert_with(|| {

@@ -1,6 +1,6 @@
 //! Shrinking of cases with the same fault.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use super::claim::Claim;
 use super::draw::{Drawn, Made};
@@ -78,7 +78,7 @@ impl Faulty {
     /// Finds the smallest case with the same fault.
     pub fn shrunk(mut self, wrong: Wrong) -> Self {
         let mut tries = 0;
-        let mut tried = HashSet::new();
+        let mut tried = BTreeSet::new();
         loop {
             let size = self.size();
             let mut smaller = self.simpler();

@@ -1,6 +1,6 @@
 //! A case at a random state: parameters and state as numbers.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use liouville::case::Case;
 use liouville::verdict::{PointReport, evaluate};
@@ -12,7 +12,7 @@ use super::exact;
 /// State `index` of a case with the values of its free parameters there.
 pub struct Drawn {
     pub report: PointReport,
-    values: HashMap<String, Vec<f64>>,
+    values: BTreeMap<String, Vec<f64>>,
 }
 
 impl Drawn {

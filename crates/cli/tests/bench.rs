@@ -1,7 +1,7 @@
 //! Reports of `liouville measure bench`: their form, and errors in the order that theory predicts. Times
 //! are reported, never tested.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
@@ -121,7 +121,7 @@ fn json_has_the_documented_form() {
             assert!(row[key].is_f64(), "a row has `{key}`: {row}");
         }
     }
-    let methods: HashSet<&str> = rows.iter().filter_map(|row| row["method"].as_str()).collect();
+    let methods: BTreeSet<&str> = rows.iter().filter_map(|row| row["method"].as_str()).collect();
     // There is a floor where there is machine code.
     let expected = Method::ALL.iter().filter(|m| **m != Method::Floor || methods.contains("floor"));
     assert_eq!(methods.len(), expected.count(), "every method is there: {methods:?}");

@@ -9,7 +9,9 @@ mod elementary;
 mod matrices;
 mod rules;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
 
 use super::arena::{NodeId, Operation};
 use super::error::{FormulaError, Span};
@@ -42,10 +44,10 @@ pub(super) struct Slopes<'b, 't> {
     part: Part,
     /// Text of the whole derivative.
     span: Span,
-    found: HashMap<NodeId, Option<NodeId>>,
+    found: FxHashMap<NodeId, Option<NodeId>>,
     /// Last nodes of the abbreviations that are written out.
-    written_out: HashMap<Symbol, NodeId>,
-    dependent: HashMap<Symbol, bool>,
+    written_out: FxHashMap<Symbol, NodeId>,
+    dependent: FxHashMap<Symbol, bool>,
     /// Number of nodes before the derivative.
     before: usize,
     depth: usize,
@@ -65,9 +67,9 @@ impl<'b, 't> Slopes<'b, 't> {
             variable,
             part: Part::Whole,
             span,
-            found: HashMap::new(),
-            written_out: HashMap::new(),
-            dependent: HashMap::from([(variable, true)]),
+            found: FxHashMap::default(),
+            written_out: FxHashMap::default(),
+            dependent: FxHashMap::from_iter([(variable, true)]),
             before,
             depth: 0,
         }

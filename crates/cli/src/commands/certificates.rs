@@ -1,6 +1,6 @@
 //! The option `--certificate` of `liouville check`: one file for each proof by points.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
@@ -27,7 +27,7 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &Check) -> Result<Stri
         .par_iter()
         .map(|outcome| Ok((outcome, of_case(outcome, options)?)))
         .collect::<Result<_, String>>()?;
-    let mut taken: HashSet<String> = HashSet::new();
+    let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut written = 0;
     let mut missing: Vec<Missing> = Vec::new();
     for (outcome, made) in &made {
@@ -87,7 +87,7 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
 }
 
 /// Name of a file that no other certificate of the run has.
-fn fresh(taken: &mut HashSet<String>, path: &str, claim: &str) -> String {
+fn fresh(taken: &mut BTreeSet<String>, path: &str, claim: &str) -> String {
     let path = path.trim_start_matches("./").trim_start_matches("cases/");
     let path = path.trim_end_matches(".toml");
     let plain = |text: &str| -> String {

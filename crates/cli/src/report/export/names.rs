@@ -1,6 +1,6 @@
 //! Names of a program in a language: spelled as it allows, and different from each other.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use liouville::program::Part;
 
@@ -15,15 +15,15 @@ pub struct Names {
     /// Names of the input components, in the order of the graph.
     pub inputs: Vec<String>,
     /// Names of steps that are values with a name in the case, by place.
-    steps: HashMap<usize, String>,
-    taken: HashSet<String>,
+    steps: BTreeMap<usize, String>,
+    taken: BTreeSet<String>,
 }
 
 impl Names {
     /// Spells the names of all inputs and of all named values.
     pub fn new(target: &dyn Target, export: &Export<'_>) -> Self {
         let taken = target.reserved().iter().map(|word| word.to_string()).collect();
-        let mut names = Self { inputs: Vec::new(), steps: HashMap::new(), taken };
+        let mut names = Self { inputs: Vec::new(), steps: BTreeMap::new(), taken };
         for (name, _) in export.program.components() {
             let own = names.fresh(target, target.name(&name));
             names.inputs.push(own);

@@ -6,7 +6,7 @@
 //! argument reduction is stated at each function. The radius of the argument is added, times a
 //! bound on the derivative.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};
 
 use num_bigint::{BigInt, BigUint};
@@ -46,7 +46,7 @@ fn made(value: BigInt, error: BigUint, w: u32, bits: u32) -> Approximation {
 
 /// Computes ln 2 and π with w bits after the point, each within 8w + 64 units.
 fn constants(w: u32) -> (BigInt, BigInt) {
-    static KNOWN: LazyLock<Mutex<HashMap<u32, (BigInt, BigInt)>>> = LazyLock::new(Mutex::default);
+    static KNOWN: LazyLock<Mutex<BTreeMap<u32, (BigInt, BigInt)>>> = LazyLock::new(Mutex::default);
     if let Ok(known) = KNOWN.lock()
         && let Some(found) = known.get(&w)
     {
