@@ -260,10 +260,10 @@ fn replayed(
     liouville_flow::observe::verify(case, &case.motions[0], data, &options).map(|found| found.1)
 }
 
-/// Asserts that two enclosures of one number agree, and are about as wide.
+/// Asserts that an enclosure in 256 bits agrees with one in f64, and is no wider.
 fn assert_same(a: liouville_flow::Enclosure, b: liouville_flow::Enclosure, what: &str) {
-    assert!((a.mid - b.mid).abs() <= 1e-2 * (a.rad + b.rad) + 1e-15, "{what}: {a:?} and {b:?}");
-    assert!(a.rad <= 1.05 * b.rad + 1e-15, "{what}: {a:?} is wider than {b:?}");
+    assert!((a.mid - b.mid).abs() <= b.rad, "{what}: {a:?} and {b:?}");
+    assert!(a.rad <= 1.05 * b.rad, "{what}: {a:?} is wider than {b:?}");
 }
 
 #[test]
@@ -292,7 +292,7 @@ fn proofs_are_replayed_in_other_arithmetic() {
 const BEAD: &str = "title = \"functions\"\nsystem = \"field\"\n[state]\nx = \"-3..3\"\n\
 p = \"-3..3\"\n[field]\n\"x'\" = \"p\"\n\
 \"p'\" = \"(1 − x²)*p − sin(x)*exp(x²/20)/sqrt(1 + x²/9) + cos(x)*atan(x)/50 + ln(2 + x²)*x^3/90\"\n\
-[[claim]]\nclosed-orbit = 6.76\nstate = { x = \"2.0\" }\nstability = \"sink\"\n";
+[[claim]]\nclosed-orbit = 10.154\nstate = { x = \"2.0730655\" }\nstability = \"sink\"\n";
 
 #[test]
 fn data_that_prove_nothing_are_refused() {
@@ -303,7 +303,7 @@ fn data_that_prove_nothing_are_refused() {
         change(&mut data);
         assert_ne!(data, *good, "{what}");
         let found = replayed(&case, &data);
-        assert!(found.is_err(), "{what}: {found:?}");
+        assert!(found.is_err(), "{what} is accepted");
     };
     refused("a node that is off", &|data| data.nodes[3][1] += 1e-9);
     refused("another sign", &|data| data.nodes[2][0] = -data.nodes[2][0]);
@@ -316,7 +316,7 @@ fn data_that_prove_nothing_are_refused() {
     refused("a segment backwards", &|data| data.shares[4] = -data.shares[4]);
     refused("another period", &|data| data.period += 1e-9);
     refused("boxes without width", &|data| data.radii.fill(0.0));
-    refused("a box that is too narrow", &|data| data.radii[5] *= 0.1);
+    refused("boxes that are too narrow", &|data| data.radii.iter_mut().for_each(|r| *r *= 1e-4));
     refused("boxes that are too wide", &|data| data.radii.fill(1.0));
     refused("a box of infinite width", &|data| data.radii[0] = f64::INFINITY);
     refused("no radius for the period", &|data| {

@@ -8,7 +8,11 @@ use crate::form::Row;
 use crate::validated::plan::Operation;
 
 /// Rounds in which tails may settle.
-const ROUNDS: usize = 100;
+const ROUNDS: usize = 60;
+/// Factor from one radius to the next, their largest number, and the ratio of the least to the step.
+const SHRINK: f64 = 0.87;
+const MOST_RADII: usize = 20;
+const LEAST: f64 = 1.5;
 
 /// Tails of an expansion.
 struct Tails<'s> {
@@ -142,9 +146,18 @@ impl Tails<'_> {
     }
 }
 
-/// Bounds the remainders of the components of the state after the time `h` ≥ 0, by tails in the norm
-/// of radius `radius` > h that Picard's operator maps to themselves. `None` where there are none.
+/// Bounds the remainders of the components of the state after the time `h` ≥ 0, by tails that
+/// Picard's operator maps to themselves, in the norm of the radius given or of a smaller one. `None`
+/// where there are none.
 pub fn remainders(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+    let least = LEAST * h.magnitude().mid();
+    let radii = std::iter::successors(Some(radius), |radius| Some(radius * SHRINK));
+    let mut radii = radii.take_while(|own| *own == radius || *own >= least).take(MOST_RADII);
+    radii.find_map(|radius| settled(series, h, radius))
+}
+
+/// Bounds the remainders by tails in the norm of one radius.
+pub(super) fn settled(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
     let script = series.script;
     let (plan, order) = (script.plan, script.order);
     let (h, rho) = (h.magnitude(), Wide::exact(radius));
@@ -178,6 +191,9 @@ pub fn remainders(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<
         .iter()
         .map(|sum| sum.products.iter().map(|(_, x, y)| own.cross(*x, *y)).collect())
         .collect();
+    let known = &own.sums[..plan.dimension];
+    let largest = known.iter().fold(Wide::zero(), |largest, row| largest.larger(&row[0]));
+    let limit = largest.add(&Wide::exact(1.0));
     let share = rho.mul(&Wide::exact(order as f64 + 1.0).recip());
     for _ in 0..ROUNDS {
         own.spread(&crosses);
@@ -197,9 +213,11 @@ pub fn remainders(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<
             return Some(integrated.iter().map(|bound| bound.mul(&power)).collect());
         }
         for (tail, new) in own.tails.iter_mut().zip(&next) {
-            if !new.is_below(tail) && !new.is_zero() {
-                *tail = new.mul(&Wide::exact(1.1));
-            }
+            *tail = tail.larger(&new.mul(&Wide::exact(1.1)));
+        }
+        // Tails above all that is known of the state lead nowhere.
+        if !own.tails[..plan.dimension].iter().all(|tail| tail.is_below(&limit)) {
+            return None;
         }
     }
     None

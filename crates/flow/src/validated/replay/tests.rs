@@ -3,7 +3,7 @@
 
 use super::number::Wide;
 use super::series::Script;
-use super::tails::remainders;
+use super::tails::{remainders, settled};
 use crate::validated::plan::Plan;
 use crate::validated::tests::{Random, plan};
 use liouville::graph::Expr;
@@ -20,7 +20,7 @@ fn end(plan: &Plan, start: &[f64], h: f64, rho: f64) -> Option<Vec<Wide>> {
     let start: Vec<Wide> = start.iter().map(|x| Wide::exact(*x)).collect();
     let series = script.expand(&start);
     let h = Wide::exact(h);
-    let rests = remainders(&series, &h, rho)?;
+    let rests = settled(&series, &h, rho)?;
     let ends = rests.iter().enumerate();
     Some(ends.map(|(row, rest)| series.polynomial(row, &h).plus(&Wide::within(rest))).collect())
 }
@@ -115,6 +115,12 @@ fn no_tail_reaches_beyond_a_pole() {
     assert_inside(&found[0], &truth, "the geometric series");
     // The remainder is t^17/(1 - t).
     assert!(found[0].enclosure().rad >= 0.1f64.powi(17), "no bound is below what is left out");
+    // A radius that is too large is made smaller, down to the step.
+    let script = Script::new(&plan, ORDER);
+    let series = script.expand(&[Wide::exact(1.0)]);
+    let is_bounded = |h: f64, rho: f64| remainders(&series, &Wide::exact(h), rho).is_some();
+    assert!(is_bounded(0.1, 1.5) && is_bounded(0.2, 0.9), "inside");
+    assert!(!is_bounded(0.7, 1.5) && !is_bounded(1.5, 3.0) && !is_bounded(0.5, 0.4), "beyond");
 }
 
 #[test]
