@@ -180,6 +180,7 @@ class Motion:
                 pairs[place] = cross(args[0], place)
         tails = [value * 3 // 2 + 1 for value in last]
         ratio = -(-size(h) * ONE // radius)
+        most = ONE + max(up(size(a), p) for row in state for a, p in zip(row, powers))
         for _ in range(ROUNDS):
             bounds = []
             for place, (kind, *args) in enumerate(self.steps):
@@ -207,6 +208,7 @@ class Motion:
                     power = up(power, ratio)
                 return [up(bound, power) + 1 for bound in moved]
             tails = [max(b, a * 11 // 10 + 1) for a, b in zip(new, tails)]
+            require(max(tails) < most, "the tails grow without bound")
         raise Refused("no tail is mapped to itself")
 
     def start(self, state, is_wide):

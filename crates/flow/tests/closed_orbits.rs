@@ -248,7 +248,7 @@ fn proved(text: &str) -> (Case, liouville_flow::ProvedOrbit) {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let found = liouville_flow::observe::proof(&case, &case.motions[0], &Options::default());
     let (report, found) = found.expect("proved");
-    assert_eq!(report.verdict, Verdict::Proved);
+    assert_eq!(report.verdict, Verdict::Proved, "{text}");
     (case, found)
 }
 
