@@ -310,6 +310,23 @@ mod tests {
     }
 
     #[test]
+    fn values_vary_about_their_centres() {
+        let half = Rational::new(1, 10);
+        let around = |kind, numbers: &[i64]| {
+            let numbers: Vec<Rational> = numbers.iter().map(|n| Rational::new(*n, 1)).collect();
+            Recipe::around(kind, &numbers, &half)
+        };
+        let matrix = around(Type::Matrix(2, 2), &[3, 0, 0, 5]).expect("diagonal");
+        let range = |low, high| Draw::Within(Range::between((low, 10), (high, 10)));
+        assert_eq!(matrix.draws(), [range(29, 31), range(49, 51)], "the diagonal alone");
+        let made = matrix.make(&[3.05, 4.95]).components();
+        assert_eq!(made, [3.05, 0.0, 0.0, 4.95], "at its places");
+        let vector = around(Type::Vector(2), &[1, 0]).expect("a vector");
+        assert_eq!(vector.draws(), [range(9, 11), range(-1, 1)], "zeros vary too");
+        assert!(around(Type::Matrix(2, 2), &[3, 1, 0, 5]).is_none(), "not diagonal");
+    }
+
+    #[test]
     fn moments_keep_the_triangle_inequalities() {
         let recipe = Recipe::Inertia(Range::between((1, 2), (5, 1)));
         let Value::Matrix(inertia) = recipe.make(&[0.3, 2.4, 1.1]) else { unreachable!() };

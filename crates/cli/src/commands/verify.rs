@@ -38,10 +38,8 @@ pub fn run(options: &Verify) -> Result<Answer, String> {
         }
     }
     let count = options.certificates.len();
-    text.push_str(&format!(
-        "{count} certificates: {} proved, {refused} refused\n",
-        count - refused
-    ));
+    let noun = if count == 1 { "certificate" } else { "certificates" };
+    text.push_str(&format!("{count} {noun}: {} proved, {refused} refused\n", count - refused));
     Ok(Answer { text, code: u8::from(refused > 0) })
 }
 
