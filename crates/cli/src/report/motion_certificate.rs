@@ -88,7 +88,8 @@ pub fn verify(
     options: &Options,
     settings: &Settings<'_>,
 ) -> Result<ClaimReport, String> {
-    let whole: Value = serde_json::from_str(text).map_err(|error| format!("it is not JSON: {error}"))?;
+    let whole: Value =
+        serde_json::from_str(text).map_err(|error| format!("it is not JSON: {error}"))?;
     let own = Own { value: &whole, path: String::new() };
     own.only(&["format", "statement", "proof", "digest"])?;
     if own.text("format")? != FORMAT {
