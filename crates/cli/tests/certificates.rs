@@ -127,7 +127,8 @@ fn closed_orbits_are_proved_again_from_their_certificates() {
     assert!(told.ends_with("2 certificates: 2 proved, 0 refused\n"), "{told}");
     assert!(told.contains("for all parameters with μ ± 1e-3, a closed orbit"), "{told}");
     if is_there() {
-        let narrow = named.iter().find(|file| !file.contains("for-all")).expect("one value");
+        let narrow = named.iter().copied().find(|file| !file.contains("for-all"));
+        let narrow = narrow.expect("at one value");
         let output = run("python3", &["docs/certificates/orbit.py", narrow]);
         let told = text(&output.stdout);
         assert!(output.status.success(), "{told}{}", text(&output.stderr));
