@@ -5,7 +5,7 @@ use super::entry::{self, blocks, independence};
 use super::picture;
 use liouville_search::survey::{Count, Finding, Integrals, Measure, Survey, Unknown};
 
-/// Composes the document of a survey.
+/// Composes the document of a survey; `origin` names the program and the case.
 pub fn document(survey: &Survey, origin: &str) -> Document {
     let sections = [
         Section::new("Where it stands", standing(survey)),

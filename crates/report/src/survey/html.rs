@@ -2,7 +2,7 @@
 //! folded, light or dark as the reader's system.
 
 use super::document::{Block, Cell, Document, Entry, Mark};
-use crate::report::typeset::mathml::{escaped, formula};
+use crate::typeset::mathml::{escaped, formula};
 
 const STYLE: &str = include_str!("page.css");
 
