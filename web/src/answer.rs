@@ -69,7 +69,7 @@ fn check(source: &Source) -> Result<Value, Vec<Failure>> {
         })
     });
     let shown = match (&case, &judged) {
-        (Ok(case), Ok(report)) => shown(case, report),
+        (Ok(case), Ok(report)) => shown(&source.path, case, report),
         _ => Vec::new(),
     };
     let failures = judged.as_ref().err().map(|failures| listed(failures));
@@ -92,9 +92,9 @@ fn unwritten(error: serde_json::Error) -> Vec<Failure> {
 }
 
 /// Claims as the page shows them, in the order of the report.
-fn shown(case: &Case, report: &CaseReport) -> Vec<Shown> {
+fn shown(path: &str, case: &Case, report: &CaseReport) -> Vec<Shown> {
     let findings = report.claims.iter().map(|claim| Finding::claimed(case, claim.clone()));
-    findings.map(|finding| Shown::of(&finding)).collect()
+    findings.map(|finding| Shown::of(path, &finding)).collect()
 }
 
 /// Searches a case; the document is that of `search --json`.
@@ -113,8 +113,11 @@ fn search(request: &Search) -> Result<Value, Vec<Failure>> {
     let document = liouville_report::search::json(&case.title, &found)
         .and_then(|document| Digest::of(&source.text).sign(&document))
         .map_err(unwritten)?;
-    let shown: Vec<Shown> =
-        found.found.iter().map(|one| Shown::of(&survey::of_search(&case, one.clone()))).collect();
+    let shown: Vec<Shown> = found
+        .found
+        .iter()
+        .map(|one| Shown::of(&source.path, &survey::of_search(&case, one.clone())))
+        .collect();
     Ok(json!({
         "json": document,
         "text": liouville_report::search::text(&case.title, &found),

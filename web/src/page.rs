@@ -1,6 +1,7 @@
 //! Findings as the page shows them: formulas in MathML, grounds line by line.
 
 use liouville::formula::Layout;
+use liouville_report::evidence::command;
 use liouville_report::survey::entry;
 use liouville_report::typeset::mathml::formula;
 use liouville_search::survey::Finding;
@@ -18,6 +19,9 @@ pub struct Shown {
     /// Facts about the verdict, in a few words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     remarks: Vec<String>,
+    /// Command that evaluates the case at the witness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    witness: Option<String>,
     /// Grounds of the verdict, line by line.
     grounds: Vec<String>,
 }
@@ -31,8 +35,8 @@ struct Definition {
 }
 
 impl Shown {
-    /// A finding with its evidence.
-    pub fn of(finding: &Finding) -> Self {
+    /// A finding about the case at a path, with its evidence.
+    pub fn of(path: &str, finding: &Finding) -> Self {
         let entry = entry(finding);
         let set = |layout: &Layout, display| formula(layout, display);
         let definitions = entry.definitions.iter().map(|(typed, layout)| Definition {
@@ -43,6 +47,7 @@ impl Shown {
             formula: entry.layout.as_ref().map(|layout| set(layout, true)),
             definitions: definitions.collect(),
             remarks: entry.remarks,
+            witness: finding.claim.evidence.witness.as_ref().map(|state| command(path, state)),
             grounds: entry.evidence,
         }
     }

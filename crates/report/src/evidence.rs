@@ -79,7 +79,7 @@ pub fn details(path: &str, report: &CaseReport) -> String {
 }
 
 /// Writes the command that evaluates the case at a witness, for a shell.
-fn command(path: &str, witness: &Witness) -> String {
+pub fn command(path: &str, witness: &Witness) -> String {
     format!("liouville eval {} {}", shell_quoted(path), options(witness))
 }
 

@@ -8,6 +8,7 @@ pub mod json;
 pub mod names;
 pub mod records;
 pub mod search;
+pub mod site;
 pub mod survey;
 pub mod typeset;
 

@@ -16,7 +16,7 @@ mod picture;
 
 use liouville_search::survey::Survey;
 
-pub use compose::document;
+pub use compose::{document, of_claims};
 pub use document::{Block, Cell, Document, Entry, Mark, Section};
 pub use entry::entry;
 pub use picture::Picture;
@@ -44,6 +44,11 @@ impl Document {
 
     /// Renders the document as one self-contained HTML page.
     pub fn html(&self) -> String {
-        html::render(self)
+        html::render(self, None)
+    }
+
+    /// Renders the document as a page of a site; `index` is the way to the index from there.
+    pub fn html_of_site(&self, index: &str) -> String {
+        html::render(self, Some(index))
     }
 }
