@@ -191,13 +191,17 @@ async function phone(page, home, dark) {
   await page.open(`${home}#case=plane/unbalanced-ball`);
   const wide = await page.value("document.documentElement.scrollWidth");
   assert.ok(wide <= 390, `the page is ${wide} wide on a phone`);
-  if (pictures) await shot(page, `phone-${dark ? "dark" : "light"}`);
+  if (pictures) {
+    await shot(page, `phone-${dark ? "dark" : "light"}`);
+    await page.value("document.getElementById('status').scrollIntoView(); document.querySelector('.witness').click()");
+    await shot(page, `phone-${dark ? "dark" : "light"}-verdicts`);
+  }
   await page.tell("Emulation.clearDeviceMetricsOverride");
 }
 
 async function shot(page, name) {
   mkdirSync(pictures, { recursive: true });
-  const { data } = await page.tell("Page.captureScreenshot", { captureBeyondViewport: true, format: "png" });
+  const { data } = await page.tell("Page.captureScreenshot", { format: "png" });
   writeFileSync(join(pictures, `${name}.png`), Buffer.from(data, "base64"));
 }
 

@@ -3,7 +3,7 @@
 import { failures, named, reported, searched, verdicts } from "./show.js";
 import { pack, unpack } from "./address.js";
 
-const KEYS = "αβγδελμνρσφψωΓΔΩ×·√∂∫²³⁻¹′−≤≥";
+const KEYS = "α β γ δ ε λ μ ν ρ σ φ ψ ω Γ Δ Ω × · √ ∂ ∫ ² ³ ⁻¹ −".split(" ");
 const MOST_LISTED = 60;
 const COMMANDS = ["check", "search", "report", "names"];
 
@@ -78,7 +78,8 @@ async function run(command) {
   }
   state("working", `${command} …`);
   at("answer").replaceChildren();
-  remember(command);
+  await remember(command);
+  if (document.body.dataset.state !== "working") return;
   const began = performance.now();
   try {
     const answer = await ask(request);

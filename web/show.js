@@ -36,6 +36,18 @@ const CLASSES = { proved: "holds", confirmed: "holds", refuted: "fails", undecid
 const SIGNS = { proved: "✓", confirmed: "✓", refuted: "✗", undecided: "?" };
 const EXPECTED = { holds: "holds", fails: "fails", open: "open" };
 
+/** The state at which a claim fails, and the command that evaluates it there. */
+function witness(claim, shown) {
+  const found = claim.evidence?.witness;
+  if (!found) return null;
+  const rounded = () => `${found.residual.toPrecision(4)} ± ${found.error_bound.toExponential(0)}`;
+  const words = `witness: the residual is ${found.digits ?? rounded()}`;
+  const made = make("details", "small", make("summary", "witness", words));
+  const lines = [found.state, ...Object.entries(found.parameters ?? {}).map(([name, given]) => `${name} = ${given}`)];
+  made.append(...lines.map((line) => make("div", "mono", line)), make("pre", "", shown.witness));
+  return made;
+}
+
 function row(claim, shown) {
   const statement = shown.formula
     ? formula(shown.formula)
@@ -43,10 +55,9 @@ function row(claim, shown) {
   const against = claim.agrees ? null : make("strong", "", " against expectation");
   const source = claim.source ? make("cite", "", ` ${claim.source}`) : null;
   const remarks = shown.remarks?.length ? make("div", "pale", shown.remarks.join("; ")) : null;
-  const witness = shown.witness ? make("code", "witness", shown.witness) : null;
   const verdict = make("td", "verdict", `${SIGNS[claim.verdict]} ${claim.verdict}`);
   const words = make("td", "claim", `${claim.kind}: ${claim.name}`, source, against, statement || null,
-    definitions(shown), remarks, witness, folded("evidence", shown.grounds));
+    definitions(shown), remarks, witness(claim, shown), folded("evidence", shown.grounds));
   const expected = make("td", "expected", EXPECTED[claim.expect] ?? claim.expect);
   const made = make("tr", `${CLASSES[claim.verdict]}${claim.agrees ? "" : " against"}`, verdict, words, expected);
   made.dataset.verdict = claim.verdict;

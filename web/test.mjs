@@ -46,7 +46,7 @@ function catalogue() {
   const listed = new Set(asked({ ask: "cases" }).cases.map(([name]) => `cases/${name}.toml`));
   assert.equal(native.length, listed.size, "as many cases as the catalogue inside the module has");
   let claims = 0;
-  let longest = [0, ""];
+  let longest = { time: 0, path: "" };
   const began = performance.now();
   for (const entry of native) {
     const { path } = JSON.parse(entry);
@@ -55,16 +55,15 @@ function catalogue() {
     assert.equal(text, readFileSync(join(root, path), "utf8"), `${path} is that of the folder`);
     const start = performance.now();
     const answer = asked({ ask: "check", path, text });
-    longest = [performance.now() - start, path].sort((a, b) => b - a)[0] > longest[0]
-      ? [performance.now() - start, path]
-      : longest;
+    const time = performance.now() - start;
+    if (time > longest.time) longest = { time, path };
     assert.equal(entries(answer.json)[0], entry, path);
     const count = JSON.parse(entry).claims.length;
     assert.equal(answer.shown.length, count, `${path}: a formula for each claim`);
     claims += count;
   }
   const seconds = ((performance.now() - began) / 1000).toFixed(1);
-  const most = `the longest ${(longest[0] / 1000).toFixed(1)} s: ${longest[1]}`;
+  const most = `${longest.path} takes ${(longest.time / 1000).toFixed(1)} s`;
   console.log(`${native.length} cases, ${claims} claims: the bytes of the command; ${seconds} s, ${most}`);
 }
 
@@ -106,6 +105,9 @@ function mistakes() {
   console.log(`${texts.length} changed cases, ${failed} with mistakes: the bytes of the command`);
 }
 
+/** A document without the singular values in f64, which depend on the processor. */
+const plain = (document) => document.replace(/"(smallest|largest_zero)": [0-9.e-]+/g, '"$1": 0');
+
 function searches() {
   const cwd = mkdtempSync(join(tmpdir(), "liouville-"));
   for (const name of ["plane/balanced-ball", "classical/tops/kovalevskaya", "field"]) {
@@ -115,7 +117,7 @@ function searches() {
     const native = command(["search", "case.toml", "--json", ...options], { cwd });
     const request = { path: "case.toml", text, blind: true, seconds: 5, megabytes: 300 };
     const answer = asked({ ask: "search", ...request });
-    assert.equal(`${answer.json}\n`, native.stdout, name);
+    assert.equal(plain(`${answer.json}\n`), plain(native.stdout), name);
     assert.equal(answer.shown.length, JSON.parse(answer.json).found.length, name);
     const names = command(["names", "case.toml"], { cwd });
     assert.equal(asked({ ask: "names", path: "case.toml", text }).text, names.stdout, name);

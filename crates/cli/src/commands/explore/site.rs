@@ -112,7 +112,9 @@ fn answer(folder: &Path, pages: &[Page]) -> Answer {
     let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
     let unreached = count(|outcome| matches!(outcome, Outcome::Unreached));
     let shown = folder.join(Order::Hierarchy.file());
-    let mut text = format!("{}\n{} pages", shown.display(), pages.len() - failed - unreached);
+    let written = pages.len() - failed - unreached;
+    let plural = if written == 1 { "" } else { "s" };
+    let mut text = format!("{}\n{written} page{plural}", shown.display());
     for (count, words) in [(failed, "without a report"), (unreached, "not reached")] {
         if count > 0 {
             text.push_str(&format!("; {count} {words}"));
