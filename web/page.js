@@ -32,10 +32,19 @@ function start() {
   };
 }
 
-function ask(request) {
+/** The compiled verifier, for this worker and those after a stop. */
+const compiled = fetch("liouville.wasm").then(async (response) => {
+  if (!response.ok) throw new Error(`liouville.wasm: ${response.status} ${response.statusText}`);
+  return WebAssembly.compile(await response.arrayBuffer());
+});
+
+async function ask(request) {
+  const own = worker;
+  const module = await compiled;
+  if (own !== worker) throw new Error("stopped");
   return new Promise((resolve, reject) => {
     waiting.set(++count, { resolve, reject });
-    worker.postMessage({ id: count, request });
+    worker.postMessage({ id: count, module, request });
   });
 }
 

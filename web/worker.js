@@ -2,21 +2,11 @@
 
 import { ask } from "./call.js";
 
-let compiled;
 let instance;
 
-async function load() {
-  const response = await fetch("liouville.wasm");
-  if (!response.ok) throw new Error(`liouville.wasm cannot be loaded: ${response.status}`);
-  compiled = await WebAssembly.compile(await response.arrayBuffer());
-}
-
-const loaded = load();
-
-addEventListener("message", async ({ data: { id, request } }) => {
+addEventListener("message", async ({ data: { id, module, request } }) => {
   try {
-    await loaded;
-    instance ??= await WebAssembly.instantiate(compiled, {});
+    instance ??= await WebAssembly.instantiate(module, {});
     postMessage({ id, answer: ask(instance, request) });
   } catch (error) {
     instance = undefined;
