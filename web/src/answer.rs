@@ -164,3 +164,72 @@ fn show(name: &str) -> Result<Value, Vec<Failure>> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(request: &Value) -> Value {
+        serde_json::from_str(&answered(request.to_string().as_bytes())).expect("JSON")
+    }
+
+    fn text(name: &str) -> Value {
+        asked(&json!({ "ask": "show", "name": name }))["text"].clone()
+    }
+
+    #[test]
+    fn a_case_is_judged_typeset_and_searched() {
+        let text = text("plane/balanced-ball");
+        let found = asked(&json!({ "ask": "check", "path": "case.toml", "text": text }));
+        let document: Value = serde_json::from_str(found["json"].as_str().expect("a document"))
+            .expect("the document of the command");
+        let claims = document["cases"][0]["claims"].as_array().expect("claims");
+        let shown = found["shown"].as_array().expect("formulas");
+        assert_eq!((&found["code"], claims.len()), (&json!(0), shown.len()));
+        for (claim, shown) in claims.iter().zip(shown) {
+            let is_typeset = shown["formula"].as_str().is_some_and(|set| set.starts_with("<math"));
+            assert_eq!(is_typeset, !claim["formula"].is_null(), "{claim} {shown}");
+            let command = shown["witness"].as_str().unwrap_or_default();
+            let is_refuted = claim["verdict"] == "refuted" && claim["kind"] != "no-integral";
+            assert_eq!(command.starts_with("liouville eval case.toml"), is_refuted, "{command}");
+        }
+        let found =
+            asked(&json!({ "ask": "search", "path": "c.toml", "text": text, "blind": true }));
+        assert!(!found["shown"].as_array().expect("finds").is_empty(), "{found}");
+        let found = asked(&json!({ "ask": "report", "path": "c.toml", "text": text }));
+        assert!(found["page"].as_str().expect("a page").contains("integral and measure"));
+        let found = asked(&json!({ "ask": "names", "path": "c.toml", "text": text }));
+        assert!(found["text"].as_str().expect("names").starts_with("state variables"));
+    }
+
+    #[test]
+    fn what_is_wrong_has_a_place() {
+        let text = "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'y'\n";
+        for ask in ["check", "search", "report", "names"] {
+            let found = asked(&json!({ "ask": ask, "path": "case.toml", "text": text }));
+            let failure = &found["failures"][0];
+            assert_eq!((&failure["line"], &failure["column"]), (&json!(5), &json!(9)), "{found}");
+            let rendered = failure["rendered"].as_str().expect("an excerpt");
+            assert!(rendered.contains("case.toml:5:9") && rendered.contains('^'), "{rendered}");
+        }
+        for request in [json!({ "ask": "nothing" }), json!({ "ask": "show", "name": "plane" })] {
+            assert!(asked(&request)["failures"][0]["message"].is_string(), "{request}");
+        }
+    }
+
+    #[test]
+    fn names_cannot_be_markup() {
+        let text = "title = '<b>'\n[state]\n'<img>' = '1..2'\n[field]\n\"<img>'\" = '<img>'\n\
+                    [[claim]]\nname = '<i>'\nintegral = '<img>'\n";
+        let found = asked(&json!({ "ask": "check", "path": "case.toml", "text": text }));
+        assert!(found["failures"][0]["message"].is_string(), "such names are refused: {found}");
+    }
+
+    #[test]
+    fn all_cases_are_there() {
+        let all = asked(&json!({ "ask": "cases" }));
+        let count = |key: &str| all[key].as_array().map(Vec::len);
+        assert_eq!((count("cases"), count("templates")), (Some(CATALOGUE.len()), Some(6)));
+        assert!(text("field").as_str().is_some_and(|text| text.contains("[field]")));
+    }
+}
