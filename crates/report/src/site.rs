@@ -135,7 +135,7 @@ pub fn index(title: &str, origin: &str, pages: &[Page], order: Order) -> String 
     }
     out.push_str("</ul></nav>\n");
     let contents =
-        groups.iter().map(|(_, members)| members.iter().map(|page| entry(page)).collect());
+        groups.iter().map(|(_, members)| members.iter().map(|page| entry(page, order)).collect());
     let contents = contents.chain([unreached.concat(), failed.concat()]);
     let contents = contents.filter(|text: &String| !text.is_empty());
     for (number, ((words, _), content)) in headings.iter().zip(contents).enumerate() {
@@ -162,7 +162,7 @@ impl Page {
     }
 }
 
-fn entry(page: &Page) -> String {
+fn entry(page: &Page, order: Order) -> String {
     let Outcome::Report(file, standing) = &page.outcome else { return String::new() };
     let class = match standing {
         Standing::Class(Class::IntegralAndMeasure) => "holds",
@@ -181,8 +181,12 @@ fn entry(page: &Page) -> String {
     if !page.lead.is_empty() {
         out.push_str(&format!("<p class=\"remark\">{}</p>\n", escaped(&page.lead)));
     }
-    let (words, path) = (standing.words(), escaped(&page.path));
-    out + &format!("<p class=\"remark\">{words}; {path}</p>\n</article>\n")
+    let path = escaped(&page.path);
+    let told = match order {
+        Order::Hierarchy => path,
+        Order::Folder => format!("{}; {path}", standing.words()),
+    };
+    out + &format!("<p class=\"remark\">{told}</p>\n</article>\n")
 }
 
 fn failed(pages: &[Page]) -> Vec<String> {
