@@ -298,6 +298,10 @@ impl Report {
                 self.unreached.push(name.to_string());
                 Ok(())
             }
+            Err(error @ SearchError::NoPoints) => {
+                self.remark(format!("not searched: {name}: {error}"));
+                Ok(())
+            }
             other => other,
         }
     }

@@ -90,7 +90,7 @@ pub fn polynomials(
             .collect();
         let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions?)?;
         let Some(formula) = sum else { continue };
-        if claims::integral(case, &formula, effort, report)? {
+        if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);
             found = true;
         }

@@ -14,6 +14,7 @@ use super::super::local::{random, sign};
 use super::super::streams::Stream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
+use super::adjoin::Extension;
 use super::monomials::Along;
 use super::primes;
 use super::taylor::Flow;
@@ -41,6 +42,8 @@ pub struct Point {
 pub struct Setting<'c> {
     /// Case that is searched.
     pub case: &'c Case,
+    /// Case whose functions are further variables here.
+    pub origin: Option<Origin<'c>>,
     /// Limits of the search.
     pub effort: &'c Effort,
     /// Field of the case.
@@ -51,6 +54,15 @@ pub struct Setting<'c> {
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
     split_primes: Vec<Modulus>,
+}
+
+/// A case with the extension that is searched in its place.
+#[derive(Clone, Copy)]
+pub struct Origin<'c> {
+    /// Case itself.
+    pub case: &'c Case,
+    /// Its functions as variables.
+    pub extension: &'c Extension,
 }
 
 /// A point with the Taylor coefficients of its orbit, component by component.
@@ -69,6 +81,16 @@ struct Points {
 }
 
 impl<'c> Setting<'c> {
+    /// Records the extension of a case; the text is the reason why it has no orbits modulo primes.
+    pub fn extended(
+        case: &'c Case,
+        extension: &'c Extension,
+        effort: &'c Effort,
+    ) -> Result<Result<Self, String>, SearchError> {
+        let made = Self::of(&extension.case, effort)?;
+        Ok(made.map(|own| Self { origin: Some(Origin { case, extension }), ..own }))
+    }
+
     /// Records a case; the text is the reason why it has no orbits modulo primes.
     pub fn of(case: &'c Case, effort: &'c Effort) -> Result<Result<Self, String>, SearchError> {
         let model = &case.model;
@@ -104,7 +126,17 @@ impl<'c> Setting<'c> {
         let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
         let primes = (0..PRIMES).map(prime).collect();
         let split_primes = primes::split(seed, PRIMES as usize);
-        Ok(Ok(Self { case, effort, flow, terms, points, coordinates: named, primes, split_primes }))
+        Ok(Ok(Self {
+            case,
+            origin: None,
+            effort,
+            flow,
+            terms,
+            points,
+            coordinates: named,
+            primes,
+            split_primes,
+        }))
     }
 
     /// Number of components of the state.
