@@ -62,8 +62,8 @@ struct Limits {
 /// Limits without a limit of time.
 const MODEST: Limits = Limits { monomials: 300, degree: 8, steps: 4e7 };
 
-/// The same where functions are further variables: many monomials depend on others.
-const EXTENDED: Limits = Limits { monomials: 600, degree: 8, steps: 4e7 };
+/// The same where functions are further variables.
+const EXTENDED: Limits = Limits { monomials: 400, degree: 8, steps: 4e7 };
 
 /// Limits that follow while there is time.
 const FURTHER: [Limits; 4] = [
@@ -93,9 +93,11 @@ pub fn search(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
-        return Ok(());
-    }
+    let is_field = match case.model.system {
+        System::Field(_) | System::Hamiltonian(_) => true,
+        System::Lagrangian(_) => false,
+        _ => return Ok(()),
+    };
     let mut divided = Vec::new();
     let mut is_extended = false;
     let is_done =
@@ -105,6 +107,7 @@ pub fn search(
         let Some(extension) = adjoin::extended(case, effort, report, divided)? else { break };
         let Ok(setting) = Setting::extended(case, &extension, effort)? else { break };
         is_extended = true;
+        report.without_points.clear();
         let orbits = report.orbits.len();
         along_orbits(&setting, report, progress)?;
         report.orbits.truncate(orbits);
@@ -113,7 +116,7 @@ pub fn search(
             break;
         }
     }
-    if is_done(report) && is_extended {
+    if !is_field || is_done(report) && is_extended {
         return Ok(());
     }
     match Setting::of(case, effort)? {

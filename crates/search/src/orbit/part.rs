@@ -65,8 +65,12 @@ impl Part {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let count = self.variables.len();
-        while self.next <= limits.degree && monomials::count(count, self.next) <= limits.monomials {
-            self.step(setting, known, report, progress)?;
+        while self.next <= limits.degree && !is_complete(setting, known) {
+            let all = self.monomials(setting);
+            if all.len() > limits.monomials {
+                break;
+            }
+            self.step(setting, &all, known, report, progress)?;
         }
         let variables = &self.variables;
         let Some(degree) = self.degree else {
@@ -98,23 +102,32 @@ impl Part {
         Ok(())
     }
 
+    /// Monomials of the relations that come next; none if there are very many.
+    fn monomials(&self, setting: &Setting<'_>) -> Vec<Vec<u32>> {
+        let mut all = monomials::up_to(&self.variables, setting.dimension(), self.next);
+        if let Some(origin) = setting.origin {
+            all.retain(|own| origin.extension.is_standard(own));
+        }
+        all
+    }
+
     /// Searches one degree.
     fn step(
         &mut self,
         setting: &Setting<'_>,
+        monomials: &[Vec<u32>],
         known: &mut Known,
         report: &mut Report,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let degree = self.next;
-        let monomials = monomials::up_to(&self.variables, setting.dimension(), degree);
         progress(&format!(
             "relations of degree {degree} along an orbit: {} unknowns",
             monomials.len()
         ));
         setting.effort.halt.check()?;
         let Some(at) = setting.at(0, 0) else { return Err(SearchError::NoSeries) };
-        let Some(step) = relations::step(setting, &at, &monomials)? else {
+        let Some(step) = relations::step(setting, &at, monomials)? else {
             return Err(SearchError::NoSeries);
         };
         self.next += 1;
@@ -126,10 +139,10 @@ impl Part {
         });
         let variables = &self.variables;
         if step.integrals > known.within(variables) {
-            polynomials::polynomials(setting, variables, degree, known, report)?;
+            polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
         }
         if step.integrals > known.within(variables) {
-            let rational = Rational { setting, variables, monomials: &monomials, degree };
+            let rational = Rational { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
         Ok(())
@@ -195,6 +208,13 @@ impl Part {
         }
         Ok(found)
     }
+}
+
+/// Whether all integrals of an extended case are known: one less than its dimension.
+fn is_complete(setting: &Setting<'_>, known: &Known) -> bool {
+    let is_full =
+        |origin: Origin<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
+    setting.origin.is_some_and(is_full)
 }
 
 /// Number of steps of the eliminations on a line.

@@ -2,9 +2,11 @@
 
 use liouville::case::Case;
 use liouville::claim::Place;
-use liouville::graph::{Evaluator, Tape};
+use liouville::graph::{Evaluator, Expr, Step, Tape, record};
 use liouville::mechanics::Draw;
+use liouville::number::Operation;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::number::rational::Rational;
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::coordinates;
@@ -116,7 +118,7 @@ impl<'c> Setting<'c> {
         })?;
         let parameters = model.free_components();
         let points = Points {
-            tape: Tape::new(sampler.graph(), sampler.made()),
+            tape: without_ranges(&sampler)?,
             draws: sampler.recipes().to_vec(),
             of_parameters: sampler.parameter_draws(),
             parameters,
@@ -258,6 +260,25 @@ impl<'c> Setting<'c> {
         }
         Ok(Some(Relations { point, vectors, free }))
     }
+}
+
+/// The map from draws to parameters and states without the terms 0·√(…) by which a state out of its
+/// declared range has no value: modulo a prime there are no ranges.
+fn without_ranges(sampler: &Sampler) -> Result<Tape, SearchError> {
+    let graph = sampler.graph();
+    let reached = graph.reached(sampler.made().iter().copied());
+    let is_zero =
+        |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_zero());
+    let (made, outputs) = record(graph.inputs(), |inputs| {
+        let zero = Expr::rational(&Rational::from(0));
+        let values = graph.replay(&reached, inputs, |_, step, _| match step {
+            Step::Binary(Operation::Mul, a, b) if is_zero(a) || is_zero(b) => Some(zero),
+            _ => None,
+        });
+        let value = |own: &Expr| values[graph.place(*own)].unwrap_or(zero);
+        sampler.made().iter().map(value).collect::<Vec<_>>()
+    })?;
+    Ok(Tape::new(&made, &outputs))
 }
 
 /// Runs a tape at one point; `None` where an output has no value.

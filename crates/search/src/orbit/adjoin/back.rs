@@ -27,8 +27,6 @@ pub struct Back {
 impl Back {
     /// Takes the functions of a ring.
     pub fn of(ring: &Ring, names: &Names) -> Self {
-        let is_function =
-            |atom: &Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
         let entry = |(place, atom): (usize, &Atom)| {
             let inverse = match atom {
                 Atom::Inverse(base, order) => Some((written(base, &names.original), *order)),
@@ -45,7 +43,11 @@ impl Back {
                 root,
             }
         };
-        let all = ring.atoms.iter().enumerate().filter(|(_, atom)| is_function(atom));
+        let is_other = |place: usize, atom: &Atom| match atom {
+            Atom::Constant(_) => false,
+            _ => names.extended[place] != names.original[place],
+        };
+        let all = ring.atoms.iter().enumerate().filter(|(place, atom)| is_other(*place, atom));
         Self { entries: all.map(entry).collect() }
     }
 

@@ -27,7 +27,7 @@ use liouville::mechanics::Chart;
 
 use self::absence::Class;
 use self::back::Back;
-use self::polynomial::Polynomial;
+use self::polynomial::{Monomial, Polynomial};
 use self::read::Reader;
 use self::ring::{Atom, Divided, Ring};
 use self::write::Names;
@@ -58,6 +58,8 @@ pub struct Extension {
     exponentials: Vec<String>,
     /// Arguments of sines and cosines.
     angles: Vec<Polynomial>,
+    /// Monomials of the extended state that relations between the functions write in others.
+    leading: Vec<Monomial>,
 }
 
 impl Extension {
@@ -69,6 +71,14 @@ impl Extension {
     /// Writes an integral in the names of the case itself, up to a factor or as its inverse.
     pub fn back_integral(&self, formula: &Formula) -> String {
         self.back.integral(formula.text())
+    }
+
+    /// Whether no relation between the functions writes a monomial in others of its degree.
+    pub fn is_standard(&self, monomial: &[u32]) -> bool {
+        let divides = |own: &[(usize, u32)]| {
+            own.iter().all(|(variable, power)| monomial[*variable] >= *power)
+        };
+        !self.leading.iter().any(|own| divides(own))
     }
 
     /// Half of each argument of a sine or cosine.
@@ -153,7 +163,8 @@ fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, Sea
     let is_function =
         |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
     let functions = ring.atoms.iter().filter(is_function).count();
-    if functions == 0 || functions + case.model.dimension() > VARIABLES {
+    let is_needed = functions > 0 || names_are_foreign(case);
+    if !is_needed || functions + case.model.dimension() > VARIABLES {
         return Ok(None);
     }
     let names = Names::of(case, ring);
@@ -174,10 +185,18 @@ fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, Sea
         class: Class::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
         angles: angles(ring),
+        leading: ring.leading(),
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
     }))
+}
+
+/// Whether some component of the state has a name that a variable of a field cannot have, as x'.
+fn names_are_foreign(case: &Case) -> bool {
+    let model = &case.model;
+    let is_plain = |name: &str| name.chars().all(char::is_alphanumeric);
+    (0..model.dimension()).any(|k| !is_plain(&model.component_name(k)))
 }
 
 /// Arguments of sines and cosines.

@@ -6,6 +6,7 @@ use liouville::case::Case;
 use liouville::mechanics::{Draw, Model, Recipe};
 use liouville::number::rational::Rational;
 
+use super::names_are_foreign;
 use super::polynomial::Polynomial;
 use super::ring::{Atom, Of, Ring};
 
@@ -31,9 +32,13 @@ impl Names {
             .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
         let state = (0..model.dimension()).map(|k| model.component_name(k));
         let mut given = parameters.chain(state);
+        let is_foreign = names_are_foreign(case);
         let mut names = Self { extended: Vec::new(), original: Vec::new() };
         for (place, atom) in ring.atoms.iter().enumerate() {
             let (extended, original) = match atom {
+                Atom::State if is_foreign => {
+                    (format!("{PREFIX}{place}"), given.next().unwrap_or_default())
+                }
                 Atom::Parameter | Atom::State => {
                     let name = given.next().unwrap_or_default();
                     (name.clone(), name)
@@ -122,16 +127,26 @@ pub fn case(case: &Case, ring: &Ring, rates: &[Polynomial], names: &Names) -> Op
         line(&mut text, &own.name, &recipe.text());
     }
     text.push_str("[state]\n");
-    let ranges = ranges(model, &case.free_draws)?;
+    let is_foreign = names_are_foreign(case);
+    let first = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
+    let ranges = match is_foreign {
+        true => {
+            let own = names[first..].iter().zip(&case.free_draws);
+            own.map(|(name, draw)| (name.clone(), Recipe::Scalar(draw.clone()).text())).collect()
+        }
+        false => ranges(model, &case.free_draws)?,
+    };
     ranges.iter().for_each(|(name, range)| line(&mut text, name, range));
     let adjoined = |atom: &Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
     let own: Vec<usize> =
         (0..ring.atoms.len()).filter(|place| adjoined(&ring.atoms[*place])).collect();
     own.iter().for_each(|place| line(&mut text, &names[*place], RANGE));
     text.push_str("[field]\n");
-    let first = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
+    for k in (first..first + model.dimension()).filter(|_| is_foreign) {
+        line(&mut text, &format!("{}'", names[k]), &written(&rates[k], names));
+    }
     let mut component = first;
-    for variable in &model.state {
+    for variable in model.state.iter().filter(|_| !is_foreign) {
         let parts: Vec<String> =
             (component..component + variable.len()).map(|k| written(&rates[k], names)).collect();
         component += variable.len();
