@@ -4,7 +4,8 @@
     /tmp/peers/bin/python section.py ../../../target/release/liouville [another liouville ...]
 
 heyoka follows eight orbits in a batch, to the times that the section found for the last crossing of
-each, and detects the crossings as events. Its compilation is left out, set-up of liouville is not.
+each, and detects the crossings as events, compiled for AVX-512 with fast mathematics. Its compilation
+is left out, set-up of liouville is not.
 All times are processor time of one thread.
 """
 
@@ -86,8 +87,13 @@ def integrator(counts):
     event = hk.nt_event_batch(
         y2 * w1 - y1 * w2, callback=met, direction=hk.event_direction.positive)
     return hk.taylor_adaptive_batch(
-        list(zip([w1, w2, w3, y1, y2, y3], rates)), np.ones((6, BATCH)), tol=1e-15, force_avx512=True,
-        nt_events=[event])
+        list(zip([w1, w2, w3, y1, y2, y3], rates)),
+        np.ones((6, BATCH)),
+        tol=1e-15,
+        force_avx512=True,
+        fast_math=True,
+        nt_events=[event],
+    )
 
 
 def heyoka(ta, states, ends):

@@ -290,6 +290,28 @@ mod tests {
     }
 
     #[test]
+    fn what_passes_has_no_events() {
+        let (mut passed, mut stopped) = (0, 0);
+        for turn in 0..2000u32 {
+            let at = |k: u32| f64::from((turn * 37 + k * (61 + turn % 7)) % 101) / 40.0 - 1.25;
+            let polynomial = with_roots(&[at(0), at(1), at(2) * 3.0, at(3)]);
+            let length = if turn.is_multiple_of(2) { 0.7 } else { -0.4 };
+            let (mut quick, mut slow) = (Sides::default(), Sides::default());
+            let passes = quick.pass(&Ends::new(&polynomial, length), 0);
+            let found = slow.events(&polynomial, length);
+            if passes {
+                assert_eq!(found, [], "{polynomial:?}");
+                assert_eq!(quick.positive, slow.positive, "{polynomial:?}");
+                passed += 1;
+            } else {
+                assert_eq!(quick.positive, None, "left to the other: {polynomial:?}");
+                stopped += 1;
+            }
+        }
+        assert!(passed > 500 && stopped > 500, "{passed} and {stopped}");
+    }
+
+    #[test]
     fn a_root_at_the_beginning_is_not_found_again() {
         assert_eq!(events(&with_roots(&[0.0, 2.0]), 1.0), []);
         let next = events(&with_roots(&[0.0, 0.5]), 1.0);
