@@ -5,12 +5,12 @@
 //! e^E = e^R Π X_j^Y_j                                            where E = R + Σ Y_j ln X_j
 //! ```
 //!
-//! The X_j are arguments of logarithms, bases of powers and exponentials, so they are positive
+//! The X_j are arguments of logarithms, bases of powers, powers or exponentials, so they are positive
 //! wherever all values exist, and the rules hold there. The exponents n_j/n come from linear
 //! relations between the logarithmic derivatives dX/X along one direction. Each relation X^n = c Π
 //! X_j^n_j, and each sum E, is proved as an identity.
 
-use num_integer::{Integer, lcm};
+use num_integer::lcm;
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::prime::Modulus;
@@ -24,7 +24,7 @@ use super::digest::Digest;
 use super::elimination::reduce;
 use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
-use super::relations::{MOST, SPARE, prime_for, rows, vanishing};
+use super::relations::{Defect, MOST, SPARE, prime_for, rows};
 use super::rewrite::Rewrite;
 use super::trial::{Certificate, both};
 
@@ -53,6 +53,7 @@ impl Logarithm {
         for (place, multiple) in &self.terms {
             let own = match graph.step(*place) {
                 Step::Unary(Function::Exp, a) => values[a]?,
+                Step::Binary(Operation::Pow, a, y) => values[y]? * values[a]?.apply(Function::Ln),
                 _ => values[*place]?.apply(Function::Ln),
             };
             sum += own * Expr::rational(multiple);
@@ -71,6 +72,7 @@ impl Logarithm {
             let exponent = y * Expr::rational(multiple);
             product *= match graph.step(*place) {
                 Step::Unary(Function::Exp, a) => (values[a]? * exponent).apply(Function::Exp),
+                Step::Binary(Operation::Pow, a, y) => values[a]?.power_of(values[y]? * exponent),
                 _ => values[*place]?.power_of(exponent),
             };
         }
@@ -116,7 +118,8 @@ fn sum(
         made[place].or(values[place])
     };
     let rest = with(None)?;
-    let factors: Option<Vec<Expr>> = parts.iter().map(|part| Some(with(Some(*part))? - rest)).collect();
+    let factors: Option<Vec<Expr>> =
+        parts.iter().map(|part| Some(with(Some(*part))? - rest)).collect();
     Some((rest, factors?))
 }
 
@@ -139,13 +142,18 @@ impl Rules<'_> {
     /// Finds the rules that simplify what some values need.
     pub fn find(&self, values: &[Expr]) -> Found {
         let reached = self.graph.reached(values.iter().copied());
-        let (mut arguments, mut exponentials) = (Vec::new(), Vec::new());
+        let (mut arguments, mut exponents, mut powers) = (Vec::new(), Vec::new(), Vec::new());
         for (place, step) in self.graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             match step {
-                Step::Unary(Function::Ln, a) | Step::Binary(Operation::Pow, a, _) => {
+                Step::Unary(Function::Ln, a) => arguments.push(a),
+                Step::Binary(Operation::Pow, a, _) => {
                     arguments.push(a);
+                    powers.push(place);
                 }
-                Step::Unary(Function::Exp, a) => exponentials.push((place, a)),
+                Step::Unary(Function::Exp, a) => {
+                    exponents.push(a);
+                    powers.push(place);
+                }
                 _ => {}
             }
         }
@@ -154,17 +162,17 @@ impl Rules<'_> {
         }
         arguments.sort_unstable();
         arguments.dedup();
-        let mut found = self.of_exponentials(&exponentials);
+        let mut found = self.of_exponents(&exponents);
         if found.0.is_empty() {
-            found = self.of_arguments(&arguments, &exponentials);
+            found = self.of_arguments(&arguments, powers);
         }
         found
     }
 
     /// Splits exponentials of sums with logarithms.
-    fn of_exponentials(&self, exponentials: &[(usize, usize)]) -> Found {
+    fn of_exponents(&self, exponents: &[usize]) -> Found {
         let mut found = Found::default();
-        for (_, exponent) in exponentials.iter().take(MOST_SPLIT) {
+        for exponent in exponents.iter().take(MOST_SPLIT) {
             let logarithms = self.outer_logarithms(*exponent);
             if logarithms.is_empty() || logarithms.len() > MOST_SPLIT {
                 continue;
@@ -180,7 +188,7 @@ impl Rules<'_> {
                 }
                 Some(vec![defect])
             };
-            if let Some(own) = vanishing(self.graph, self.sources, self.digest, &all, &defect) {
+            if let Some(own) = self.test(false).vanishing(&all, &defect) {
                 found.0.push(Rewrite::Exponential { argument: *exponent, logarithms });
                 found.1 = both(found.1, Some(own));
             }
@@ -204,10 +212,11 @@ impl Rules<'_> {
         logarithms
     }
 
-    /// Expresses arguments of logarithms and powers by products of powers of others.
-    fn of_arguments(&self, arguments: &[usize], exponentials: &[(usize, usize)]) -> Found {
+    /// Expresses arguments of logarithms and powers by products of powers of others, of
+    /// exponentials and of `powers` x^y.
+    fn of_arguments(&self, arguments: &[usize], powers: Vec<usize>) -> Found {
         let mut found = Found::default();
-        let mut candidates: Vec<usize> = exponentials.iter().map(|(place, _)| *place).collect();
+        let mut candidates = powers;
         for argument in arguments {
             match self.graph.step(*argument) {
                 Step::Constant(number) => {
@@ -240,7 +249,7 @@ impl Rules<'_> {
     }
 
     /// Lists values that seem to be products of powers of values before them, up to a number; and
-    /// the exponentials among the others.
+    /// the exponentials and powers x^y among the others.
     fn products(&self, places: &[usize]) -> Option<Vec<(usize, Vec<(usize, Rational)>)>> {
         let extended = self.algebraic.with_inputs(|inputs, at| {
             let values: Option<Vec<Expr>> =
@@ -266,7 +275,9 @@ impl Rules<'_> {
         let mut products = Vec::new();
         for (column, place) in places.iter().enumerate() {
             if pivots.contains(&column) {
-                if matches!(self.graph.step(*place), Step::Unary(Function::Exp, _)) {
+                let step = self.graph.step(*place);
+                if matches!(step, Step::Unary(Function::Exp, _) | Step::Binary(Operation::Pow, ..))
+                {
                     products.push((*place, vec![(*place, Rational::from(1))]));
                 }
                 continue;
@@ -274,13 +285,18 @@ impl Rules<'_> {
             let term = |(pivot, row): (&usize, &Vec<u64>)| {
                 Some((places[*pivot], reconstruct(row[column], &modulus)?))
             };
-            let terms: Option<Vec<(usize, Rational)>> = pivots.iter().zip(&rows).map(term).collect();
+            let terms: Option<Vec<(usize, Rational)>> =
+                pivots.iter().zip(&rows).map(term).collect();
             if let Some(terms) = terms {
                 let terms = terms.into_iter().filter(|(_, multiple)| !multiple.is_zero());
                 products.push((*place, terms.collect()));
             }
         }
         Some(products)
+    }
+
+    fn test(&self, is_related: bool) -> Defect<'_> {
+        Defect { graph: self.graph, sources: self.sources, digest: self.digest, is_related }
     }
 
     fn field(&self, algebraic: &Algebraic<'_>) -> (Modulus, Chance) {
@@ -323,7 +339,7 @@ impl Rules<'_> {
                 }
                 Some(vec![values[place]?.power(&Rational::from(n)) - product])
             };
-            let own = vanishing(self.graph, self.sources, self.digest, &places, &defect)?;
+            let own = self.test(true).vanishing(&places, &defect)?;
             let part = Rational::new(1, n);
             let numbers = numbers.into_iter().map(|(p, e)| (p, &e * &part)).collect();
             Some((Logarithm { numbers, terms: terms.clone() }, Some(own)))
@@ -366,7 +382,7 @@ fn factors(number: &Rational) -> Option<Vec<(i64, Rational)>> {
                 divisor = rest;
             }
             let mut exponent = 0;
-            while rest.is_multiple_of(&divisor) {
+            while rest % divisor == 0 {
                 rest /= divisor;
                 exponent += sign;
             }

@@ -120,7 +120,8 @@ impl<'g> Relations<'g> {
 
     /// Whether some functions of the values at these places are proved to vanish.
     fn vanish(&self, places: &[usize], defects: &Defects<'_>) -> bool {
-        vanishing(self.graph, self.sources, self.digest, places, defects).is_some()
+        let Self { graph, sources, digest, .. } = *self;
+        Defect { graph, sources, digest, is_related: false }.vanishing(places, defects).is_some()
     }
 }
 
@@ -169,34 +170,52 @@ pub fn rows(
     None
 }
 
-/// Proves that some functions of the values at some places vanish.
-pub fn vanishing(
-    graph: &Graph,
-    sources: &[Source],
-    digest: Digest,
-    places: &[usize],
-    defects: &Defects<'_>,
-) -> Option<Certificate> {
-    let reached = graph.reached_from(places);
-    let (graph, defects) = record(sources.len(), |inputs| {
-        defects(&graph.replay(&reached, inputs, |_, _, _| None))
-    })
-    .ok()?;
-    let defects = defects?;
-    let reached = graph.reached(defects.iter().copied());
-    let symbols = Symbols::opaque(&graph, &reached);
-    let lowered = Algebraic::of(&graph, &reached, sources, &symbols).ok()?;
-    let values: Option<Vec<Expr>> =
-        defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
-    let values = values?;
-    let trial = Trial::new(&lowered, digest);
-    let tower = Tower::of(&graph, &lowered, &trial, digest);
-    let is_clean = |defect: &Expr| tower.is_clean(&lowered, *defect);
-    if !lowered.has_few_signs() || !values.iter().all(is_clean) {
-        return None;
-    }
-    match trial.test(&[&values], Roots { nested: tower.nested, fixed: &[] }).pop() {
-        Some(Finding::Zero(certificate)) => Some(certificate),
-        _ => None,
+/// A test of functions of the values at some places of a graph.
+#[derive(Clone, Copy)]
+pub struct Defect<'d> {
+    /// Graph of the computation.
+    pub graph: &'d Graph,
+    /// Distributions of its inputs.
+    pub sources: &'d [Source],
+    /// Digest of the statement to be proved.
+    pub digest: Digest,
+    /// Whether relations between the arguments of transcendental functions are used.
+    pub is_related: bool,
+}
+
+impl Defect<'_> {
+    /// Proves that functions of the values at these places vanish.
+    pub fn vanishing(&self, places: &[usize], defects: &Defects<'_>) -> Option<Certificate> {
+        let Self { sources, digest, .. } = *self;
+        let reached = self.graph.reached_from(places);
+        let (graph, defects) = record(sources.len(), |inputs| {
+            defects(&self.graph.replay(&reached, inputs, |_, _, _| None))
+        })
+        .ok()?;
+        let defects = defects?;
+        let reached = graph.reached(defects.iter().copied());
+        let opaque = Symbols::opaque(&graph, &reached);
+        let symbols = match self.is_related {
+            true => {
+                let formal = Algebraic::formal(&graph, &reached, sources, &opaque).ok()?;
+                let mut relations = Relations::new(&graph, sources, formal, digest);
+                Symbols::by_basis(&graph, &reached, &mut relations)
+            }
+            false => opaque,
+        };
+        let lowered = Algebraic::of(&graph, &reached, sources, &symbols).ok()?;
+        let values: Option<Vec<Expr>> =
+            defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
+        let values = values?;
+        let trial = Trial::new(&lowered, digest);
+        let tower = Tower::of(&graph, &lowered, &trial, digest);
+        let is_clean = |defect: &Expr| tower.is_clean(&lowered, *defect);
+        if !lowered.has_few_signs() || !values.iter().all(is_clean) {
+            return None;
+        }
+        match trial.test(&[&values], Roots { nested: tower.nested, fixed: &[] }).pop() {
+            Some(Finding::Zero(certificate)) => Some(certificate),
+            _ => None,
+        }
     }
 }
