@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Number of motions in the lanes of one thread.
 pub const LANES: usize = 8;
 /// Number of motions below which one at a time is faster.
-const FEW: usize = 4;
+const FEW: usize = 3;
 
 /// Queue of the motions not yet taken.
 pub struct Queue {
