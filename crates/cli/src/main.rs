@@ -26,6 +26,7 @@ fn main() -> ExitCode {
 fn limits(command: &Command) -> Limits {
     match command {
         Command::Eval(options) => options.limits,
+        Command::Verify(options) => options.limits,
         Command::Explore(command) => command.limits(),
         _ => Limits::default(),
     }
@@ -44,6 +45,7 @@ fn run(command: &Command) -> Result<Answer, String> {
     match command {
         Command::Check(options) => commands::check::run(options),
         Command::Eval(options) => commands::eval::run(options),
+        Command::Verify(options) => commands::verify::run(options),
         Command::Table(options) => commands::table::run(options),
         Command::Explore(command) => command.run(),
         Command::New(options) => commands::new::run(options),

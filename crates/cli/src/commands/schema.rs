@@ -155,7 +155,7 @@ fn value(key: &str) -> Value {
     if LISTS.contains(&key) {
         kinds.push("array");
     }
-    if TABLES.contains(&key) || matches!(key, "state" | "equals") {
+    if TABLES.contains(&key) || matches!(key, "state" | "equals" | "parameters") {
         kinds.push("object");
     }
     match key {

@@ -10,6 +10,8 @@ pub mod diagram;
 pub mod exponents;
 pub mod export;
 pub mod growth;
+mod hexadecimal;
+pub mod motion_certificate;
 pub mod orbit;
 pub mod picture;
 pub mod point;
