@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use super::error::FlowError;
+use super::halt::Halt;
 use super::number::Number;
 use super::program::Program;
 use super::series::Series;
@@ -40,6 +41,7 @@ pub struct Stepper<T: Number> {
     state: Vec<T>,
     rest: Vec<T>,
     lanes: Vec<Lane<T::One>>,
+    halt: Halt,
 }
 
 /// Time and step of one motion.
@@ -65,6 +67,7 @@ impl<T: Number> Stepper<T> {
             rest: state.clone(),
             state,
             lanes: vec![idle; T::LANES],
+            halt: Halt::current(),
         }
     }
 
@@ -140,8 +143,12 @@ impl<T: Number> Stepper<T> {
         self.lanes[lane].step
     }
 
-    /// Checks the present expansion of a motion; fails where the motion runs into a singularity.
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity, and
+    /// once it is stopped.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        if self.halt.is_raised() {
+            return Err(FlowError::Stopped);
+        }
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
         let finite = (0..self.state.len()).all(|row| {

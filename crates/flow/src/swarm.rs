@@ -6,6 +6,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::halt::Halt;
+
 /// Number of motions in the lanes of one thread.
 pub const LANES: usize = 8;
 /// Number of motions below which one at a time is faster.
@@ -45,10 +47,11 @@ pub fn swarm<R: Send>(
     let width = if abreast == Abreast::One { 1 } else { LANES };
     let queue = Queue { next: AtomicUsize::new(0), count };
     let done = Mutex::new(Vec::new());
+    let halt = Halt::current();
     std::thread::scope(|scope| {
         for _ in 0..threads.clamp(1, count.div_ceil(width).max(1)) {
             scope.spawn(|| {
-                let own = worker(&queue, abreast);
+                let own = halt.clone().over(|| worker(&queue, abreast));
                 done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
             });
         }
@@ -63,13 +66,16 @@ pub fn swarm<R: Send>(
 pub fn each<R: Send>(count: usize, threads: usize, job: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let queue = Queue { next: AtomicUsize::new(0), count };
     let done = Mutex::new(Vec::new());
+    let halt = Halt::current();
     std::thread::scope(|scope| {
         for _ in 0..threads.clamp(1, count.max(1)) {
             scope.spawn(|| {
-                while let Some(index) = queue.take() {
-                    let result = (index, job(index));
-                    done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(result);
-                }
+                halt.clone().over(|| {
+                    while let Some(index) = queue.take() {
+                        let result = (index, job(index));
+                        done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(result);
+                    }
+                });
             });
         }
     });

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::report::certificate::{Missing, Origin, certificate};
+use crate::report::{Outcome, RunReport};
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
-use liouville_cli::report::certificate::{Missing, Origin, certificate};
-use liouville_cli::report::{Outcome, RunReport};
 use rayon::prelude::*;
 
 use super::eval::read_settings;
