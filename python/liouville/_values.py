@@ -51,7 +51,7 @@ def start(value: Any) -> str | list[str] | None:
 def flat(value: Any) -> Iterable[Any]:
     """The components of nested lists or of an array."""
     for one in value:
-        if isinstance(one, (list, tuple)) or getattr(one, "ndim", 0):
+        if isinstance(one, (list, tuple)) or getattr(one, "ndim", 0) > 0:
             yield from flat(one)
         else:
             yield one
@@ -61,7 +61,16 @@ def is_one_start(value: Any) -> bool:
     """Whether a value is a single start and not a list of them."""
     if value is None or isinstance(value, (str, Mapping)):
         return True
-    return all(isinstance(one, str) or not hasattr(one, "__len__") for one in value)
+
+    def is_number(one: Any) -> bool:
+        return "=" not in one if isinstance(one, str) else one is not None and not _length(one)
+
+    return len(value) > 0 and all(is_number(one) for one in value)
+
+
+def _length(value: Any) -> bool:
+    """Whether a value has parts."""
+    return hasattr(value, "__len__") and getattr(value, "ndim", 1) > 0
 
 
 def starts(value: Any) -> list[str | list[str] | None]:

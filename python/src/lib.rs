@@ -21,6 +21,8 @@ mod _liouville {
     #[pymodule_export]
     use super::case::Case;
     #[pymodule_export]
+    use super::canonical;
+    #[pymodule_export]
     use super::catalogue;
     #[pymodule_export]
     use super::function::{Function, function, parameter_values};
@@ -51,4 +53,10 @@ fn catalogue() -> Vec<&'static str> {
         name.strip_suffix(".toml").unwrap_or(name)
     };
     liouville_cli::source::CATALOGUE.iter().map(|(name, _)| short(name)).collect()
+}
+
+/// Canonical form of a name, in which cases know it; `None` if the text is not one.
+#[pyfunction]
+fn canonical(name: &str) -> Option<String> {
+    liouville::formula::canonical_name(name)
 }
