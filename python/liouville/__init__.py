@@ -21,7 +21,7 @@ from .function import Field, Function
 from .motion import CLASSES, Chart, Exponents, Orbit, Section, Spectra
 from .reading import catalogue, check, parse, read, search
 from .report import Claim, Report
-from .symbolic import from_sympy, to_sympy
+from .symbolic import from_lagrangian, from_sympy, to_sympy
 
 __all__ = [
     "CLASSES",
@@ -47,6 +47,7 @@ __all__ = [
     "__version__",
     "catalogue",
     "check",
+    "from_lagrangian",
     "from_sympy",
     "parse",
     "read",

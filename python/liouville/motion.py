@@ -58,7 +58,7 @@ class Orbit:
     @property
     def states(self) -> np.ndarray:
         """States of the samples, one in a row."""
-        return self.data[:, [self.columns.index(name) for name in self._state]]
+        return np.stack([self[name] for name in self._state], axis=1)
 
     @property
     def drift(self) -> dict[str, float]:

@@ -95,6 +95,18 @@ def from_sympy(
     return parse("\n".join(lines) + "\n", name=title, symbols=known)
 
 
+def from_lagrangian(lagrangian: Any, coordinates: Iterable[Any], /, **options: Any) -> Case:
+    """Makes a case of a Lagrangian of coordinates that depend on time, such as `q(t)`.
+
+    The options are those of `from_sympy`; claims may contain the velocities `q(t).diff()`.
+    """
+    from sympy.physics.mechanics import LagrangesMethod
+
+    method = LagrangesMethod(lagrangian, list(coordinates))
+    method.form_lagranges_equations()
+    return from_sympy(method, **options)
+
+
 def to_sympy(
     case: Case,
     formula: str | None = None,

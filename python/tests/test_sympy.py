@@ -108,6 +108,8 @@ def test_lagrange_method_of_the_pendulum():
     case = lv.from_sympy(method, integrals={"energy": energy})
     assert case.state == ["q", "v_q"]
     assert lv.check(case)["energy"].verdict == "proved"
+    short = lv.from_lagrangian(lagrangian, [q], integrals={"energy": energy})
+    assert short.text == case.text
 
 
 def test_explicit_time_and_strange_names():
