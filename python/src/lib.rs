@@ -19,9 +19,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _liouville {
     #[pymodule_export]
-    use super::case::Case;
-    #[pymodule_export]
     use super::canonical;
+    #[pymodule_export]
+    use super::case::Case;
     #[pymodule_export]
     use super::catalogue;
     #[pymodule_export]
