@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use super::error::FlowError;
 use super::event::Ends;
+use super::halt::Halt;
 use super::number::Number;
 use super::program::Program;
 use super::series::Series;
@@ -42,6 +43,7 @@ pub struct Stepper<T: Number> {
     rest: Vec<T>,
     lanes: Vec<Lane<T::One>>,
     sizes: Sizes<T>,
+    halt: Halt,
 }
 
 /// Sizes of the present expansions.
@@ -77,6 +79,7 @@ impl<T: Number> Stepper<T> {
             state,
             lanes: vec![idle; T::LANES],
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
+            halt: Halt::current(),
         }
     }
 
@@ -153,8 +156,12 @@ impl<T: Number> Stepper<T> {
         self.lanes[lane].step
     }
 
-    /// Checks the present expansion of a motion; fails where the motion runs into a singularity.
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity, and
+    /// once it is stopped.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        if self.halt.is_raised() {
+            return Err(FlowError::Stopped);
+        }
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
         let finite = self.sizes.soundness.lane(lane).leading() == 0.0;

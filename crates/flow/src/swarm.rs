@@ -6,6 +6,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::halt::Halt;
+
 /// Number of motions in the lanes of one thread.
 pub const LANES: usize = 8;
 /// Number of motions below which one at a time is faster.
@@ -65,10 +67,11 @@ fn collected<R: Send>(threads: usize, work: &(dyn Fn() -> Vec<(usize, R)> + Sync
         1 => work(),
         _ => {
             let done = Mutex::new(Vec::new());
+            let halt = Halt::current();
             std::thread::scope(|scope| {
                 for _ in 0..threads {
                     scope.spawn(|| {
-                        let own = work();
+                        let own = halt.clone().over(work);
                         done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
                     });
                 }

@@ -4,8 +4,8 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use crate::report::{Failure, diagnostic};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville_cli::report::{Failure, diagnostic};
 
 use super::source;
 

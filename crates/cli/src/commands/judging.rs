@@ -7,9 +7,9 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Instant;
 
+use crate::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::case::{Case, Expect, Setting};
 use liouville::verdict::{self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict};
-use liouville_cli::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use rayon::prelude::*;
 
 use super::files::{self, Found, coloured, plain};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use liouville_cli::report::names;
+use crate::report::names;
 
 use super::Answer;
 use super::eval::open;

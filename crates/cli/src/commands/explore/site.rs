@@ -10,7 +10,7 @@ use std::time::Instant;
 use clap::Args;
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options};
-use liouville_cli::report::{Digest, Failure, VERSION, diagnostic, survey as written};
+use crate::report::{Digest, Failure, VERSION, diagnostic, survey as written};
 use liouville_report::site::{Order, Outcome, Page, Standing, index, way_back};
 use liouville_search::survey;
 use rayon::prelude::*;
