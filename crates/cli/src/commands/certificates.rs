@@ -4,11 +4,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::report::certificate::{Missing, Origin, certificate};
+use crate::report::motion_certificate::motion_certificate;
+use crate::report::{Outcome, RunReport};
 use liouville::case::{Case, MotionClaim};
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
-use liouville_cli::report::certificate::{Missing, Origin, certificate};
-use liouville_cli::report::motion_certificate::motion_certificate;
-use liouville_cli::report::{Outcome, RunReport};
 use liouville_flow::observe;
 use rayon::prelude::*;
 

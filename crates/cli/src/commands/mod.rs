@@ -14,17 +14,19 @@ mod limits;
 pub mod names;
 pub mod new;
 mod out;
+mod run;
 pub mod schema;
-mod source;
 pub mod table;
 pub mod verify;
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 pub use limits::{Limits, STOPPED};
+pub use run::run;
 
+use crate::source;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 /// First steps, below the list of commands.
@@ -103,8 +105,8 @@ Example:
 
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
-    pub fn read() -> Self {
-        let matches = Self::described().get_matches();
+    pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Self {
+        let matches = Self::described().get_matches_from(arguments);
         Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
     }
 
@@ -299,8 +301,8 @@ pub struct Answer {
     pub code: u8,
 }
 
-/// Prints the answer, or the problem; invalid input exits with 2.
-pub fn finish(answer: Result<Answer, String>) -> ExitCode {
+/// Prints the answer, or the problem, and returns the exit code; invalid input exits with 2.
+pub fn finish(answer: Result<Answer, String>) -> u8 {
     match answer {
         Ok(answer) => {
             let mut out = anstream::stdout().lock();
@@ -308,15 +310,15 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
                 // A reader that closes the pipe has read enough.
                 Err(error) if error.kind() != ErrorKind::BrokenPipe => {
                     anstream::eprintln!("error: cannot write the answer: {error}");
-                    return ExitCode::from(2);
+                    return 2;
                 }
                 _ => {}
             }
-            ExitCode::from(answer.code)
+            answer.code
         }
         Err(problem) => {
             anstream::eprintln!("{problem}");
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -230,8 +230,8 @@ mod values;
 
 #[cfg(test)]
 mod tests {
-    use super::super::source::CATALOGUE;
     use super::*;
+    use liouville_catalogue::CATALOGUE;
 
     /// Where a value breaks the schema, if anywhere.
     fn broken(schema: &Value, value: &Value, place: &str) -> Option<String> {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use liouville_cli::report::motion_certificate::{FORMAT, verify};
+use crate::report::motion_certificate::{FORMAT, verify};
 
 use super::eval::read_settings;
 use super::{Answer, Limits, Sampling};

@@ -1,22 +1,21 @@
 //! The command `liouville motion section`.
 
+use crate::report::data::Data;
+use crate::report::exponents;
+use crate::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
 use liouville::number::pair::Pair;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::exponents;
-use liouville_cli::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
-use liouville_flow::{FlowError, Precision, SectionOrbit, SectionRequest};
+use liouville_flow::{FlowError, Precision, SectionChoice, SectionOrbit, SectionRequest};
 
-use super::motion::{Ink, Plane, Subject, Threads, parse_count, parse_start, rendered, whole};
+use super::motion::{
+    Ink, Plane, Subject, Threads, parse_count, parse_start, rendered, whole, wrong_choice,
+};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::starts::{Given, Starts};
 use super::{Answer, surface, write};
 
-/// Default numbers of orbits and of crossings.
-const ORBITS: usize = 40;
-const CROSSINGS: usize = 500;
 /// Number of points of a line whose images are drawn, and default number of images.
 const POINTS: usize = 800;
 const IMAGES: usize = 10;
@@ -212,33 +211,17 @@ fn images(
 
 /// Request of the command line, completed from the case.
 fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
-    let plan = case.section.as_ref();
-    let (g0, energy) = options.plane.of(case)?;
-    let given = given(case, options)?;
-    let spread = match (options.orbits, plan) {
-        (Some(count), _) => count,
-        (None, _) if !given.is_empty() => 0,
-        (None, Some(plan)) => {
-            plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 })
-        }
-        (None, None) => ORBITS,
-    };
-    let mut starts = match plan {
-        Some(plan) if given.is_empty() => plan.starts.clone(),
-        _ => given,
-    };
-    starts.extend(liouville_flow::spread(spread));
-    Ok(SectionRequest {
-        g0,
-        energy,
-        direction: options.direction.or(plan.map(|plan| plan.direction)).unwrap_or_default(),
-        crossings: options.crossings.or(plan.and_then(|plan| plan.crossings)).unwrap_or(CROSSINGS),
-        skip: options.skip.or(plan.map(|plan| plan.skip)).unwrap_or(0),
-        starts,
-        backwards: options.backwards || plan.is_some_and(|plan| plan.backwards),
+    let choice = SectionChoice {
+        direction: options.direction,
+        orbits: options.orbits,
+        crossings: options.crossings,
+        skip: options.skip,
+        starts: given(case, options)?,
+        backwards: options.backwards,
         seed: options.subject.seed,
-        index: 0,
-    })
+        ..options.plane.choice()
+    };
+    choice.request(case).map_err(|error| wrong_choice(&error))
 }
 
 /// Points (l, L/G) of the options.

@@ -1,9 +1,9 @@
 //! The command `liouville motion section --section`: crossings of a surface by any system.
 
+use crate::report::data::Data;
+use crate::report::surface::{SurfaceReport, picture};
 use liouville::case::{Case, Direction};
 use liouville::number::pair::Pair;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::surface::{SurfaceReport, picture};
 use liouville_flow::{
     Begin, Columns, FlowError, Launches, Launchpad, Lexicon, Precision, Surface, SurfaceOrbit,
     SurfaceRequest,
