@@ -52,7 +52,7 @@ fn catalogue() -> Vec<&'static str> {
         let name = name.strip_prefix("cases/").unwrap_or(name);
         name.strip_suffix(".toml").unwrap_or(name)
     };
-    liouville_cli::source::CATALOGUE.iter().map(|(name, _)| short(name)).collect()
+    liouville_catalogue::CATALOGUE.iter().map(|(name, _)| short(name)).collect()
 }
 
 /// Canonical form of a name, in which cases know it; `None` if the text is not one.

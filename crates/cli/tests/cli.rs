@@ -6,6 +6,8 @@ mod limits;
 mod motion;
 #[path = "cli/orbits.rs"]
 mod orbits;
+#[path = "cli/site.rs"]
+mod site;
 #[path = "cli/start.rs"]
 mod start;
 #[path = "cli/wrong.rs"]

@@ -64,6 +64,7 @@ pub use halt::stoppable;
 pub use launch::{Begin, Launches, Launchpad};
 pub use lexicon::{FormulaMistake, Lexicon};
 pub use lyapunov::{Alignment, Character, Estimate, Exponents};
+pub use motion::Loose;
 pub use multiplier::{CycleKind, Multiplier};
 pub use one_sided::{Contact, ContactEvent};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
@@ -80,5 +81,7 @@ pub use separatrix::{Separatrices, separatrices};
 pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
-pub use validated::{Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove};
+pub use validated::{
+    Data, Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove, replay,
+};
 pub use variational::Variational;

@@ -17,6 +17,7 @@ mod out;
 mod run;
 pub mod schema;
 pub mod table;
+pub mod verify;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -62,6 +63,12 @@ Examples:
     Eval(Eval),
     #[command(flatten)]
     Explore(Box<explore::Command>),
+    /// Replay proofs about motion from their certificates, in balls of 256 bits
+    #[command(after_help = "\
+Example:
+  liouville check figures/fig-8 --motion --claim 'no density' --certificate proofs
+  liouville verify proofs/*.json")]
+    Verify(verify::Verify),
     /// Print a hierarchy table of the paper, filled from verdicts
     #[command(after_help = "Example:\n  liouville table 1 --format latex")]
     Table(Table),
@@ -185,7 +192,7 @@ pub struct Check {
     #[arg(long)]
     pub mutants: bool,
     /// Write a certificate of each proof by points of prime fields to this folder, for the checker
-    /// in docs/certificates
+    /// in docs/certificates; with --motion also of each closed orbit, for `liouville verify`
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<PathBuf>,
     /// Also check claims about motion (slow: minutes for cases/figures)

@@ -26,6 +26,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn limits(command: &Command) -> Limits {
     match command {
         Command::Eval(options) => options.limits,
+        Command::Verify(options) => options.limits,
         Command::Explore(command) => command.limits(),
         _ => Limits::default(),
     }
@@ -44,6 +45,7 @@ fn carry_out(command: &Command) -> Result<Answer, String> {
     match command {
         Command::Check(options) => super::check::run(options),
         Command::Eval(options) => super::eval::run(options),
+        Command::Verify(options) => super::verify::run(options),
         Command::Table(options) => super::table::run(options),
         Command::Explore(command) => command.run(),
         Command::New(options) => super::new::run(options),

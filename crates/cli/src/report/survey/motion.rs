@@ -1,28 +1,24 @@
 //! Poincaré section of a body's motion in a document.
 
-use super::document::{Block, Document, Section};
-use super::picture::Picture;
-use crate::report::{picture as drawn, section};
+use crate::report::{picture as drawn, section as written};
 use liouville_flow::{FlowError, Portrait};
+use liouville_report::survey::{Block, Picture, Section};
 
 /// Width of the picture in pixels.
 const WIDTH: u32 = 640;
 
-impl Document {
-    /// Inserts the section after the system's description.
-    pub(super) fn insert_motion(&mut self, motion: Result<&Portrait, &FlowError>) {
-        let blocks = match motion {
-            Ok(portrait) => blocks(portrait),
-            Err(problem) => vec![Block::Text(format!("No section is drawn: {problem}."))],
-        };
-        let place = self.sections.len().min(2);
-        self.sections.insert(place, Section { title: "Its motion", blocks });
-    }
+/// Section of a document about the motion.
+pub fn section(motion: Result<&Portrait, &FlowError>) -> Section {
+    let blocks = match motion {
+        Ok(portrait) => blocks(portrait),
+        Err(problem) => vec![Block::Text(format!("No section is drawn: {problem}."))],
+    };
+    Section { title: "Its motion", blocks }
 }
 
 fn blocks(portrait: &Portrait) -> Vec<Block> {
     let (request, orbits) = (&portrait.request, &portrait.orbits);
-    let picture = section::picture("Poincaré section", orbits, None, WIDTH);
+    let picture = written::picture("Poincaré section", orbits, None, WIDTH);
     let caption = format!(
         "Poincaré section g = {}, energy {}: points (l, L/G) of {} orbits, a colour each",
         request.g0,

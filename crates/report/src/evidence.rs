@@ -7,7 +7,7 @@ const ALL: f64 = 15.0;
 
 /// Formats a number with its error, to the digits that the error leaves, and the statement about
 /// it.
-pub(super) fn measured(found: &Measurement, most: f64) -> String {
+pub fn measured(found: &Measurement, most: f64) -> String {
     let stated = found.stated.as_ref().map_or(String::new(), |text| format!(" [{text}]"));
     let places = (1.0 - libm::floor(libm::log10(found.error))).clamp(0.0, most) as usize;
     let (quantity, error) = (&found.quantity, found.error);
@@ -17,7 +17,7 @@ pub(super) fn measured(found: &Measurement, most: f64) -> String {
 }
 
 /// Renders the evidence for each claim of the case at `path`.
-pub(super) fn details(path: &str, report: &CaseReport) -> String {
+pub fn details(path: &str, report: &CaseReport) -> String {
     let mut out = String::new();
     for claim in &report.claims {
         out.push_str(&format!("    {}\n", claim.name));
@@ -48,6 +48,7 @@ pub(super) fn details(path: &str, report: &CaseReport) -> String {
             let extent = match (evidence.sign_is_proved, evidence.sign) {
                 (true, Some(Sign::Changes)) => "at states with the same parameters",
                 (true, _) => "at all states",
+                (false, _) if evidence.sign_is_partial => "where its value is known",
                 (false, _) => "at the states that were tried",
             };
             out.push_str(&format!("      sign      {sign} {extent}\n"));
@@ -79,12 +80,12 @@ pub(super) fn details(path: &str, report: &CaseReport) -> String {
 }
 
 /// Writes the command that evaluates the case at a witness, for a shell.
-fn command(path: &str, witness: &Witness) -> String {
+pub fn command(path: &str, witness: &Witness) -> String {
     format!("liouville eval {} {}", shell_quoted(path), options(witness))
 }
 
 /// Writes the options of `eval` that name a witness, for a shell.
-pub(super) fn options(witness: &Witness) -> String {
+pub fn options(witness: &Witness) -> String {
     let set = witness.parameters.iter();
     let set =
         set.map(|(name, value)| format!("--set {} ", shell_quoted(&format!("{name}={value}"))));

@@ -3,9 +3,11 @@
 use super::document::{Block, Cell, Document, Section};
 use super::entry::{self, blocks, independence};
 use super::picture;
-use liouville_search::survey::{Count, Finding, Integrals, Measure, Survey, Unknown};
+use liouville::case::Case;
+use liouville::verdict::CaseReport;
+use liouville_search::survey::{Count, Description, Finding, Integrals, Measure, Survey, Unknown};
 
-/// Composes the document of a survey.
+/// Composes the document of a survey; `origin` names the program and the case.
 pub fn document(survey: &Survey, origin: &str) -> Document {
     let sections = [
         Section::new("Where it stands", standing(survey)),
@@ -19,12 +21,37 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
         Section::new("What is excluded", excluded(survey)),
         Section::new("Not proved", blocks(&survey.undecided)),
         Section::new("What the case claims", blocks(&survey.claimed)),
-        Section::new("How to repeat this", repeat(survey, origin)),
+        Section::new("How to repeat this", repeated(survey.seed, origin)),
     ];
     Document {
         title: survey.title.clone(),
         lead: survey.sentence.clone(),
         headline: survey.hierarchy.class.words().to_string(),
+        sections: sections.into_iter().flatten().collect(),
+    }
+}
+
+/// Composes the document of a case without a survey: its claims alone.
+pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> Document {
+    let claims = report.claims.iter().map(|claim| Finding::claimed(case, claim.clone()));
+    let own = Description::of(case);
+    let lists = [("Given by:", own.functions), ("Equations of motion:", own.equations)];
+    let lists = lists.into_iter().chain([("Parameters:", own.parameters)]);
+    let stated = lists.filter(|(_, lines)| !lines.is_empty());
+    let told = report.warnings.iter().map(|warning| text(format!("Warning: {warning}.")));
+    let sections = [
+        Section::new(
+            "The system",
+            stated.flat_map(|(words, lines)| [text(words), Block::List(lines)]).collect(),
+        ),
+        Section::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
+        Section::new("Notes", told.collect()),
+        Section::new("How to repeat this", repeated(seed, origin)),
+    ];
+    Document {
+        title: case.title.clone(),
+        lead: case.source.clone(),
+        headline: "verdicts on its claims".to_string(),
         sections: sections.into_iter().flatten().collect(),
     }
 }
@@ -281,10 +308,10 @@ fn theorems(search: &Unknown) -> Vec<Block> {
     found
 }
 
-fn repeat(survey: &Survey, origin: &str) -> Vec<Block> {
+fn repeated(seed: u64, origin: &str) -> Vec<Block> {
     vec![text(format!(
         "{origin}, seed {}: the same input gives the same report. Pass a witness to `liouville eval` as \
          printed.",
-        survey.seed
+        seed
     ))]
 }

@@ -1,7 +1,7 @@
 //! Findings as entries of a report.
 
-use super::super::evidence::options;
 use super::document::{Block, Entry, Mark};
+use crate::evidence::options;
 use liouville::verdict::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
 use liouville_search::survey::Finding;
 
@@ -10,7 +10,8 @@ pub fn blocks(findings: &[Finding]) -> Vec<Block> {
     findings.iter().map(|one| Block::Entry(Box::new(entry(one)))).collect()
 }
 
-fn entry(finding: &Finding) -> Entry {
+/// Entry of a finding.
+pub fn entry(finding: &Finding) -> Entry {
     let claim = &finding.claim;
     let evidence = &claim.evidence;
     let map =

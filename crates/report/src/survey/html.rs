@@ -2,12 +2,12 @@
 //! folded, light or dark as the reader's system.
 
 use super::document::{Block, Cell, Document, Entry, Mark};
-use crate::report::typeset::mathml::{escaped, formula};
+use crate::typeset::mathml::{escaped, formula};
 
 const STYLE: &str = include_str!("page.css");
 
-/// Renders the whole page.
-pub fn render(document: &Document) -> String {
+/// Renders the whole page, with a link to the index of its site if there is one.
+pub fn render(document: &Document, index: Option<&str>) -> String {
     let title = escaped(&document.title);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -17,6 +17,9 @@ pub fn render(document: &Document) -> String {
         escaped(&document.lead),
         escaped(&document.headline)
     );
+    if let Some(index) = index {
+        out.push_str(&format!("<li><a href=\"{}\">all cases</a></li>\n", escaped(index)));
+    }
     for (number, section) in document.sections.iter().enumerate() {
         out.push_str(&format!("<li><a href=\"#s{number}\">{}</a></li>\n", escaped(section.title)));
     }

@@ -1,7 +1,7 @@
 //! A document as Markdown; formulas as LaTeX between dollars, evidence folded.
 
 use super::document::{Block, Cell, Document, Entry};
-use crate::report::typeset::latex::formula;
+use crate::typeset::latex::formula;
 
 /// Renders the whole document.
 pub fn render(document: &Document) -> String {

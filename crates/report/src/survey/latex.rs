@@ -1,7 +1,7 @@
 //! A document as LaTeX, for XeLaTeX or LuaLaTeX.
 
 use super::document::{Block, Cell, Document, Entry};
-use crate::report::typeset::latex::{escaped, formula};
+use crate::typeset::latex::{escaped, formula};
 
 const HEAD: &str = "% XeLaTeX or LuaLaTeX\n\\documentclass[a4paper,11pt]{article}\n\\usepackage{amsmath,amssymb,longtable,fontspec}\n\
 \\usepackage[margin=25mm]{geometry}\n\\setmainfont{DejaVu Serif}\n\\setmonofont{DejaVu Sans Mono}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{4pt}\n";
