@@ -136,6 +136,9 @@ pub fn function(
     Ok(Function { tape: Tape::new(&graph, &values), dimension, kinds })
 }
 
+/// Name, shape and components of a parameter.
+type Values = (String, Vec<usize>, Vec<String>);
+
 /// Values of the free parameters at an index of the seed, component by component.
 #[pyfunction]
 pub fn parameter_values(
@@ -143,7 +146,7 @@ pub fn parameter_values(
     case: &Case,
     seed: u64,
     index: u64,
-) -> PyResult<Vec<(String, Vec<usize>, Vec<String>)>> {
+) -> PyResult<Vec<Values>> {
     let case = &case.inner;
     let values =
         fixed_parameters(case, seed, index).map_err(|error| errors::of_flow(py, &error))?;
