@@ -85,3 +85,124 @@ fn the_tutorial_runs() {
 fn the_readme_runs() {
     assert!(follow("README.md") >= 3, "commands of the README");
 }
+
+/// A picture of the gallery: its file, and the arguments that draw it.
+struct Picture {
+    file: String,
+    arguments: Vec<String>,
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Pictures that `docs/gallery/pictures.toml` lists.
+fn pictures() -> Vec<Picture> {
+    let text = fs::read_to_string(root().join("docs/gallery/pictures.toml")).expect("the list");
+    let list: toml::Table = text.parse().expect("TOML");
+    let word = |entry: &toml::Value, key: &str| {
+        entry.get(key).and_then(toml::Value::as_str).expect("a text").to_string()
+    };
+    let common: Vec<String> = word(&list["common"], "options").split_whitespace().map(str::to_string).collect();
+    let entries = list["picture"].as_array().expect("pictures").iter();
+    entries
+        .map(|entry| {
+            let own = word(entry, "draw");
+            // Single quotes hold words with spaces.
+            let parts = own.split('\'').enumerate();
+            let words = parts.flat_map(|(place, part)| match place % 2 {
+                0 => part.split_whitespace().map(str::to_string).collect::<Vec<_>>(),
+                _ => vec![part.to_string()],
+            });
+            let has_width = own.contains("--width");
+            let common = common.iter().filter(|_| !has_width).cloned();
+            Picture { file: word(entry, "file"), arguments: words.chain(common).collect() }
+        })
+        .collect()
+}
+
+/// Draws a picture with the program.
+fn draw(arguments: &[String], out: &Path) -> Vec<u8> {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_liouville"));
+    program.args(arguments).arg("--out").arg(out).current_dir(root());
+    let output = program.output().expect("it runs");
+    assert!(output.status.success(), "{arguments:?}\n{}", String::from_utf8_lossy(&output.stderr));
+    fs::read(out).expect("a picture")
+}
+
+fn digest(parts: &[&[u8]]) -> String {
+    use sha2::Digest;
+    let mut hash = sha2::Sha256::new();
+    for part in parts {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    hash.finalize().iter().take(12).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What a case's picture depends on: all but its claims, except for those that it marks.
+fn drawn_part(path: &Path) -> String {
+    let mut case: toml::Table =
+        fs::read_to_string(path).expect("a case").parse().expect("a case in TOML");
+    if let Some(claims) = case.get_mut("claim").and_then(toml::Value::as_array_mut) {
+        claims.retain(|claim| claim.get("periodic-point").is_some() && claim.get("expect").is_none());
+        for claim in claims.iter_mut().filter_map(toml::Value::as_table_mut) {
+            claim.retain(|key, _| ["periodic-point", "period", "stability"].contains(&key));
+        }
+    }
+    ["note", "source"].iter().for_each(|key| drop(case.remove(*key)));
+    format!("{case:?}")
+}
+
+/// The gallery is redrawn by `LIOUVILLE_BLESS=1 cargo test --release -p liouville-cli --test documents`.
+#[test]
+fn the_gallery_shows_what_the_program_draws() {
+    let scratch = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gallery");
+    fs::create_dir_all(&scratch).expect("a scratch folder");
+    // A small picture, which differs where the program draws or moves otherwise.
+    let sample = "motion section cases/figures/fig-8.toml --orbits 3 --crossings 20 --skip 0 --width 60";
+    let sample: Vec<String> = sample.split(' ').map(str::to_string).collect();
+    let style = draw(&sample, &scratch.join("sample.png"));
+    let gallery = root().join("docs/gallery");
+    let list = gallery.join("digests.txt");
+    let known = fs::read_to_string(&list).unwrap_or_default();
+    let blesses = env::var_os("LIOUVILLE_BLESS").is_some();
+    let (mut stale, mut lines) = (Vec::new(), String::new());
+    for Picture { file, arguments } in pictures() {
+        let cases = arguments.iter().filter(|argument| argument.ends_with(".toml"));
+        let cases: Vec<String> = cases.map(|case| drawn_part(&root().join(case))).collect();
+        let (words, cases) = (arguments.join("\0"), cases.join("\0"));
+        let path = gallery.join(&file);
+        let line = |bytes: &[u8]| {
+            let inputs = digest(&[words.as_bytes(), cases.as_bytes(), &style]);
+            format!("{file} {inputs} {}", digest(&[bytes]))
+        };
+        let mut found = fs::read(&path).map(|bytes| line(&bytes)).unwrap_or_default();
+        if !known.lines().any(|known| known == found) {
+            match blesses {
+                true => found = line(&draw(&arguments, &path)),
+                false => stale.push(file.clone()),
+            }
+        }
+        lines.push_str(&(found + "\n"));
+    }
+    if blesses {
+        fs::write(&list, lines).expect("the digests are written");
+    }
+    let remedy = "LIOUVILLE_BLESS=1 cargo test --release -p liouville-cli --test documents gallery";
+    assert!(stale.is_empty(), "draw anew, by {remedy}: {}", stale.join(", "));
+}
+
+#[test]
+fn the_gallery_lists_all_pictures_of_its_folder() {
+    let page = fs::read_to_string(root().join("docs/gallery.md")).expect("the page");
+    let listed: Vec<String> = pictures().into_iter().map(|picture| picture.file).collect();
+    for file in &listed {
+        assert!(page.contains(&format!("gallery/{file}")), "{file} is on the page");
+    }
+    for entry in fs::read_dir(root().join("docs/gallery")).expect("a folder").flatten() {
+        let name = entry.file_name().to_string_lossy().to_string();
+        let is_picture = [".png", ".svg", ".pdf"].iter().any(|ending| name.ends_with(ending));
+        assert!(!is_picture || listed.contains(&name), "{name} is drawn by the list");
+    }
+}

@@ -47,6 +47,7 @@ mod start;
 mod stepper;
 mod surface;
 mod swarm;
+mod track;
 mod validated;
 mod variational;
 
@@ -74,5 +75,6 @@ pub use separatrix::{Separatrices, separatrices};
 pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
+pub use track::{Rolling, Track, track};
 pub use validated::{Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove};
 pub use variational::Variational;
