@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs};
 
+use rayon::prelude::*;
+
 /// A fenced block: the words behind the fence, and its text.
 struct Block {
     words: String,
@@ -96,29 +98,29 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Pictures that `docs/gallery/pictures.toml` lists.
+/// Pictures that `docs/gallery/pictures.toml` lists, a key a line.
 fn pictures() -> Vec<Picture> {
     let text = fs::read_to_string(root().join("docs/gallery/pictures.toml")).expect("the list");
-    let list: toml::Table = text.parse().expect("TOML");
-    let word = |entry: &toml::Value, key: &str| {
-        entry.get(key).and_then(toml::Value::as_str).expect("a text").to_string()
+    let values = |key: &str| -> Vec<String> {
+        let lines = text.lines().filter_map(|line| line.strip_prefix(key)?.strip_prefix(" = "));
+        lines.map(|value| value.trim_matches('"').to_string()).collect()
     };
-    let common: Vec<String> = word(&list["common"], "options").split_whitespace().map(str::to_string).collect();
-    let entries = list["picture"].as_array().expect("pictures").iter();
-    entries
-        .map(|entry| {
-            let own = word(entry, "draw");
-            // Single quotes hold words with spaces.
-            let parts = own.split('\'').enumerate();
-            let words = parts.flat_map(|(place, part)| match place % 2 {
-                0 => part.split_whitespace().map(str::to_string).collect::<Vec<_>>(),
-                _ => vec![part.to_string()],
-            });
-            let has_width = own.contains("--width");
-            let common = common.iter().filter(|_| !has_width).cloned();
-            Picture { file: word(entry, "file"), arguments: words.chain(common).collect() }
-        })
-        .collect()
+    let common = values("options").concat();
+    let (files, commands) = (values("file"), values("draw"));
+    assert!(files.len() == commands.len() && files.len() > 20, "each file has its command");
+    let arguments = |own: &String| {
+        let common = if own.contains("--width") { "" } else { common.as_str() };
+        let all = format!("{own} {common}");
+        // Single quotes hold words with spaces.
+        let parts = all.split('\'').enumerate();
+        let words = parts.flat_map(|(place, part)| match place % 2 {
+            0 => part.split_whitespace().map(str::to_string).collect(),
+            _ => vec![part.to_string()],
+        });
+        words.collect()
+    };
+    let pairs = files.into_iter().zip(&commands);
+    pairs.map(|(file, own)| Picture { file, arguments: arguments(own) }).collect()
 }
 
 /// Draws a picture with the program.
@@ -140,18 +142,17 @@ fn digest(parts: &[&[u8]]) -> String {
     hash.finalize().iter().take(12).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What a case's picture depends on: all but its claims, except for those that it marks.
+/// Part of a case that its picture depends on: all before its claims, and the points that it marks.
 fn drawn_part(path: &Path) -> String {
-    let mut case: toml::Table =
-        fs::read_to_string(path).expect("a case").parse().expect("a case in TOML");
-    if let Some(claims) = case.get_mut("claim").and_then(toml::Value::as_array_mut) {
-        claims.retain(|claim| claim.get("periodic-point").is_some() && claim.get("expect").is_none());
-        for claim in claims.iter_mut().filter_map(toml::Value::as_table_mut) {
-            claim.retain(|key, _| ["periodic-point", "period", "stability"].contains(&key));
-        }
+    let text = fs::read_to_string(path).expect("a case");
+    let mut parts = text.split("[[claim]]");
+    let mut found = parts.next().unwrap_or_default().to_string();
+    for claim in parts.filter(|claim| claim.contains("periodic-point")) {
+        let keys = ["periodic-point", "period ", "stability", "expect"];
+        let lines = claim.lines().filter(|line| keys.iter().any(|key| line.starts_with(key)));
+        lines.for_each(|line| found.push_str(line));
     }
-    ["note", "source"].iter().for_each(|key| drop(case.remove(*key)));
-    format!("{case:?}")
+    found
 }
 
 /// The gallery is redrawn by `LIOUVILLE_BLESS=1 cargo test --release -p liouville-cli --test documents`.
@@ -160,34 +161,36 @@ fn the_gallery_shows_what_the_program_draws() {
     let scratch = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gallery");
     fs::create_dir_all(&scratch).expect("a scratch folder");
     // A small picture, which differs where the program draws or moves otherwise.
-    let sample = "motion section cases/figures/fig-8.toml --orbits 3 --crossings 20 --skip 0 --width 60";
+    let sample =
+        "motion section cases/figures/fig-8.toml --orbits 3 --crossings 20 --skip 0 --width 60";
     let sample: Vec<String> = sample.split(' ').map(str::to_string).collect();
     let style = draw(&sample, &scratch.join("sample.png"));
     let gallery = root().join("docs/gallery");
     let list = gallery.join("digests.txt");
     let known = fs::read_to_string(&list).unwrap_or_default();
     let blesses = env::var_os("LIOUVILLE_BLESS").is_some();
-    let (mut stale, mut lines) = (Vec::new(), String::new());
-    for Picture { file, arguments } in pictures() {
+    let current = |Picture { file, arguments }: &Picture| {
         let cases = arguments.iter().filter(|argument| argument.ends_with(".toml"));
         let cases: Vec<String> = cases.map(|case| drawn_part(&root().join(case))).collect();
         let (words, cases) = (arguments.join("\0"), cases.join("\0"));
-        let path = gallery.join(&file);
+        let path = gallery.join(file);
         let line = |bytes: &[u8]| {
             let inputs = digest(&[words.as_bytes(), cases.as_bytes(), &style]);
             format!("{file} {inputs} {}", digest(&[bytes]))
         };
-        let mut found = fs::read(&path).map(|bytes| line(&bytes)).unwrap_or_default();
-        if !known.lines().any(|known| known == found) {
-            match blesses {
-                true => found = line(&draw(&arguments, &path)),
-                false => stale.push(file.clone()),
-            }
+        let found = fs::read(&path).map(|bytes| line(&bytes)).unwrap_or_default();
+        match known.lines().any(|known| known == found) {
+            true => Ok(found),
+            false if blesses => Ok(line(&draw(arguments, &path))),
+            false => Err(file.clone()),
         }
-        lines.push_str(&(found + "\n"));
-    }
+    };
+    let lines: Vec<Result<String, String>> = pictures().par_iter().map(current).collect();
+    let stale: Vec<&str> =
+        lines.iter().filter_map(|line| line.as_deref().err().map(String::as_str)).collect();
     if blesses {
-        fs::write(&list, lines).expect("the digests are written");
+        let lines: Vec<&str> = lines.iter().flatten().map(String::as_str).collect();
+        fs::write(&list, lines.join("\n") + "\n").expect("the digests are written");
     }
     let remedy = "LIOUVILLE_BLESS=1 cargo test --release -p liouville-cli --test documents gallery";
     assert!(stale.is_empty(), "draw anew, by {remedy}: {}", stale.join(", "));

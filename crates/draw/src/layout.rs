@@ -101,12 +101,15 @@ impl Layout {
             Some(_) => 0.0,
             None => self.right(plot.bar.as_ref()),
         };
+        // Labels at the ends of neighbouring axes keep apart.
+        let ends = plots.iter().flatten().map(|plot| end_labels(&plot.across, size));
+        let between = gap.max(ends.fold(0.0, f64::max) + 0.6 * size);
         let lefts: Vec<f64> = (0..self.columns)
-            .map(|k| match k > 0 && self.shares[1] {
-                true => gap,
-                false => {
-                    column(k).map(|plot| self.left(&plot.up)).fold(0.0, f64::max)
-                        + if k > 0 { gap } else { 0.0 }
+            .map(|k| match (k > 0, self.shares[1]) {
+                (true, true) => between,
+                (later, _) => {
+                    let room = column(k).map(|plot| self.left(&plot.up)).fold(0.0, f64::max);
+                    room + if later { gap } else { 0.0 }
                 }
             })
             .collect();
@@ -127,7 +130,7 @@ impl Layout {
             .collect();
         let belows: Vec<f64> = (0..rows)
             .map(|k| match k + 1 < rows && self.shares[0] {
-                true => gap,
+                true => 1.5 * gap,
                 false => {
                     let rooms = plots[k].iter().map(|plot| self.below(&plot.across));
                     rooms.fold(0.0, f64::max) + if k + 1 < rows { 0.6 * gap } else { 0.0 }
@@ -180,6 +183,12 @@ impl Layout {
         }
         lines
     }
+}
+
+/// Half the width of the first and the last label of an axis together.
+fn end_labels(axis: &Axis, size: f64) -> f64 {
+    let both = [axis.ticks.first(), axis.ticks.last()];
+    both.into_iter().flatten().map(|(_, word)| plain(word).width(size) / 2.0).sum()
 }
 
 /// Whether all plots have the same horizontal axis, and the same vertical one.

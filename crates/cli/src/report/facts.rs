@@ -16,9 +16,14 @@ pub fn listed(facts: impl IntoIterator<Item = Text>) -> Text {
     all.fold(first, |text, fact| text.then(plain(", ")).then(fact))
 }
 
+/// Words that stay on one line.
+pub fn unbroken(words: &str) -> String {
+    words.replace(' ', "\u{a0}")
+}
+
 /// A name with its value.
 pub fn equation(name: &str, value: &str) -> Text {
-    math(name).then(plain(&format!(" = {}", value.replace('-', "−"))))
+    math(name).then(plain(&unbroken(&format!(" = {}", value.replace('-', "−")))))
 }
 
 /// Parameters of a case that have fixed values, but those of some names.

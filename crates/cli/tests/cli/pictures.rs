@@ -41,12 +41,16 @@ fn sizes_are_in_millimetres_and_words_can_be_chosen() {
     let case = ["motion", "section", "figures/fig-8"];
     let svg = text(drawn("sizes", "one.svg", &[&case[..], &FEW, &["--width", "84"]].concat()));
     assert!(svg.contains("width=\"84mm\""), "as asked for");
-    assert!(svg.contains("Figure 8") && svg.contains("= π, "), "title and caption");
+    assert!(svg.contains("Figure 8") && svg.contains("=\u{a0}π, "), "title and caption");
     assert!(svg.contains(">sink</text>"), "the claimed sink is in the legend");
     let bare = ["--title", "", "--caption", "", "--no-marks"];
     let svg = text(drawn("sizes", "bare.svg", &[&case[..], &FEW, &bare].concat()));
-    assert!(!svg.contains("= π, ") && !svg.contains(">sink</text>"), "left out");
-    let png = drawn("sizes", "two.png", &[&case[..], &FEW, &["--width", "50.8", "--dpi", "300"]].concat());
+    assert!(!svg.contains("=\u{a0}π, ") && !svg.contains(">sink</text>"), "left out");
+    let png = drawn(
+        "sizes",
+        "two.png",
+        &[&case[..], &FEW, &["--width", "50.8", "--dpi", "300"]].concat(),
+    );
     let width = png.get(16..20).expect("a header");
     assert_eq!(width, 600u32.to_be_bytes(), "two inches at 300 dots each");
     let old = [&case[..], &FEW, &["--width", "900", "--out", "x.png"]].concat();

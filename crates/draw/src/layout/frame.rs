@@ -38,6 +38,9 @@ impl Layout {
         for layer in &plot.layers {
             self.layer(out, figure, layer, frame, &at);
         }
+        if let (None, Some(letter)) = (&plot.title, figure.letter(place)) {
+            self.letter(out, &letter, frame);
+        }
         self.outline(out, frame);
         self.signs(out, plot, frame, &at);
         let column = place % self.columns;
@@ -59,8 +62,6 @@ impl Layout {
                 let baseline = first + 1.35 * self.type_size * k as f64;
                 out.push(words([left, baseline], line, self.type_size, Anchor::Start));
             }
-        } else if let Some(letter) = figure.letter(place) {
-            self.letter(out, &letter, frame);
         }
         if let (Some(bar), None) = (&plot.bar, &self.common_bar) {
             self.draw_bar(out, bar, frame);

@@ -114,7 +114,8 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
         let own = [own(&case, &request, 0), own(&case, &request, 1)];
         let plot = report.plot(options.colour.of(), own);
         let caption = caption(&case, &request, [&x_name, &y_name]);
-        let bytes = options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?;
+        let bytes =
+            options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?;
         write(&out.path, "--out", bytes)?;
     }
     let text = match subject.json {
@@ -215,7 +216,11 @@ fn caption(case: &Case, request: &PlaneRequest, names: [&str; 2]) -> Text {
         }
         if !varies("l") || !varies("L/G") {
             let start = format!(" = ({}, {})", at[0], at[1]).replace('-', "−");
-            found.push(plain("start ").then(math("(l, L/G)")).then(plain(&start)));
+            found.push(
+                plain("start\u{a0}")
+                    .then(math("(l,\u{a0}L/G)"))
+                    .then(plain(&facts::unbroken(&start))),
+            );
         }
     }
     found.extend(facts::parameters(case, &names));

@@ -190,7 +190,7 @@ fn words(drawn: &[Drawn]) -> (&str, Vec<Text>) {
         [one] => (one.title.as_str(), vec![one.facts.clone()]),
         all => {
             let letters = all.iter().zip('a'..);
-            let named = letters.map(|(one, letter)| format!("({letter}) {}", one.title));
+            let named = letters.map(|(one, letter)| format!("({letter})\u{a0}{}", one.title));
             ("", vec![plain(&named.collect::<Vec<_>>().join("; "))])
         }
     }
