@@ -209,10 +209,8 @@ mod tests {
     impl Extent {
         fn take(&mut self, to: [f64; 2]) {
             self.0 += 1;
-            for k in 0..2 {
-                self.1[k] = self.1[k].min(to[k]);
-                self.2[k] = self.2[k].max(to[k]);
-            }
+            self.1 = [self.1[0].min(to[0]), self.1[1].min(to[1])];
+            self.2 = [self.2[0].max(to[0]), self.2[1].max(to[1])];
         }
     }
 
