@@ -134,6 +134,16 @@ impl Reader for Entries<'_, '_> {
         }
     }
 
+    fn words_in(&self, key: &'static str) -> Result<Option<Vec<(String, String)>>, Mistake> {
+        let Some(section) = self.section.section(key)? else { return Ok(None) };
+        let mut words = Vec::new();
+        for (key, value) in section.entries() {
+            let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
+            words.push((name, section.as_text(key.get_ref(), value)?.value));
+        }
+        Ok(Some(words))
+    }
+
     fn complaint_inside(
         &self,
         key: &'static str,

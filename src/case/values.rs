@@ -378,6 +378,13 @@ impl Reader for Values<'_> {
         }
     }
 
+    fn words_in(&self, key: &'static str) -> Result<Option<Vec<(String, String)>>, ClaimError> {
+        match self.claim.entry(key) {
+            None => Ok(None),
+            Some(_) => Err(self.unfit(key, "a table of texts")),
+        }
+    }
+
     fn complaint_inside(
         &self,
         key: &'static str,

@@ -66,6 +66,9 @@ pub trait Reader {
         remedy: &str,
     ) -> Result<Option<String>, Self::Error>;
 
+    /// Returns the entries of a table of texts, each with its name.
+    fn words_in(&self, key: &'static str) -> Result<Option<Vec<(String, String)>>, Self::Error>;
+
     /// Makes a complaint about the entry of `inner` in the table of `key`.
     fn complaint_inside(
         &self,

@@ -99,14 +99,42 @@ pub enum Recipe {
     FullInertia(Range),
     /// A rotation matrix.
     Rotation,
+    /// A scalar, the components of a vector, or the diagonal of a matrix, each within the same
+    /// distance of a number.
+    Around {
+        /// Type of the value.
+        kind: Type,
+        /// Midpoints of the ranges.
+        centres: Vec<Rational>,
+        /// Half their length.
+        half: Rational,
+    },
 }
 
 impl Recipe {
+    /// Returns the values within a distance of a fixed one: a scalar, a vector, or a diagonal
+    /// matrix, given by its components.
+    pub fn around(kind: Type, components: &[Rational], half: &Rational) -> Option<Self> {
+        let centres = match kind {
+            Type::Scalar | Type::Vector(_) => components.to_vec(),
+            Type::Matrix(rows, columns) => {
+                let is_off = |place: usize| place % columns != place / columns;
+                let rests = components.iter().enumerate().filter(|(place, _)| is_off(*place));
+                if rows != columns || !rests.into_iter().all(|(_, entry)| entry.is_zero()) {
+                    return None;
+                }
+                components.iter().step_by(columns + 1).cloned().collect()
+            }
+        };
+        Some(Recipe::Around { kind, centres, half: half.clone() })
+    }
+
     /// Returns the type of the value.
     pub fn kind(&self) -> Type {
         match self {
             Recipe::Scalar(_) => Type::Scalar,
             Recipe::Vector(length, _) => Type::Vector(*length),
+            Recipe::Around { kind, .. } => *kind,
             Recipe::Matrix(rows, columns, _) => Type::Matrix(*rows, *columns),
             Recipe::Symmetric(rows, _)
             | Recipe::Skew(rows, _)
@@ -138,6 +166,10 @@ impl Recipe {
             Recipe::AxisymmetricInertia(range) => ranged("axisymmetric", range),
             Recipe::FullInertia(range) => ranged("full", range),
             Recipe::Rotation => "rotation".to_string(),
+            Recipe::Around { centres, half, .. } => {
+                let centres: Vec<String> = centres.iter().map(ToString::to_string).collect();
+                format!("{} ± {half}", centres.join(", "))
+            }
         }
     }
 
@@ -157,6 +189,10 @@ impl Recipe {
             Recipe::AxisymmetricInertia(range) => halves(range, 2),
             Recipe::FullInertia(range) => [halves(range, 3), rotation_draws()].concat(),
             Recipe::Rotation => rotation_draws(),
+            Recipe::Around { centres, half, .. } => {
+                let range = |centre: &Rational| Range { low: centre - half, high: centre + half };
+                centres.iter().map(|centre| Draw::Within(range(centre))).collect()
+            }
         }
     }
 
@@ -174,6 +210,10 @@ impl Recipe {
             (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..), components) => {
                 Value::from_components(self.kind(), components)
             }
+            (Recipe::Around { kind: Type::Matrix(rows, _), .. }, entries) => {
+                self.by_entries(*rows, |i, j| if i == j { entries[i] } else { T::zero() })
+            }
+            (Recipe::Around { kind, .. }, components) => Value::from_components(*kind, components),
             (Recipe::Diagonal(rows, _), entries) => {
                 self.by_entries(*rows, |i, j| if i == j { entries[i] } else { T::zero() })
             }
@@ -267,6 +307,23 @@ mod tests {
         let diagonal = Recipe::Diagonal(4, draw).make(&[1.0, 2.0, 3.0, 4.0]);
         assert_eq!(diagonal.value_type(), Type::Matrix(4, 4), "of its size");
         assert_eq!(diagonal.components()[10], 3.0, "on the diagonal");
+    }
+
+    #[test]
+    fn values_vary_about_their_centres() {
+        let half = Rational::new(1, 10);
+        let around = |kind, numbers: &[i64]| {
+            let numbers: Vec<Rational> = numbers.iter().map(|n| Rational::new(*n, 1)).collect();
+            Recipe::around(kind, &numbers, &half)
+        };
+        let matrix = around(Type::Matrix(2, 2), &[3, 0, 0, 5]).expect("diagonal");
+        let range = |low, high| Draw::Within(Range::between((low, 10), (high, 10)));
+        assert_eq!(matrix.draws(), [range(29, 31), range(49, 51)], "the diagonal alone");
+        let made = matrix.make(&[3.05, 4.95]).components();
+        assert_eq!(made, [3.05, 0.0, 0.0, 4.95], "at its places");
+        let vector = around(Type::Vector(2), &[1, 0]).expect("a vector");
+        assert_eq!(vector.draws(), [range(9, 11), range(-1, 1)], "zeros vary too");
+        assert!(around(Type::Matrix(2, 2), &[3, 1, 0, 5]).is_none(), "not diagonal");
     }
 
     #[test]

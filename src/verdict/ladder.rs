@@ -25,8 +25,10 @@ use crate::number::twofold::TwofoldBall;
 
 /// Precisions of the last rung in bits.
 pub const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
-/// Number of states tried in each of these precisions.
+/// Number of states at which all values exist, in each of these precisions.
 pub const PRECISE_STATES: u64 = 4;
+/// Number of states tried to find them.
+const PRECISE_TRIES: u64 = 32;
 
 pub type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
 
@@ -261,14 +263,17 @@ impl Bench<'_> {
             for bits in precisions {
                 let domain = Precise::new(*bits);
                 finding.evidence.method = Method::PreciseBall;
-                for index in 0..PRECISE_STATES {
+                let mut count = 0;
+                for index in 0..PRECISE_TRIES {
+                    if finding.settled.is_some() || count >= PRECISE_STATES {
+                        break;
+                    }
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
                     let existing = layout.existing(&values, span);
+                    count += u64::from(existing[0]);
                     let seen = Seen { values: &values, existing: &existing };
-                    if finding.settled.is_none() {
-                        let residual = span.residual.clone();
-                        self.seek_witness(sampler, index, residual, &seen, *bits, finding);
-                    }
+                    let residual = span.residual.clone();
+                    self.seek_witness(sampler, index, residual, &seen, *bits, finding);
                 }
             }
             if finding.settled.is_none() && !finding.is_nonzero() {

@@ -13,7 +13,7 @@ use crate::claim::Kind;
 use crate::graph::{Expr, Fault};
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
-use crate::number::mixed::Mixed;
+use crate::number::mixed::{Mixed, Number};
 use crate::number::twofold::TwofoldBall;
 use crate::proof::{self, Group};
 
@@ -33,6 +33,8 @@ struct Seen {
     signs: Signs,
     /// Whether some lane contains no state known to exist.
     is_lacking: bool,
+    /// Whether a state was met at which it is not known whether the density has a value.
+    is_doubtful: bool,
 }
 
 impl Bench<'_> {
@@ -91,6 +93,7 @@ impl Bench<'_> {
             finding.evidence.sign = sign(&seen.signs);
             finding.evidence.sign_is_proved =
                 proved.is_some() || finding.evidence.sign == Some(Sign::Changes);
+            finding.evidence.sign_is_partial = seen.is_doubtful && !finding.evidence.sign_is_proved;
             if finding.evidence.sign.is_none() {
                 finding.evidence.sign_is_proved = false;
                 undecide(finding, "the density is 0 at all states that were tried".to_string());
@@ -129,6 +132,9 @@ impl Bench<'_> {
                 if seen.is_lacking && values.existing(required)[0] {
                     let set = &mut seen.signs[lane * PARAMETER_SETS / LANES];
                     note::<Mixed>(values.output(index), 0, set);
+                } else if values.existing(&required[..1])[0] {
+                    let own = values.range(required[1].clone());
+                    seen.is_doubtful |= own.into_iter().any(|value| *value == Number::Doubtful);
                 }
             }
         }

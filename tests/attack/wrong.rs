@@ -156,21 +156,30 @@ fn against(
     report: &ClaimReport,
     stream: &mut Stream,
 ) -> Option<Wrong> {
+    // Result at the witness; `None` if it is not a state.
+    let witness = || {
+        report.evidence.witness.as_ref().map(|witness| {
+            let (values, off) = witnessed(scene, witness)?;
+            match claim.at(scene, &values) {
+                At::Off(residual) if !exceeds(residual, &off) => None,
+                At::Without(Lack::Value) => None,
+                at => Some(at),
+            }
+        })
+    };
     match (report.verdict, truth) {
+        // A cell in which functions are independent may be too thin for the survey.
+        (Verdict::Proved, Truth::Fails)
+            if claim.is_negated() && matches!(witness(), Some(Some(At::Off(_)))) =>
+        {
+            None
+        }
         (Verdict::Proved, Truth::Fails) => Some(Wrong::ProvedFalse),
         (Verdict::Proved, Truth::Void) => Some(Wrong::ProvedVoid),
         (Verdict::Refuted, Truth::Void) => Some(Wrong::RefutedVoid),
         (Verdict::Confirmed, Truth::Void) => Some(Wrong::ConfirmedVoid),
         (Verdict::Refuted, truth) if !claim.is_negated() => {
-            // Result at the witness; `None` if it is not a state.
-            let there = report.evidence.witness.as_ref().map(|witness| {
-                let (values, off) = witnessed(scene, witness)?;
-                match claim.at(scene, &values) {
-                    At::Off(residual) if !exceeds(residual, &off) => None,
-                    At::Without(Lack::Value) => None,
-                    at => Some(at),
-                }
-            });
+            let there = witness();
             match (truth, there) {
                 (_, Some(Some(At::Off(_)))) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
                 (Truth::Fails, Some(Some(At::Without(_)))) => None,
@@ -211,8 +220,10 @@ fn beside(
         }
     }
     match (claim, evidence.sign, evidence.independence) {
-        // The sign is that at fixed parameters.
-        (Claim::Density(density), Some(sign), _) if !scene.has_parameter(density) => {
+        // The sign is that at fixed parameters, where the density is known to have a value.
+        (Claim::Density(density), Some(sign), _)
+            if !scene.has_parameter(density) && !evidence.sign_is_partial =>
+        {
             let (positive, negative) = signs(scene, density, stream, 200, false);
             let share = |count: usize| count as f64 / (positive + negative).max(1) as f64;
             let wrong = match sign {

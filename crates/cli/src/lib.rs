@@ -1,3 +1,8 @@
-//! Writers of the program `liouville`: reports as text, JSON, LaTeX, HTML and pictures.
+//! The program `liouville` as a library: its command line, and the writers of its reports as text,
+//! JSON, LaTeX, HTML and pictures.
 
+mod commands;
 pub mod report;
+pub mod source;
+
+pub use commands::run;

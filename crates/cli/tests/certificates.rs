@@ -4,6 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use liouville::verdict::{ClaimReport, Options};
+use liouville_cli::report::motion_certificate::{sealed, verify};
+use serde_json::Value;
+
 const TOP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 fn scratch(name: &str) -> PathBuf {
@@ -95,4 +99,164 @@ fn what_cannot_be_certified_is_told() {
     let output = run(program, &["check", "plane/balanced-ball", "--certificate", "README.md"]);
     let told = text(&output.stderr);
     assert!(output.status.code() == Some(2) && told.contains("cannot make the folder"), "{told}");
+}
+
+/// Writes the certificates of van der Pol's limit cycle.
+fn of_the_limit_cycle(folder: &str) -> Vec<String> {
+    let path = scratch(folder);
+    let shown = path.display().to_string();
+    let case = "cases/classical/flows/van-der-pol-cycle.toml";
+    let arguments = ["check", "-q", "--motion", "--certificate", &shown, case];
+    let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let entries = fs::read_dir(&path).expect("a folder").flatten();
+    let mut files: Vec<String> = entries.map(|own| own.path().display().to_string()).collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn closed_orbits_are_proved_again_from_their_certificates() {
+    let files = of_the_limit_cycle("orbits");
+    assert_eq!(files.len(), 2, "at one value of μ, and in a box: {files:?}");
+    let program = env!("CARGO_BIN_EXE_liouville");
+    let named: Vec<&str> = files.iter().map(String::as_str).collect();
+    let output = run(program, &[&["verify"], &named[..]].concat());
+    let told = text(&output.stdout);
+    assert!(output.status.success(), "{told}{}", text(&output.stderr));
+    assert!(told.ends_with("2 certificates: 2 proved, 0 refused\n"), "{told}");
+    assert!(told.contains("for all parameters with μ ± 1e-3, a closed orbit"), "{told}");
+    if is_there() {
+        let narrow = named.iter().find(|file| !file.contains("for-all")).expect("one value");
+        let output = run("python3", &["docs/certificates/orbit.py", narrow]);
+        let told = text(&output.stdout);
+        assert!(output.status.success(), "{told}{}", text(&output.stderr));
+        assert!(told.ends_with("1 certificates: 1 proved, 0 refused\n"), "{told}");
+    }
+    // One digit of the text of the case.
+    let changed = fs::read_to_string(&files[0]).expect("a certificate").replace("= 1\\n", "= 2\\n");
+    let other = scratch("changed").with_extension("json");
+    fs::write(&other, changed).expect("written");
+    let output = run(program, &["verify", &other.display().to_string(), named[0]]);
+    let told = text(&output.stdout);
+    assert!(output.status.code() == Some(1) && told.contains("REFUSED"), "{told}");
+    assert!(told.ends_with("2 certificates: 1 proved, 1 refused\n"), "{told}");
+    let output = run(program, &["verify", "no-such-file.json"]);
+    assert_eq!(output.status.code(), Some(2), "a file that is not there");
+}
+
+/// Pointers to all texts and numbers of a certificate.
+fn leaves(value: &Value, path: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Array(all) => {
+            for (index, own) in all.iter().enumerate() {
+                leaves(own, &format!("{path}/{index}"), found);
+            }
+        }
+        Value::Object(all) => {
+            all.iter().for_each(|(key, own)| leaves(own, &format!("{path}/{key}"), found));
+        }
+        _ => found.push(path.to_string()),
+    }
+}
+
+/// Changes one digit of a text, or a number by one.
+fn spoilt(value: &Value, place: usize) -> Value {
+    match value {
+        Value::Number(number) => (number.as_u64().unwrap_or(0) + 1).into(),
+        Value::String(text) => {
+            let mut letters: Vec<char> = text.chars().collect();
+            let place = place % letters.len().max(1);
+            if let Some(letter) = letters.get_mut(place) {
+                *letter = match letter.to_digit(16) {
+                    Some(digit) => char::from_digit((digit + 5) % 16, 16).unwrap_or('x'),
+                    None => 'x',
+                };
+            }
+            letters.into_iter().collect::<String>().into()
+        }
+        _ => Value::Null,
+    }
+}
+
+fn verified(certificate: &Value) -> Result<ClaimReport, String> {
+    verify(&certificate.to_string(), &Options::default(), &|_| Ok(Vec::new()))
+}
+
+/// Midpoint and radius of a ball.
+fn ball(value: &Value) -> [f64; 2] {
+    let number = |text: &Value| {
+        let text = text.as_str().expect("a text");
+        let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+        let (digits, power) = rest.strip_prefix("0x").and_then(|r| r.split_once('p')).expect("hex");
+        let digits = u64::from_str_radix(&digits.replace('.', ""), 16).expect("hex") as f64;
+        sign * digits * 2f64.powi(power.parse::<i32>().expect("a power") - 52)
+    };
+    [number(&value[0]), number(&value[1])]
+}
+
+#[test]
+fn orbits_with_other_numbers_are_refused() {
+    let files = of_the_limit_cycle("orbits-tampered");
+    let file = files.iter().find(|file| !file.contains("for-all")).expect("at one value");
+    let whole: Value =
+        serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
+    assert!(verified(&whole).is_ok(), "as it was written");
+    let mut all = Vec::new();
+    leaves(&whole, "", &mut all);
+    let random = |k: usize| k.wrapping_mul(6_364_136_223_846_793_005).rotate_left(23) % 1_000_003;
+    let (mut refused, mut kept) = (0, 0);
+    for trial in 1..=100 {
+        let path = &all[random(trial) % all.len()];
+        let mut other = whole.clone();
+        let own = other.pointer_mut(path).expect("a leaf");
+        let new = spoilt(own, random(trial + 1000));
+        if *own == new {
+            continue;
+        }
+        *own = new;
+        assert!(verified(&other).is_err(), "{path} was changed");
+        let is_proof = path.starts_with("/proof") || path.starts_with("/statement/orbit");
+        if !is_proof || trial % 8 != 0 {
+            continue;
+        }
+        // With a digest that fits, what is accepted has to be true.
+        let sealed = sealed(other["statement"].clone(), other["proof"].clone());
+        match verified(&sealed) {
+            Err(_) => refused += 1,
+            Ok(report) => {
+                kept += 1;
+                assert!(report.evidence.theorem.is_some(), "{path}");
+                let orbit = &sealed["statement"]["orbit"];
+                for (key, known) in
+                    [("period", 6.663_286_859_323_13), ("volume", -7.058_932_808_799)]
+                {
+                    let [mid, rad] = ball(&orbit[key]);
+                    assert!((mid - known).abs() <= rad + 1e-11, "{path}: {key}");
+                }
+            }
+        }
+    }
+    println!("{refused} refused, {kept} proved nevertheless");
+    assert!(refused >= 6, "{refused} refused, {kept} kept");
+    for (path, place) in [
+        ("/statement/orbit/period/0", 6),
+        ("/statement/orbit/period/1", 3),
+        ("/statement/orbit/volume/0", 6),
+        ("/statement/orbit/start/0/0", 7),
+        ("/statement/claim/name", 2),
+        ("/statement/claim/formula", 20),
+        ("/statement/claim/verdict", 0),
+        ("/statement/claim/kind", 0),
+        ("/proof/nodes/3/1", 8),
+        ("/proof/shares/2", 8),
+        ("/proof/period", 8),
+        ("/proof/order", 0),
+    ] {
+        let mut other = whole.clone();
+        let own = other.pointer_mut(path).expect("a leaf");
+        *own = if path == "/proof/order" { 2.into() } else { spoilt(own, place) };
+        let sealed = sealed(other["statement"].clone(), other["proof"].clone());
+        assert!(verified(&sealed).is_err(), "{path} was changed, with a new digest");
+    }
 }

@@ -8,6 +8,8 @@ mod motion;
 mod orbits;
 #[path = "cli/pictures.rs"]
 mod pictures;
+#[path = "cli/site.rs"]
+mod site;
 #[path = "cli/start.rs"]
 mod start;
 #[path = "cli/wrong.rs"]

@@ -2,7 +2,7 @@
 //!
 //! Each row is stored forwards. The second factor of a product is stored times the coefficient of
 //! the product, and backwards where numbers are added along the order, with zeros behind order 1: a
-//! Cauchy product is then a plain dot product. Order n ≥ 1 of an operation is linear in order n of
+//! Cauchy product is then a plain dot product. Which factor is the second does not depend on that. Order n ≥ 1 of an operation is linear in order n of
 //! the rows before it,
 //!
 //! ```text
@@ -64,10 +64,11 @@ pub(super) struct Code<T> {
     pub(super) outputs: Vec<Place>,
 }
 
-/// Product x · (c y).
+/// Product x · (c y), or -x · (|c| y).
 pub(super) struct Product {
     pub(super) x: Place,
     pub(super) cy: Place,
+    pub(super) negative: bool,
 }
 
 /// Contribution of a product c x y to the slopes of x_n and y_n; `x` and `y` are indices of terms.
@@ -143,14 +144,32 @@ pub(super) enum Bound<T> {
     Power { x: Place, exponent: Rational, factor: T },
 }
 
+impl<T> Bound<T> {
+    /// Whether the operation is a sum of products.
+    pub(super) fn is_sum(&self) -> bool {
+        matches!(self, Bound::Sum)
+    }
+}
+
 /// Placement of rows and their copies in memory.
 struct Layout {
     base: usize,
     copy_base: usize,
     stride: usize,
     backwards: bool,
-    /// Row and weight of each copy.
-    copies: Vec<(Row, Rational)>,
+    copies: Vec<SecondFactor>,
+    /// Number of copies that are stored.
+    stored: usize,
+}
+
+/// A second factor of products: weight · row.
+struct SecondFactor {
+    row: Row,
+    weight: Rational,
+    /// Place of the row times ± the weight.
+    place: Place,
+    negative: bool,
+    is_stored: bool,
 }
 
 impl Layout {
@@ -158,27 +177,44 @@ impl Layout {
         (self.base + row * self.stride) as Place
     }
 
-    fn copy(&self, index: usize) -> Place {
-        (self.copy_base + index * self.stride) as Place
+    fn find(&self, row: Row, weight: &Rational) -> Option<&SecondFactor> {
+        self.copies.iter().find(|own| own.row == row && own.weight == *weight)
     }
 
-    /// Place of weight · row as a second factor, if it is stored.
-    fn factor(&self, row: Row, weight: &Rational) -> Option<Place> {
-        if !self.backwards && weight.is_one() {
-            return Some(self.row(row));
+    /// Makes weight · row a second factor. Rows that run forwards are their own copies, and have
+    /// one copy for both signs of a weight.
+    fn copy(&mut self, row: Row, weight: &Rational) -> SecondFactor {
+        let of_sign = |negative, place| SecondFactor {
+            row,
+            weight: weight.clone(),
+            place,
+            negative,
+            is_stored: false,
+        };
+        let opposite = -weight;
+        if !self.backwards && (weight.is_one() || opposite.is_one()) {
+            return of_sign(opposite.is_one(), self.row(row));
         }
-        let index = self.copies.iter().position(|(own, by)| *own == row && by == weight)?;
-        Some(self.copy(index))
+        if !self.backwards
+            && let Some(own) = self.find(row, &opposite)
+        {
+            return of_sign(!own.negative, own.place);
+        }
+        let place = (self.copy_base + self.stored * self.stride) as Place;
+        self.stored += 1;
+        SecondFactor { is_stored: true, ..of_sign(false, place) }
     }
 
     /// Writes c x y as one factor and c times the other, chosen so that few copies are needed.
     fn product(&mut self, weight: &Rational, x: Row, y: Row) -> Product {
-        let (x, y) = if self.factor(x, weight).is_some() { (y, x) } else { (x, y) };
-        let cy = self.factor(y, weight).unwrap_or_else(|| {
-            self.copies.push((y, weight.clone()));
-            self.copy(self.copies.len() - 1)
-        });
-        Product { x: self.row(x), cy }
+        let (x, y) = if self.find(x, weight).is_some() { (y, x) } else { (x, y) };
+        if self.find(y, weight).is_none() {
+            let copy = self.copy(y, weight);
+            self.copies.push(copy);
+        }
+        let (cy, negative) =
+            self.find(y, weight).map_or((0, false), |own| (own.place, own.negative));
+        Product { x: self.row(x), cy, negative }
     }
 }
 
@@ -190,8 +226,8 @@ impl<T: Number> Code<T> {
         let stride = width + order.next_multiple_of(width);
         let copy_base = aligned + program.rows * stride;
         let backwards = width > 1;
-        let mut layout =
-            Layout { base: aligned + width - 1, copy_base, stride, backwards, copies: Vec::new() };
+        let (base, copies) = (aligned + width - 1, Vec::new());
+        let mut layout = Layout { base, copy_base, stride, backwards, copies, stored: 0 };
         let mut products = Vec::new();
         for instruction in &program.instructions {
             let own = instruction.form.products.iter();
@@ -225,16 +261,13 @@ impl<T: Number> Code<T> {
                 finish.inner = none;
             }
         }
-        (code, copy_base + layout.copies.len() * stride)
+        (code, copy_base + layout.stored * stride)
     }
 
     fn copies_of(&mut self, layout: &Layout, row: Row) -> u32 {
         let before = self.copies.len();
-        for (index, (own, weight)) in layout.copies.iter().enumerate() {
-            if *own == row {
-                let weight = T::rational(weight);
-                self.copies.push(Copied { place: layout.copy(index), weight });
-            }
+        for own in layout.copies.iter().filter(|own| own.row == row && own.is_stored) {
+            self.copies.push(Copied { place: own.place, weight: T::rational(&own.weight) });
         }
         (self.copies.len() - before) as u32
     }

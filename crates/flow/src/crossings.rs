@@ -3,7 +3,7 @@
 //! A motion that has all its crossings gives its lane to the next one.
 
 use super::error::FlowError;
-use super::event::{Event, Sides, value};
+use super::event::{Ends, Event, Sides, value};
 use super::lanes::Lanes;
 use super::number::Number;
 use super::program::Program;
@@ -114,8 +114,9 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
                 return self.done;
             }
             self.stepper.expand();
+            let ends = self.stepper.ends(0);
             for lane in 0..T::LANES {
-                if self.look(lane) {
+                if self.look(lane, &ends) {
                     self.finish(lane);
                     progress();
                 }
@@ -154,7 +155,7 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
     }
 
     /// Collects the crossings of the present piece. Returns whether the motion is done.
-    fn look(&mut self, lane: usize) -> bool {
+    fn look(&mut self, lane: usize, ends: &Ends<T>) -> bool {
         let Some(running) = &mut self.running[lane] else { return false };
         if let Err(problem) = self.stepper.check(lane) {
             running.track.problem = Some(problem);
@@ -165,15 +166,17 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
             running.track.problem = Some(FlowError::AtRest);
             return true;
         }
-        let piece = self.stepper.piece(lane);
-        let polynomial = piece.output(0);
-        if polynomial.iter().all(|coefficient| *coefficient == 0.0) {
-            running.track.problem = Some(FlowError::InSurface);
-            return true;
-        }
-        for event in running.sides.events(&polynomial, piece.length()) {
-            if running.meet(event, &piece, self.task, steps, &mut self.look) {
+        if !running.sides.pass(ends, lane) {
+            let piece = self.stepper.piece(lane);
+            let polynomial = piece.output(0);
+            if polynomial.iter().all(|coefficient| *coefficient == 0.0) {
+                running.track.problem = Some(FlowError::InSurface);
                 return true;
+            }
+            for event in running.sides.events(&polynomial, piece.length()) {
+                if running.meet(event, &piece, self.task, steps, &mut self.look) {
+                    return true;
+                }
             }
         }
         let others = running.track.others - running.last_met.1;

@@ -130,6 +130,9 @@ pub enum FlowError {
     /// The field has a sum of more terms than a proof allows for.
     #[error("the field has a sum of more than a thousand terms")]
     TooLong,
+    /// The motion was stopped from outside.
+    #[error("the motion was stopped")]
+    Stopped,
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
@@ -206,6 +209,7 @@ impl FlowError {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
             FlowError::TooLong => "write the field with fewer terms, by [let]",
+            FlowError::Stopped => "follow it again, for a shorter time",
             FlowError::NoStart => "give a state by --state, or another --seed or --index",
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -64,7 +64,7 @@ impl<T: Number> Series<T> {
             for product in first(&mut rest, *count) {
                 let x = &forwards[product.x as usize..][..length];
                 let y = &backwards[product.cy as usize..][..length];
-                sum = T::dot(sum, x, y);
+                sum = T::dot(sum, x, y, product.negative);
             }
             *partial = sum;
         }

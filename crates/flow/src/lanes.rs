@@ -2,14 +2,17 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use super::machine::LaneMachine;
 use super::number::{BLOCK, Number, applied, powered};
+use super::series::Series;
+use super::swarm::LANES;
 use liouville::number::Function;
 use liouville::number::pair::{Pair, two_sum};
 use liouville::number::rational::Rational;
 
 /// A vector of `N` f64, one lane for each orbit.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
+#[repr(C, align(64))]
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
 macro_rules! lanewise {
@@ -37,14 +40,25 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-impl<const N: usize> Number for Lanes<N> {
+impl<const N: usize> Default for Lanes<N> {
+    fn default() -> Self {
+        Self([0.0; N])
+    }
+}
+
+/// Number of lanes that series have.
+const N: usize = LANES;
+
+impl Number for Lanes<N> {
     type One = f64;
     const ZERO: Self = Self([0.0; N]);
     const ONE: Self = Self([1.0; N]);
     const LANES: usize = N;
     const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = 1;
-    type Partial = Self;
+    /// Sums of every eighth term, as a dot product of one motion has them.
+    type Partial = [Self; BLOCK];
+    type Machine = LaneMachine;
 
     fn rational(value: &Rational) -> Self {
         Self([value.to_f64().0; N])
@@ -96,18 +110,32 @@ impl<const N: usize> Number for Lanes<N> {
         }
     }
     #[inline(always)]
-    fn nothing() -> Self {
-        Self([0.0; N])
-    }
-    #[inline(always)]
-    fn dot(mut sum: Self, x: &[Self], y: &[Self]) -> Self {
-        for (x, y) in x.iter().zip(y.iter().rev()) {
-            sum = sum.fused(*x, *y);
+    fn larger(mut self, other: Self) -> Self {
+        for lane in 0..N {
+            self.0[lane] = self.0[lane].max(other.0[lane].abs());
         }
-        sum
+        self
     }
     #[inline(always)]
-    fn totals(sums: &[Self; BLOCK], totals: &mut [Self; BLOCK]) {
-        *totals = *sums;
+    fn by_machine(series: &mut Series<Self>) -> bool {
+        series.by_machine()
+    }
+    #[inline(always)]
+    fn nothing() -> [Self; BLOCK] {
+        [Self::ZERO; BLOCK]
+    }
+    #[inline(always)]
+    fn dot(mut sums: [Self; BLOCK], x: &[Self], y: &[Self], negative: bool) -> [Self; BLOCK] {
+        for (k, (x, y)) in x.iter().zip(y.iter().rev()).enumerate() {
+            let x = if negative { -*x } else { *x };
+            sums[k % BLOCK] = sums[k % BLOCK].fused(x, *y);
+        }
+        sums
+    }
+    #[inline(always)]
+    fn totals(sums: &[[Self; BLOCK]; BLOCK], totals: &mut [Self; BLOCK]) {
+        for (total, s) in totals.iter_mut().zip(sums) {
+            *total = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+        }
     }
 }

@@ -10,6 +10,7 @@
 
 mod andoyer;
 mod area;
+mod axis;
 mod closed;
 mod code;
 mod columns;
@@ -20,6 +21,7 @@ mod error;
 mod event;
 mod expand;
 mod form;
+mod halt;
 mod lanes;
 mod launch;
 mod lexicon;
@@ -36,6 +38,7 @@ mod periodic;
 mod plane;
 mod portrait;
 mod program;
+mod request;
 mod returns;
 mod samples;
 mod section;
@@ -53,19 +56,23 @@ mod variational;
 
 pub use andoyer::{applies as has_andoyer_section, spread};
 pub use area::{AreaForm, area_forms};
+pub use axis::{AxisMistake, number_with_pi};
 pub use closed::{ClosedOrbit, Measured};
 pub use columns::Columns;
 pub use cycle::Cycle;
 pub use error::FlowError;
+pub use halt::stoppable;
 pub use launch::{Begin, Launches, Launchpad};
 pub use lexicon::{FormulaMistake, Lexicon};
 pub use lyapunov::{Alignment, Character, Estimate, Exponents};
+pub use motion::Loose;
 pub use multiplier::{CycleKind, Multiplier};
 pub use one_sided::{Contact, ContactEvent};
 pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
 pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
 pub use plane::{Axis, Coordinate, Launch, PlaneRequest, plane};
 pub use portrait::{Portrait, portrait};
+pub use request::{ChoiceError, SectionChoice};
 pub use returns::{closed_orbit, crossing_time};
 pub use samples::{SampledOrbit, Sampling, orbits};
 pub use section::{
@@ -76,5 +83,7 @@ pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
 pub use track::{Rolling, Track, track};
-pub use validated::{Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove};
+pub use validated::{
+    Data, Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove, replay,
+};
 pub use variational::Variational;

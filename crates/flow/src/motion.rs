@@ -20,7 +20,7 @@ pub(super) fn point<'m>(
 /// Component of the free parameters that differs from motion to motion: centre + half x, with x
 /// between -1 and 1.
 #[derive(Clone, Debug)]
-pub(super) struct Loose {
+pub struct Loose {
     /// Index of the component.
     pub component: usize,
     /// Midpoint of its range.

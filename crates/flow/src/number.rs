@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::lanes::Lanes;
+use super::machine::Machine;
 use super::series::Series;
 use liouville::number::float::Float;
 use liouville::number::pair::{Pair, two_product, two_sum};
@@ -35,6 +36,8 @@ pub trait Number:
     const EPSILON: f64;
     /// Dot product before its parts are added up.
     type Partial: Copy;
+    /// Machine code of expansions.
+    type Machine;
 
     /// Rounds an exact constant once.
     fn rational(value: &Rational) -> Self;
@@ -63,6 +66,8 @@ pub trait Number:
     fn apply(self, function: Function) -> Self;
     /// Returns x^q.
     fn power(self, exponent: &Rational) -> Self;
+    /// Returns the larger of a size and |other|, which is left out where it is NaN.
+    fn larger(self, other: Self) -> Self;
     /// Adds an increment to a compensated sum hi + lo.
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self);
 
@@ -80,9 +85,9 @@ pub trait Number:
     fn copied(orders: usize, n: usize) -> usize {
         if Self::WIDTH > 1 { orders - n } else { n }
     }
-    /// Returns sum + Σ x_k y_k. Both have the same length, a multiple of `WIDTH`; y is in the
-    /// opposite order where `WIDTH` is 1.
-    fn dot(sum: Self::Partial, x: &[Self], y: &[Self]) -> Self::Partial;
+    /// Returns sum + Σ x_k y_k. Both have the same length, a multiple of `WIDTH`. Where `WIDTH` is 1,
+    /// y is in the opposite order, and the products may be negative.
+    fn dot(sum: Self::Partial, x: &[Self], y: &[Self], negative: bool) -> Self::Partial;
     /// Adds the parts of several dot products at once.
     fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
 }
@@ -114,6 +119,7 @@ impl Number for f64 {
     const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = WIDTH;
     type Partial = Lanes<WIDTH>;
+    type Machine = Machine;
 
     fn rational(value: &Rational) -> Self {
         value.to_f64().0
@@ -156,6 +162,10 @@ impl Number for f64 {
         powered(self, exponent)
     }
     #[inline(always)]
+    fn larger(self, other: f64) -> f64 {
+        self.max(other.abs())
+    }
+    #[inline(always)]
     fn advance(hi: &mut Self, lo: &mut Self, increment: Self) {
         (*hi, *lo) = two_sum(*hi, *lo + increment);
     }
@@ -168,7 +178,7 @@ impl Number for f64 {
         Lanes::ZERO
     }
     #[inline(always)]
-    fn dot(mut sum: Lanes<WIDTH>, x: &[f64], y: &[f64]) -> Lanes<WIDTH> {
+    fn dot(mut sum: Lanes<WIDTH>, x: &[f64], y: &[f64], _: bool) -> Lanes<WIDTH> {
         let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
         for (x, y) in x.iter().zip(y) {
             sum = sum.fused(Lanes(*x), Lanes(*y));
@@ -206,6 +216,7 @@ impl Number for Pair {
     const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
     const WIDTH: usize = WIDTH;
     type Partial = PairLanes;
+    type Machine = ();
 
     fn rational(value: &Rational) -> Self {
         Pair::from_rational(value)
@@ -261,6 +272,10 @@ impl Number for Pair {
         Pair::power(self, exponent)
     }
     #[inline(always)]
+    fn larger(self, other: Pair) -> Pair {
+        Pair::from_f64(self.hi.max(other.hi.abs()))
+    }
+    #[inline(always)]
     fn advance(hi: &mut Self, _: &mut Self, increment: Self) {
         *hi = *hi + increment;
     }
@@ -269,7 +284,7 @@ impl Number for Pair {
         PairLanes { hi: [0.0; WIDTH], lo: [0.0; WIDTH] }
     }
     #[inline(always)]
-    fn dot(mut sum: PairLanes, x: &[Pair], y: &[Pair]) -> PairLanes {
+    fn dot(mut sum: PairLanes, x: &[Pair], y: &[Pair], _: bool) -> PairLanes {
         let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
         for (x, y) in x.iter().zip(y) {
             for k in 0..WIDTH {

@@ -2,9 +2,11 @@
 
 use super::code::{Code, LINE};
 use super::expand::Expansion;
-use super::machine::Machine;
+use super::lanes::Lanes;
+use super::machine::{LaneMachine, Machine};
 use super::number::{BLOCK, Number};
 use super::program::Program;
+use super::swarm::LANES;
 use liouville::graph::with_widest_vectors;
 use liouville::number::rational::Rational;
 
@@ -23,7 +25,7 @@ pub struct Series<T: Number> {
     pub(super) memory: Vec<T>,
     /// Number of expansions so far, up to where machine code pays.
     pub(super) expansions: u32,
-    pub(super) machine: Option<Box<Machine>>,
+    pub(super) machine: Option<Box<T::Machine>>,
 }
 
 impl<T: Number> Series<T> {
@@ -69,8 +71,10 @@ impl<T: Number> Series<T> {
     }
 }
 
-/// Number of expansions that take as long as generating machine code.
+/// Number of expansions of one motion that take as long as generating machine code.
 const MANY: u32 = 32;
+/// The same for motions in lanes.
+const MANY_IN_LANES: u32 = 8;
 
 impl Series<f64> {
     /// Computes all orders by machine code. Returns `false` where there is none.
@@ -80,6 +84,27 @@ impl Series<f64> {
             self.expansions += 1;
             if self.expansions == MANY {
                 self.machine = Machine::new(&self.code, self.order).map(Box::new);
+            }
+        }
+        let Some(mut machine) = self.machine.take() else { return false };
+        if !machine.begin(&self.inverses, &mut self.memory) {
+            self.begin();
+            machine.take(&self.code);
+        }
+        machine.run(&self.code, &self.inverses, &mut self.memory);
+        self.machine = Some(machine);
+        true
+    }
+}
+
+impl Series<Lanes<LANES>> {
+    /// Computes all orders by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(super) fn by_machine(&mut self) -> bool {
+        if self.expansions < MANY_IN_LANES {
+            self.expansions += 1;
+            if self.expansions == MANY_IN_LANES {
+                self.machine = LaneMachine::new(&self.code, self.order).map(Box::new);
             }
         }
         let Some(mut machine) = self.machine.take() else { return false };

@@ -7,6 +7,8 @@
 use std::ops::Range;
 
 use super::error::FlowError;
+use super::event::Ends;
+use super::halt::Halt;
 use super::number::Number;
 use super::program::Program;
 use super::series::Series;
@@ -40,6 +42,17 @@ pub struct Stepper<T: Number> {
     state: Vec<T>,
     rest: Vec<T>,
     lanes: Vec<Lane<T::One>>,
+    sizes: Sizes<T>,
+    halt: Halt,
+}
+
+/// Sizes of the present expansions.
+#[derive(Clone, Copy)]
+struct Sizes<T> {
+    /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
+    norms: [T; 4],
+    /// 0 where all coefficients of the last order are finite, or else NaN.
+    soundness: T,
 }
 
 /// Time and step of one motion.
@@ -65,6 +78,8 @@ impl<T: Number> Stepper<T> {
             rest: state.clone(),
             state,
             lanes: vec![idle; T::LANES],
+            sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
+            halt: Halt::current(),
         }
     }
 
@@ -104,6 +119,7 @@ impl<T: Number> Stepper<T> {
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
         self.series.expand(&self.state);
+        with_widest_vectors(Measure(self));
         for index in 0..T::LANES {
             let size = self.step_size(index);
             let lane = &mut self.lanes[index];
@@ -140,14 +156,15 @@ impl<T: Number> Stepper<T> {
         self.lanes[lane].step
     }
 
-    /// Checks the present expansion of a motion; fails where the motion runs into a singularity.
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity, and
+    /// once it is stopped.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        if self.halt.is_raised() {
+            return Err(FlowError::Stopped);
+        }
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
-        let finite = (0..self.state.len()).all(|row| {
-            let last = self.series.component(row)[self.series.order()];
-            last.lane(lane).leading().is_finite()
-        });
+        let finite = self.sizes.soundness.lane(lane).leading() == 0.0;
         let at_end = (motion.until - motion.time).hi == 0.0;
         let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
         match finite && advances && step.is_finite() {
@@ -212,15 +229,56 @@ impl<T: Number> Stepper<T> {
 
     fn step_size(&self, lane: usize) -> f64 {
         let order = self.series.order();
-        let norm = |n: usize| {
-            let entries = (0..self.state.len()).map(|row| self.series.component(row)[n]);
-            entries.map(|x| x.lane(lane).leading().abs()).fold(0.0, f64::max)
-        };
+        let norms = self.sizes.norms.map(|norm| norm.lane(lane).leading());
+        let [still, moving, before_last, last] = norms;
         // A state that is exactly 0 has no size; its velocity has.
-        let first = if norm(0) > 0.0 { 0 } else { 1 };
-        let size = libm::log(norm(first));
-        let radius = |n: usize| (size - libm::log(norm(n))) / (n - first) as f64;
-        libm::exp(radius(order - 1).min(radius(order)) - self.kappa)
+        let (first, size) = if still > 0.0 { (0, still) } else { (1, moving) };
+        let size = libm::log(size);
+        let radius = |n: usize, norm: f64| (size - libm::log(norm)) / (n - first) as f64;
+        libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa)
+    }
+
+    /// Values that decide whether a further function can vanish on the present pieces.
+    pub fn ends(&self, output: usize) -> Ends<T> {
+        let mut ends = Ends::NONE;
+        with_widest_vectors(Outline { stepper: self, output, ends: &mut ends });
+        ends
+    }
+}
+
+/// Work of measuring the present expansions.
+struct Measure<'s, T: Number>(&'s mut Stepper<T>);
+
+impl<T: Number> Work for Measure<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let stepper = self.0;
+        let order = stepper.series.order();
+        let mut sizes = Sizes { norms: [T::ZERO; 4], soundness: T::ZERO };
+        for row in 0..stepper.state.len() {
+            let coefficients = stepper.series.component(row);
+            for (norm, n) in sizes.norms.iter_mut().zip([0, 1, order - 1, order]) {
+                *norm = norm.larger(coefficients[n]);
+            }
+            sizes.soundness = sizes.soundness + coefficients[order] * T::ZERO;
+        }
+        stepper.sizes = sizes;
+    }
+}
+
+/// Work of evaluating a further function at the ends of the present pieces.
+struct Outline<'s, T: Number> {
+    stepper: &'s Stepper<T>,
+    output: usize,
+    ends: &'s mut Ends<T>,
+}
+
+impl<T: Number> Work for Outline<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { stepper, output, ends } = self;
+        let length = T::from_lanes(|lane| stepper.lanes[lane].step);
+        *ends = Ends::new(stepper.series.output(output), length);
     }
 }
 

@@ -6,10 +6,12 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::halt::Halt;
+
 /// Number of motions in the lanes of one thread.
 pub const LANES: usize = 8;
 /// Number of motions below which one at a time is faster.
-const FEW: usize = 4;
+const FEW: usize = 3;
 
 /// Queue of the motions not yet taken.
 pub struct Queue {
@@ -44,36 +46,39 @@ pub fn swarm<R: Send>(
     let abreast = if count < FEW { Abreast::One } else { Abreast::Lanes };
     let width = if abreast == Abreast::One { 1 } else { LANES };
     let queue = Queue { next: AtomicUsize::new(0), count };
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, count.div_ceil(width).max(1)) {
-            scope.spawn(|| {
-                let own = worker(&queue, abreast);
-                done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, result)| result).collect()
+    let most = count.div_ceil(width);
+    collected(threads.clamp(1, most.max(1)), &|| worker(&queue, abreast))
 }
 
 /// Runs a job for each index, the next one on the first thread that is free. Returns the results in
 /// order.
 pub fn each<R: Send>(count: usize, threads: usize, job: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let queue = Queue { next: AtomicUsize::new(0), count };
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, count.max(1)) {
-            scope.spawn(|| {
-                while let Some(index) = queue.take() {
-                    let result = (index, job(index));
-                    done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(result);
+    collected(threads.clamp(1, count.max(1)), &|| {
+        std::iter::from_fn(|| queue.take()).map(|index| (index, job(index))).collect()
+    })
+}
+
+/// Runs the work on each thread, and returns all results in the order of their indices. One thread
+/// is the calling one: where there are no others, as in a browser, motions are followed all the
+/// same.
+fn collected<R: Send>(threads: usize, work: &(dyn Fn() -> Vec<(usize, R)> + Sync)) -> Vec<R> {
+    let mut done = match threads {
+        1 => work(),
+        _ => {
+            let done = Mutex::new(Vec::new());
+            let halt = Halt::current();
+            std::thread::scope(|scope| {
+                for _ in 0..threads {
+                    scope.spawn(|| {
+                        let own = halt.clone().over(work);
+                        done.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(own);
+                    });
                 }
             });
+            done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
         }
-    });
-    let mut done = done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    };
     done.sort_by_key(|(index, _)| *index);
     done.into_iter().map(|(_, result)| result).collect()
 }

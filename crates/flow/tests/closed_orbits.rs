@@ -175,6 +175,29 @@ fn what_is_no_claim_is_refused_in_its_words() {
         let found = found.unwrap_or_else(|| panic!("accepted: {claim}")).to_string();
         assert!(found.contains(message), "{claim}: {found}");
     }
+    let varied = [
+        ("{ k = \"± 1e-5\" }", "`k` is not a parameter"),
+        ("{ x = \"± 1e-5\" }", "`x` is not a parameter"),
+        ("{ a = \"1e-5\" }", "does not give a distance"),
+        ("{ a = \"± 0\" }", "`0` is not a distance"),
+        ("{ a = \"± −1\" }", "is not a distance"),
+        ("{ a = \"± small\" }", "`small` is not a distance"),
+        ("{ a = \"2 ± 1e-5\" }", "`2` is not the value of `a`"),
+        ("{ b = \"± 1e-5\" }", "`b` has no fixed value"),
+        ("{ d = \"± 1e-5\" }", "`d` has no fixed value"),
+        ("{ M = \"± 1e-5\" }", "a matrix that is not diagonal"),
+        ("{ n = \"± 1e-5\" }", "used in a size or an index"),
+        ("\"± 1e-5\"", "parameters"),
+    ];
+    let parameters = "[parameters]\na = 1\nb = \"1..2\"\nd = \"2*a\"\nn = 2\n\
+                      M = [[1, 2], [3, 4]]\nu = \"vector(n, 0..1)\"\n[state]";
+    for (table, message) in varied {
+        let claim = format!("closed-orbit = 6\nstate = {{ x = \"2\" }}\nparameters = {table}");
+        let text = van_der_pol("(a − x²)", &claim).replace("[state]", parameters);
+        let found = Case::parse(&text, &[]).err();
+        let found = found.unwrap_or_else(|| panic!("accepted: {table}")).to_string();
+        assert!(found.contains(message), "{table}: {found}");
+    }
 }
 
 #[test]
@@ -218,4 +241,153 @@ fn kinds_are_proved_and_wrong_ones_refuted() {
         assert_eq!(found.verdict, Verdict::Undecided, "{kind}: {:?}", found.evidence);
         assert_known(&found, "λ₁ + λ₂", 2.0 * 0.40008_f64.cos(), 1e-5);
     }
+}
+
+/// Proves the first claim about motion of a case.
+fn proved(text: &str) -> (Case, liouville_flow::ProvedOrbit) {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let found = liouville_flow::observe::proof(&case, &case.motions[0], &Options::default());
+    let (report, found) = found.expect("proved");
+    assert_eq!(report.verdict, Verdict::Proved, "{text}");
+    (case, found)
+}
+
+fn replayed(
+    case: &Case,
+    data: &liouville_flow::Data,
+) -> Result<liouville_flow::ProvedOrbit, String> {
+    let options = Options::default();
+    liouville_flow::observe::verify(case, &case.motions[0], data, &options).map(|found| found.1)
+}
+
+/// Asserts that an enclosure in 256 bits agrees with one in f64, and is no wider.
+fn assert_same(a: liouville_flow::Enclosure, b: liouville_flow::Enclosure, what: &str) {
+    assert!((a.mid - b.mid).abs() <= b.rad, "{what}: {a:?} and {b:?}");
+    assert!(a.rad <= 1.05 * b.rad, "{what}: {a:?} is wider than {b:?}");
+}
+
+#[test]
+fn proofs_are_replayed_in_other_arithmetic() {
+    let cases = [
+        van_der_pol("(1 − x²)", &format!("{CYCLE}\nstability = \"sink\"")),
+        ball(""),
+        BEAD.to_string(),
+    ];
+    for text in &cases {
+        let (case, found) = proved(text);
+        let again = replayed(&case, &found.data).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_same(again.period, found.period, "period");
+        assert_same(again.volume, found.volume, "∮ div v dt");
+        for (a, b) in again.start.iter().zip(&found.start) {
+            assert_same(*a, *b, "start");
+        }
+        if let (Some(a), Some(b)) = (again.sum, found.sum) {
+            assert_same(a, b, "sum of the multipliers");
+        }
+    }
+}
+
+/// A bead on a turning hoop with friction in its equation's roots and functions: every rule of the
+/// series is used.
+const BEAD: &str = "title = \"functions\"\nsystem = \"field\"\n[state]\nx = \"-3..3\"\n\
+p = \"-3..3\"\n[field]\n\"x'\" = \"p\"\n\
+\"p'\" = \"(1 − x²)*p − sin(x)*exp(x²/20)/sqrt(1 + x²/9) + cos(x)*atan(x)/50 + ln(2 + x²)*x^3/90\"\n\
+[[claim]]\nclosed-orbit = 10.154\nstate = { x = \"2.0730655\" }\nstability = \"sink\"\n";
+
+#[test]
+fn data_that_prove_nothing_are_refused() {
+    let (case, found) = proved(&van_der_pol("(1 − x²)", &format!("{CYCLE}\ndensity = \"none\"")));
+    let good = &found.data;
+    let refused = |what: &str, change: &dyn Fn(&mut liouville_flow::Data)| {
+        let mut data = good.clone();
+        change(&mut data);
+        assert_ne!(data, *good, "{what}");
+        let found = replayed(&case, &data);
+        assert!(found.is_err(), "{what} is accepted");
+    };
+    refused("a node that is off", &|data| data.nodes[3][1] += 1e-9);
+    refused("another sign", &|data| data.nodes[2][0] = -data.nodes[2][0]);
+    refused("a node that is not a number", &|data| data.nodes[1][0] = f64::NAN);
+    refused("nodes in another order", &|data| data.nodes.swap(2, 3));
+    refused("a shorter orbit", &|data| {
+        data.nodes.pop();
+    });
+    refused("a segment that is longer", &|data| data.shares[4] *= 1.0 + 1e-9);
+    refused("a segment backwards", &|data| data.shares[4] = -data.shares[4]);
+    refused("another period", &|data| data.period += 1e-9);
+    refused("boxes without width", &|data| data.radii.fill(0.0));
+    refused("boxes that are too narrow", &|data| data.radii.iter_mut().for_each(|r| *r *= 1e-4));
+    refused("boxes that are too wide", &|data| data.radii.fill(1.0));
+    refused("a box of infinite width", &|data| data.radii[0] = f64::INFINITY);
+    refused("no radius for the period", &|data| {
+        data.radii.pop();
+    });
+    refused("tails of radius 0", &|data| data.tails[1] = 0.0);
+    refused("tails beyond a pole", &|data| data.tails[1] *= 50.0);
+    refused("a conserved function that is none", &|data| data.functions.push(0));
+    refused("an order of 0", &|data| data.order = 0);
+    refused("an order that is too low", &|data| data.order = 3);
+    refused("an order without end", &|data| data.order = 1 << 40);
+    refused("nothing at all", &|data| *data = liouville_flow::Data::default());
+}
+
+#[test]
+fn orbits_are_proved_for_boxes_of_parameters() {
+    let for_all = |half: &str, further: &str| {
+        let text = format!(
+            "closed-orbit = 6.66\nstate = {{ x = \"2.0086\" }}\n{further}\n\
+             parameters = {{ \"μ\" = \"± {half}\" }}"
+        );
+        van_der_pol("μ*(1 − x²)", &text).replace("[state]", "[parameters]\n\"μ\" = 1\n[state]")
+    };
+    let found = proved(&for_all("1e-3", "density = \"none\"")).1;
+    // The orbits at the ends of the box lie in it.
+    for value in ["999/1000", "1", "1001/1000"] {
+        let text = for_all("1e-9", "").replace("\"μ\" = 1\n", &format!("\"μ\" = \"{value}\"\n"));
+        let (_, own) = proved(&text);
+        let holds = |wide: &liouville_flow::Enclosure, x: &liouville_flow::Enclosure| {
+            (wide.mid - x.mid).abs() + x.rad <= wide.rad
+        };
+        assert!(holds(&found.period, &own.period), "μ = {value}: the period");
+        assert!(holds(&found.volume, &own.volume), "μ = {value}: ∮ div v dt");
+        let states = found.start.iter().zip(&own.start);
+        assert!(states.into_iter().all(|(wide, x)| holds(wide, x)), "μ = {value}: the start");
+    }
+    // T(μ) = 6.66329 + 1.1 (μ - 1): the box is not much wider than what it has to hold.
+    assert!(found.period.rad < 0.02, "{:?}", found.period);
+    // Replayed, with the parameter among the boxes.
+    let (case, found) = proved(&for_all("1e-3", "density = \"none\""));
+    let again = replayed(&case, &found.data).expect("proved again");
+    assert_same(again.period, found.period, "period for all μ");
+    assert_same(again.volume, found.volume, "∮ div v dt for all μ");
+    // Data for a narrow box prove nothing of a wider one.
+    let narrow = proved(&for_all("1e-6", "")).1;
+    assert!(replayed(&case, &narrow.data).is_err(), "boxes that do not hold the orbits");
+    let wide = judged(&for_all("1/2", "density = \"none\""));
+    let reason = wide.evidence.reason.clone().unwrap_or_default();
+    assert_eq!(wide.verdict, Verdict::Undecided, "{:?}", wide.evidence);
+    assert!(reason.contains("make their ranges smaller") || reason.contains("no step"), "{reason}");
+}
+
+#[test]
+fn boxes_without_change_of_volume_exclude_nothing() {
+    // A decoy: the orbit exists for all k, and its divergence is 0 on the average.
+    let text = "title = \"pendulum\"\nsystem = \"field\"\n[parameters]\nk = 1\n[state]\n\
+        x = \"-2..2\"\np = \"-2..2\"\n[field]\n\"x'\" = \"p\"\n\"p'\" = \"−k*sin(x)\"\n\
+        [[claim]]\nclosed-orbit = 6.7\nstate = { x = \"1\" }\n\
+        integrals = [\"p²/2 − k*cos(x)\"]\nparameters = { k = \"± 1e-5\" }\n";
+    let found = judged(text);
+    assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
+    for claim in ["density = \"none\"", "divergence = \"negative\"", "divergence = \"nonzero\""] {
+        let found = judged(&format!("{text}{claim}\n"));
+        assert_eq!(found.verdict, Verdict::Undecided, "{claim}: {:?}", found.evidence);
+    }
+    // What is kept for one value only is not kept in a box.
+    let one = text.replace("k*cos(x)", "cos(x)");
+    let found = judged(&one);
+    let reason = found.evidence.reason.clone().unwrap_or_default();
+    assert_eq!(found.verdict, Verdict::Undecided, "{:?}", found.evidence);
+    assert!(reason.contains("not proved that the motion keeps"), "{reason}");
+    let alone = judged(&one.replace("parameters = { k = \"± 1e-5\" }\n", ""));
+    assert_eq!(alone.verdict, Verdict::Proved, "for k = 1 it is kept: {:?}", alone.evidence);
 }

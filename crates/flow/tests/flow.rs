@@ -2,6 +2,8 @@
 
 #[path = "flow/chaos.rs"]
 mod chaos;
+#[path = "flow/lanes.rs"]
+mod lanes;
 #[path = "flow/sections.rs"]
 mod sections;
 

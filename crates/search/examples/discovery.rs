@@ -1,5 +1,5 @@
 //! Table of what a search finds in a folder of case files: `cargo run --release --example discovery
-//! [FOLDER] [SECONDS]`.
+//! [FOLDER] [SECONDS]`. A note `integrals known: N` in a file is compared with the number found.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -19,7 +19,11 @@ struct Row {
     name: String,
     /// Numbers of integrals, Darboux polynomials and densities that are not constant.
     found: [usize; 3],
+    /// Number of functions of constant rate: integrals that depend on time.
+    of_time: usize,
     unproved: usize,
+    /// Number of known independent integrals, where the file states it.
+    known: Option<usize>,
     seconds: f64,
     formulas: Vec<String>,
     failure: Option<String>,
@@ -30,9 +34,9 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
     let outcome = searched(path, limit);
     let seconds = start.elapsed().as_secs_f64();
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let (report, failure) = match outcome {
-        Ok(report) => (report, None),
-        Err(failure) => (Report::default(), Some(failure)),
+    let (known, report, failure) = match outcome {
+        Ok((known, report)) => (known, report, None),
+        Err(failure) => (None, Report::default(), Some(failure)),
     };
     let proved = |kind: &str| {
         let own = report.found.iter().filter(|found| found.kind == kind);
@@ -46,11 +50,9 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
     };
     Row {
         name,
-        found: [
-            proved("integral") + proved("moving-integral"),
-            proved("darboux-polynomial"),
-            proved("density"),
-        ],
+        found: [proved("integral"), proved("darboux-polynomial"), proved("density")],
+        of_time: proved("function-of-constant-rate"),
+        known,
         unproved: report.found.iter().filter(|found| found.verdict != Verdict::Proved).count(),
         seconds,
         formulas: report.found.iter().map(line).collect(),
@@ -58,12 +60,15 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
     }
 }
 
-fn searched(path: &Path, limit: Option<f64>) -> Result<Report, String> {
+fn searched(path: &Path, limit: Option<f64>) -> Result<(Option<usize>, Report), String> {
     let case = Case::read(path, &[]).1.map_err(|error| error.to_string())?;
     let halt =
         limit.map_or_else(Halt::default, |limit| Halt::within(Duration::from_secs_f64(limit)));
     let effort = Effort { halt, ..Effort::default() };
-    search(&case, &effort, &mut |_| {}).map_err(|error| error.to_string())
+    let number = |note: &String| note.strip_prefix("integrals known: ")?.parse().ok();
+    let known = case.notes.iter().find_map(number);
+    let report = search(&case, &effort, &mut |_| {}).map_err(|error| error.to_string())?;
+    Ok((known, report))
 }
 
 fn main() -> ExitCode {
@@ -113,5 +118,14 @@ fn main() -> ExitCode {
         with(2),
         start.elapsed().as_secs_f64()
     );
+    let known: usize = rows.iter().filter_map(|row| row.known).sum();
+    if known > 0 {
+        let found = |row: &Row| row.known.map(|known| known.min(row.found[0] + row.of_time));
+        let found: usize = rows.iter().filter_map(found).sum();
+        let mut times: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
+        times.sort_by(f64::total_cmp);
+        let median = times.get(times.len() / 2).copied().unwrap_or_default();
+        println!("known integrals: {found} of {known} found; median {median:.2} s a system");
+    }
     ExitCode::SUCCESS
 }

@@ -6,6 +6,9 @@ use liouville::claim::{Claim, Integral, Kind};
 use liouville::formula::{Composed, Formula, FormulaError, Type};
 use liouville::verdict::{ClaimReport, Evidence, Verdict, judge};
 
+/// Largest number of functions of a claim of independence.
+const COMPARED: usize = 10;
+
 /// Judges claims about a case, and returns the reports.
 pub fn judged(
     case: &Case,
@@ -56,7 +59,12 @@ pub fn independent(
     effort: &Effort,
 ) -> Result<Option<Evidence>, SearchError> {
     let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
-    let report = judged_alone(case, Claim::independent(all.collect()), effort)?;
+    let all: Vec<Formula> = all.collect();
+    // More functions cannot be compared by a claim.
+    if all.len() > COMPARED {
+        return Ok(None);
+    }
+    let report = judged_alone(case, Claim::independent(all), effort)?;
     let proved = report.filter(|report| report.verdict == Verdict::Proved);
     Ok(proved.map(|report| report.evidence))
 }

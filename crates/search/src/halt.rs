@@ -15,10 +15,11 @@ pub struct Halt {
 }
 
 impl Halt {
-    /// Makes a limit of this duration from now.
+    /// Makes a limit of this duration from now; there is none where there is no clock, as in a
+    /// browser.
     pub fn within(time: Duration) -> Self {
         // A duration beyond the range of the clock is no limit.
-        Self { deadline: Instant::now().checked_add(time), ..Self::default() }
+        Self { deadline: now().and_then(|now| now.checked_add(time)), ..Self::default() }
     }
 
     /// Returns the flag that stops the search, to be set from a signal handler or another thread.
@@ -33,10 +34,16 @@ impl Halt {
 
     /// Fails once the search is to stop.
     pub fn check(&self) -> Result<(), SearchError> {
-        let is_late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let is_late =
+            self.deadline.is_some_and(|deadline| now().is_some_and(|now| now >= deadline));
         match is_late || self.told.load(Ordering::Relaxed) {
             true => Err(SearchError::Stopped),
             false => Ok(()),
         }
     }
+}
+
+/// The time, where there is a clock.
+fn now() -> Option<Instant> {
+    (!cfg!(target_arch = "wasm32")).then(Instant::now)
 }

@@ -260,6 +260,9 @@ pub struct Report {
     pub remarks: Vec<String>,
     /// Parts that a stopped search did not reach; empty for a complete search.
     pub unreached: Vec<String>,
+    /// Parts that could not be carried out as no terms have values modulo a prime.
+    #[serde(skip)]
+    without_points: Vec<String>,
     /// Integrals claimed by the case, with which finds are compared.
     #[serde(skip)]
     claimed: Vec<Claimed>,
@@ -296,6 +299,10 @@ impl Report {
         match effort.halt.check().and_then(|()| run(self)) {
             Err(SearchError::Stopped) => {
                 self.unreached.push(name.to_string());
+                Ok(())
+            }
+            Err(error @ SearchError::NoPoints) => {
+                self.without_points.push(format!("not searched: {name}: {error}"));
                 Ok(())
             }
             other => other,
@@ -349,6 +356,9 @@ pub fn search(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, report, progress)
     })?;
+    for remark in std::mem::take(&mut report.without_points) {
+        report.remark(remark);
+    }
     branches::withdraw(case, effort, &mut report)?;
     Ok(report)
 }

@@ -1,6 +1,6 @@
 //! Closed orbits, with the change of volume along them.
 
-use super::{Beginning, Motional, Stability, Stated, required_number, word};
+use super::{Beginning, Motional, Neighbourhood, Stability, Stated, required_number, word};
 use crate::claim::Reader;
 use crate::formula::{Formula, Type};
 
@@ -30,12 +30,14 @@ pub struct ClosedOrbit {
     pub excludes_density: bool,
     /// Integrals that hold the orbit besides the level functions and the energy.
     pub integrals: Vec<Formula>,
+    /// Parameters that vary about their values: the claim is about all of these.
+    pub parameters: Vec<Neighbourhood>,
 }
 
 impl Motional for ClosedOrbit {
     const NAME: &'static str = "closed-orbit";
     const COMPANIONS: &'static [&'static str] =
-        &["start", "state", "divergence", "stability", "density", "integrals"];
+        &["start", "state", "divergence", "stability", "density", "integrals", "parameters"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let period = required_number(from, Self::NAME)?;
@@ -60,6 +62,7 @@ impl Motional for ClosedOrbit {
             stability: word(from, "stability", &Stability::ALL)?,
             excludes_density: word(from, "density", &[("none", ())])?.is_some(),
             integrals,
+            parameters: Neighbourhood::read(from, "parameters")?,
         })
     }
 
@@ -79,6 +82,11 @@ impl Motional for ClosedOrbit {
             self.stability.and_then(named).map_or(String::new(), |(name, _)| format!("{name}, "));
         let density = if self.excludes_density { ", no density" } else { "" };
         let (period, start) = (&self.period.text, self.beginning.text());
-        format!("{kind}closed orbit of period {period} near {start}{volume}{density}")
+        let varied: Vec<String> = self.parameters.iter().map(Neighbourhood::text).collect();
+        let varied = match varied.is_empty() {
+            true => String::new(),
+            false => format!(", for {}", varied.join(", ")),
+        };
+        format!("{kind}closed orbit of period {period} near {start}{volume}{density}{varied}")
     }
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use super::source::{CATALOGUE, inside};
 use super::{Answer, write_new};
+use liouville_catalogue::{CATALOGUE, inside, title};
 
 #[derive(Debug, Args)]
 pub struct Cases {
@@ -67,12 +67,6 @@ fn list(words: &[String]) -> Result<String, String> {
         )),
         false => Ok(out),
     }
-}
-
-/// Returns the title of a case.
-fn title(text: &str) -> &str {
-    let value = text.lines().find_map(|line| line.strip_prefix("title"));
-    value.map_or("", |value| value.trim_matches([' ', '=', '"', '\'']))
 }
 
 fn found(name: &Path) -> Result<Vec<(&'static str, &'static str)>, String> {

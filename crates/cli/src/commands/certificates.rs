@@ -1,11 +1,15 @@
-//! The option `--certificate` of `liouville check`: one file for each proof by points.
+//! The option `--certificate` of `liouville check`: one file for each proof by points, and for each
+//! closed orbit that is proved.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::report::certificate::{Missing, Origin, certificate};
+use crate::report::motion_certificate::motion_certificate;
+use crate::report::{Outcome, RunReport};
+use liouville::case::{Case, MotionClaim};
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
-use liouville_cli::report::certificate::{Missing, Origin, certificate};
-use liouville_cli::report::{Outcome, RunReport};
+use liouville_flow::observe;
 use rayon::prelude::*;
 
 use super::eval::read_settings;
@@ -69,13 +73,14 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
         .filter(is_by_points)
         .filter_map(|claim| Some((by_name(claim)?, claim)))
         .collect();
+    let origin = Origin { path: &outcome.path, text: &text, settings: &options.settings };
+    let of_motion = of_motion(&case, &report.claims, &origin, options);
     if proved.is_empty() {
-        return Ok(Vec::new());
+        return Ok(of_motion);
     }
     let claims: Vec<usize> = proved.iter().map(|(index, _)| *index).collect();
     let found = statements(&case, &claims, options.sampling.seed)
         .map_err(|error| format!("error: {}: {error}", outcome.path))?;
-    let origin = Origin { path: &outcome.path, text: &text, settings: &options.settings };
     Ok(proved
         .iter()
         .zip(&found)
@@ -83,7 +88,27 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
             let made = certificate(&case, &origin, claim, statement, options.sampling.seed);
             (claim.name.clone(), made.map(|json| format!("{json:#}\n")))
         })
+        .chain(of_motion)
         .collect())
+}
+
+/// Makes the certificates of the closed orbits that are proved.
+fn of_motion(case: &Case, claims: &[ClaimReport], origin: &Origin<'_>, options: &Check) -> Made {
+    let is_proved = |claim: &&MotionClaim| {
+        let mut reports = claims.iter();
+        reports.any(|own| {
+            own.name == claim.name
+                && own.verdict == Verdict::Proved
+                && own.evidence.method == Method::EnclosedOrbit
+        })
+    };
+    let settings = options.sampling.options();
+    let made = |claim: &MotionClaim| {
+        let (report, found) = observe::proof(case, claim, &settings)?;
+        let json = motion_certificate(claim, origin, &report, &found);
+        Some((claim.name.clone(), Ok(format!("{json:#}\n"))))
+    };
+    case.motions.iter().filter(is_proved).filter_map(made).collect()
 }
 
 /// Name of a file that no other certificate of the run has.

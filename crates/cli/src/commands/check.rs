@@ -2,10 +2,10 @@
 
 use std::io::IsTerminal;
 
+use crate::report::terminal::{Detail, Style};
+use crate::report::{diagnostic, json, records, terminal};
 use liouville::case::{Case, Column, is_labelled, labels, matches};
 use liouville::verdict::Options;
-use liouville_cli::report::terminal::{Detail, Style};
-use liouville_cli::report::{diagnostic, json, records, terminal};
 
 use super::eval::read_settings;
 use super::judging::{Work, judge};

@@ -3,11 +3,11 @@
 use std::io::IsTerminal;
 use std::path::Path;
 
+use crate::report::point;
+use crate::report::{Digest, diagnostic};
 use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
 use liouville::verdict;
-use liouville_cli::report::point;
-use liouville_cli::report::{Digest, diagnostic};
 
 use super::{Answer, Eval, colour, source};
 

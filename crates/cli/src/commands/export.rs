@@ -3,12 +3,12 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use crate::report::certificate::hex;
+use crate::report::diagnostic;
+use crate::report::export::{self, Language};
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville::program::Program;
-use liouville_cli::report::certificate::hex;
-use liouville_cli::report::diagnostic;
-use liouville_cli::report::export::{self, Language};
 
 use super::check::is_meant;
 use super::eval::read_settings;

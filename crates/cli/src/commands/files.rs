@@ -4,8 +4,8 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use crate::report::{Failure, diagnostic};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use liouville_cli::report::{Failure, diagnostic};
 
 use super::source;
 
@@ -49,8 +49,8 @@ pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
             }
             Ok(_) => files.push(Ok(path.clone())),
             Err(_) if source::is_standard_input(path) => files.push(Ok(path.clone())),
-            Err(_) if !source::inside(path).is_empty() => {
-                for (name, _) in source::inside(path) {
+            Err(_) if !liouville_catalogue::inside(path).is_empty() => {
+                for (name, _) in liouville_catalogue::inside(path) {
                     files.push(Ok(name.into()));
                 }
             }

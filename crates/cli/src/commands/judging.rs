@@ -7,9 +7,9 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Instant;
 
+use crate::report::{Failure, Heading, Outcome, RunReport, diagnostic};
 use liouville::case::{Case, Expect, Setting};
 use liouville::verdict::{self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict};
-use liouville_cli::report::{Digest, Failure, Heading, Outcome, RunReport, diagnostic};
 use rayon::prelude::*;
 
 use super::files::{self, Found, coloured, plain};
@@ -183,14 +183,7 @@ fn read(slot: &Mutex<Slot>, work: &Work) {
             slot.result = Some(Err(diagnostic::of_case(&shown, &text, &error, coloured())));
         }
         Ok((text, Ok(case))) => {
-            slot.heading = Heading {
-                title: case.title.clone(),
-                source: case.source.clone(),
-                system: case.system.clone(),
-                column: case.column.clone(),
-                notes: case.notes.clone(),
-                digest: Some(Digest::of(&text)),
-            };
+            slot.heading = Heading::of(&case, &text);
             slot.is_read = true;
             slot.stated = stated(&case, work.motions);
             (slot.warnings, slot.remarks) = (case.warnings.clone(), case.remarks.clone());

@@ -14,16 +14,19 @@ mod limits;
 pub mod names;
 pub mod new;
 mod out;
+mod run;
 pub mod schema;
-mod source;
 pub mod table;
+pub mod verify;
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 pub use limits::{Limits, STOPPED};
+pub use run::run;
 
+use crate::source;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 /// First steps, below the list of commands.
@@ -60,6 +63,12 @@ Examples:
     Eval(Eval),
     #[command(flatten)]
     Explore(Box<explore::Command>),
+    /// Replay proofs about motion from their certificates, in balls of 256 bits
+    #[command(after_help = "\
+Example:
+  liouville check figures/fig-8 --motion --claim 'no density' --certificate proofs
+  liouville verify proofs/*.json")]
+    Verify(verify::Verify),
     /// Print a hierarchy table of the paper, filled from verdicts
     #[command(after_help = "Example:\n  liouville table 1 --format latex")]
     Table(Table),
@@ -96,8 +105,8 @@ Example:
 
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
-    pub fn read() -> Self {
-        let matches = Self::described().get_matches();
+    pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Self {
+        let matches = Self::described().get_matches_from(arguments);
         Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
     }
 
@@ -183,7 +192,7 @@ pub struct Check {
     #[arg(long)]
     pub mutants: bool,
     /// Write a certificate of each proof by points of prime fields to this folder, for the checker
-    /// in docs/certificates
+    /// in docs/certificates; with --motion also of each closed orbit, for `liouville verify`
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<PathBuf>,
     /// Also check claims about motion (slow: minutes for cases/figures)
@@ -292,8 +301,8 @@ pub struct Answer {
     pub code: u8,
 }
 
-/// Prints the answer, or the problem; invalid input exits with 2.
-pub fn finish(answer: Result<Answer, String>) -> ExitCode {
+/// Prints the answer, or the problem, and returns the exit code; invalid input exits with 2.
+pub fn finish(answer: Result<Answer, String>) -> u8 {
     match answer {
         Ok(answer) => {
             let mut out = anstream::stdout().lock();
@@ -301,15 +310,15 @@ pub fn finish(answer: Result<Answer, String>) -> ExitCode {
                 // A reader that closes the pipe has read enough.
                 Err(error) if error.kind() != ErrorKind::BrokenPipe => {
                     anstream::eprintln!("error: cannot write the answer: {error}");
-                    return ExitCode::from(2);
+                    return 2;
                 }
                 _ => {}
             }
-            ExitCode::from(answer.code)
+            answer.code
         }
         Err(problem) => {
             anstream::eprintln!("{problem}");
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use liouville_catalogue::templates;
 
 use super::{Answer, write_new};
 
@@ -36,12 +37,12 @@ impl Kind {
     /// Returns the case to start from.
     pub fn template(self) -> &'static str {
         match self {
-            Kind::Field => include_str!("../../templates/field.toml"),
-            Kind::Hamiltonian => include_str!("../../templates/hamiltonian.toml"),
-            Kind::Lagrangian => include_str!("../../templates/lagrangian.toml"),
-            Kind::Map => include_str!("../../templates/map.toml"),
-            Kind::Rolling => include_str!("../../templates/rolling.toml"),
-            Kind::Surface => include_str!("../../templates/surface.toml"),
+            Kind::Field => templates::FIELD,
+            Kind::Hamiltonian => templates::HAMILTONIAN,
+            Kind::Lagrangian => templates::LAGRANGIAN,
+            Kind::Map => templates::MAP,
+            Kind::Rolling => templates::ROLLING,
+            Kind::Surface => templates::SURFACE,
         }
     }
 }

@@ -155,7 +155,7 @@ fn value(key: &str) -> Value {
     if LISTS.contains(&key) {
         kinds.push("array");
     }
-    if TABLES.contains(&key) || matches!(key, "state" | "equals") {
+    if TABLES.contains(&key) || matches!(key, "state" | "equals" | "parameters") {
         kinds.push("object");
     }
     match key {
@@ -230,8 +230,8 @@ mod values;
 
 #[cfg(test)]
 mod tests {
-    use super::super::source::CATALOGUE;
     use super::*;
+    use liouville_catalogue::CATALOGUE;
 
     /// Where a value breaks the schema, if anywhere.
     fn broken(schema: &Value, value: &Value, place: &str) -> Option<String> {

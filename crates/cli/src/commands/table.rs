@@ -1,6 +1,6 @@
 //! The command `liouville table`.
 
-use liouville_cli::report::{diagnostic, table};
+use crate::report::{diagnostic, table};
 
 use super::judging::{Work, judge};
 use super::{Answer, Table, TableFormat, width};

@@ -211,7 +211,7 @@ fn primes(digest: &str) -> Vec<u64> {
 }
 
 /// JSON without spaces, with sorted keys: the form of which the digest is taken.
-fn canonical(value: &Value) -> String {
+pub(super) fn canonical(value: &Value) -> String {
     match value {
         Value::Array(all) => {
             format!("[{}]", all.iter().map(canonical).collect::<Vec<_>>().join(","))

@@ -8,7 +8,7 @@ use predicates::str::contains;
 use crate::{GOOD, folder, json, liouville};
 
 /// A system that keeps a judge busy for minutes.
-const LONG: &str = "title = 'long'\n[parameters]\nn = 16\n[state]\nx = 'matrix(n, n, -1..1)'\n[field]\n\
+pub const LONG: &str = "title = 'long'\n[parameters]\nn = 16\n[state]\nx = 'matrix(n, n, -1..1)'\n[field]\n\
                     \"x'\" = 'x*inverse(x + E(n))*x*inverse(x − 2*E(n))*x'\n[[claim]]\n\
                     integral = 'det(x*x + x)'\n[[claim]]\nname = 'other'\ndensity = '1'\n";
 

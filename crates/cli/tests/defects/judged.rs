@@ -80,6 +80,14 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
         Some("changes its sign") => Ok(()),
         Some("is not new") if independence != Some(Independence::Independent) => Ok(()),
         Some("is not new") => Err("it is constant, and told to be new".to_string()),
+        Some("has no sign of all states") => match answer {
+            Answer::Verdict(report)
+                if !report.evidence.sign_is_partial && sign != Some(Sign::Changes) =>
+            {
+                Err(format!("it is told to be {sign:?} at all states"))
+            }
+            _ => Ok(()),
+        },
         Some("keeps its sign") if sign != Some(Sign::Changes) => Ok(()),
         Some("keeps its sign") => Err("it does not change its sign".to_string()),
         Some(other) => Err(format!("`{other}` is nothing to be tested")),

@@ -7,6 +7,8 @@
 
 use memmap2::Mmap;
 
+use super::super::lanes::Lanes;
+use super::super::number::Number;
 use super::encode::Assembler;
 use liouville::engine::executable;
 
@@ -17,6 +19,28 @@ type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 /// Placeholder, never called: there is no code for other processors.
 #[cfg(not(target_arch = "x86_64"))]
 type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64);
+
+/// Numbers of which machine code sees the f64.
+pub(super) trait Packed: Number {
+    /// The f64 of a list of numbers.
+    fn floats(list: &mut [Self]) -> &mut [f64];
+}
+
+impl Packed for f64 {
+    #[inline(always)]
+    fn floats(list: &mut [f64]) -> &mut [f64] {
+        list
+    }
+}
+
+impl Packed for Lanes<8> {
+    #[inline(always)]
+    fn floats(list: &mut [Self]) -> &mut [f64] {
+        const { assert!(size_of::<Self>() == size_of::<[f64; 8]>(), "no padding") };
+        // SAFETY: the type is laid out as its only field, eight f64, and has their size.
+        unsafe { std::slice::from_raw_parts_mut(list.as_mut_ptr().cast(), list.len() * 8) }
+    }
+}
 
 /// A callable function in executable memory.
 pub(super) struct Executable {
@@ -34,6 +58,12 @@ pub(super) struct Given<'m> {
     pub(super) sums: &'m mut [f64],
 }
 
+/// Whether what is touched around a base lies in memory of this length.
+fn within((least, most): (i32, i32), base: usize, length: usize) -> bool {
+    let (base, length) = (base as i64, length as i64);
+    base <= length && base + i64::from(least) >= 0 && base + i64::from(most) <= length
+}
+
 impl Executable {
     /// Maps the code. `None` where the system refuses the memory. The processor must have the
     /// instructions.
@@ -47,23 +77,20 @@ impl Executable {
     /// Calls the function. Panics if it would access memory outside the given buffers.
     pub(super) fn call(&self, given: Given<'_>) {
         let Given { memory, rows, copies, constants, sums } = given;
-        let within = |(least, most): (i32, i32), base: usize, length: usize| {
-            let (base, length) = (base as i64, length as i64);
-            base <= length && base + i64::from(least) >= 0 && base + i64::from(most) <= length
-        };
         let [of_rows, of_copies, of_constants, of_sums] = self.touched;
         let enough = within(of_rows, rows, memory.len())
             && within(of_copies, copies, memory.len())
             && within(of_constants, 0, constants.len())
             && within(of_sums, 0, sums.len());
         assert!(enough, "machine code needs {:?}", self.touched);
-        // SAFETY: the bytes come from the assembler alone, as a function of this type that has no
-        // jumps and touches no more than it records, which lies within the given buffers. It is made
-        // only where the processor has its instructions.
+        // SAFETY: the bytes come from the assembler alone, as a function of this type that jumps to
+        // places of its own and touches no more than it records, which lies within the given buffers.
+        // It is made only where the processor has its instructions.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
             let all = memory.as_mut_ptr();
-            entry(all.add(rows), all.add(copies), constants.as_mut_ptr(), sums.as_mut_ptr());
+            let (constants, sums) = (constants.as_mut_ptr(), sums.as_mut_ptr());
+            entry(all.add(rows), all.add(copies), constants, sums);
         }
     }
 }

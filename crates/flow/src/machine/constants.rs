@@ -1,87 +1,115 @@
 //! Constants that instructions read in addition to the rows.
 
-use super::super::code::Code;
+use std::collections::BTreeMap;
+
+use super::super::code::{Code, part};
+use super::call::Packed;
 use super::encode::{At, Base};
 
-/// List of constants: 1/n, 1/(n + 1) and small numbers; a scale and a constant for each operation;
-/// a slope, and its fixed part, for each term; the coefficients of factors and of copies.
-pub(super) struct Constants {
-    pub(super) list: Vec<f64>,
+/// List of constants: 1/n, 1/(n + 1) and small numbers; a scale for each operation and a slope for
+/// each term; all other constants of the program, once each.
+pub(super) struct Constants<T> {
+    pub(super) list: Vec<T>,
     slopes: usize,
-    fixed: usize,
-    constants: usize,
-    factors: usize,
-    weights: usize,
+    /// Whether the slope of a term depends on the values.
+    varies: Vec<bool>,
+    fixed: Vec<u32>,
+    constants: Vec<u32>,
+    factors: Vec<u32>,
+    weights: Vec<u32>,
 }
 
 /// Index of the first scale.
 const SCALES: usize = 5;
 
-impl Constants {
-    pub(super) const BY_N: At = At(Base::Constants, 0);
-    pub(super) const BY_NEXT: At = At(Base::Constants, 1);
-    pub(super) const ONE: At = At(Base::Constants, 2);
-    pub(super) const TWO: At = At(Base::Constants, 3);
-    pub(super) const MINUS_ONE: At = At(Base::Constants, 4);
+impl<T: Packed> Constants<T> {
+    pub(super) const BY_N: At = at(0, T::LANES);
+    pub(super) const BY_NEXT: At = at(1, T::LANES);
+    pub(super) const ONE: At = at(2, T::LANES);
+    pub(super) const TWO: At = at(3, T::LANES);
+    pub(super) const MINUS_ONE: At = at(4, T::LANES);
 
-    pub(super) fn new(code: &Code<f64>) -> Self {
-        let mut list = vec![0.0, 0.0, 1.0, 2.0, -1.0];
-        let begin = |list: &mut Vec<f64>, values: &mut dyn Iterator<Item = f64>| {
-            let begin = list.len();
-            list.extend(values);
-            begin
-        };
-        begin(&mut list, &mut code.finishes.iter().map(|finish| finish.scale));
-        Self {
-            slopes: begin(&mut list, &mut code.terms.iter().map(|_| 0.0)),
-            fixed: begin(&mut list, &mut code.terms.iter().map(|term| term.fixed)),
-            constants: begin(&mut list, &mut code.operations.iter().map(|own| own.constant)),
-            factors: begin(&mut list, &mut code.factors.iter().map(|factor| factor.weight)),
-            weights: begin(&mut list, &mut code.copies.iter().map(|copy| copy.weight)),
-            list,
+    pub(super) fn new(code: &Code<T>) -> Self {
+        let mut list: Vec<T> = [0.0, 0.0, 1.0, 2.0, -1.0].map(T::float).to_vec();
+        list.extend(code.finishes.iter().map(|finish| finish.scale));
+        let slopes = list.len();
+        list.extend(code.terms.iter().map(|_| T::ZERO));
+        let mut varies = vec![true; code.terms.len()];
+        for operation in code.operations.iter().filter(|operation| operation.rule.is_sum()) {
+            let factors = part(&code.factors, operation.factors);
+            for term in operation.terms.0..operation.terms.1 {
+                varies[term as usize] = factors.iter().any(|own| own.x == term || own.y == term);
+            }
         }
+        let mut places = BTreeMap::new();
+        let mut place = |value: &T| {
+            *places.entry(value.leading().to_bits()).or_insert_with(|| {
+                list.push(*value);
+                list.len() as u32 - 1
+            })
+        };
+        let fixed = code.terms.iter().map(|term| place(&term.fixed)).collect();
+        let constants = code.operations.iter().map(|own| place(&own.constant)).collect();
+        let factors = code.factors.iter().map(|factor| place(&factor.weight)).collect();
+        let weights = code.copies.iter().map(|copy| place(&copy.weight)).collect();
+        Self { slopes, varies, fixed, constants, factors, weights, list }
     }
 
     /// Copies the scales and slopes of an expansion.
-    pub(super) fn take(&mut self, code: &Code<f64>) {
+    pub(super) fn take(&mut self, code: &Code<T>) {
         let (scales, slopes) = self.list[SCALES..].split_at_mut(self.slopes - SCALES);
         scales.iter_mut().zip(&code.finishes).for_each(|(own, finish)| *own = finish.scale);
         slopes.iter_mut().zip(&code.terms).for_each(|(own, term)| *own = term.slope);
     }
 
     /// Copies 1/n and 1/(n + 1).
-    pub(super) fn at_order(&mut self, n: usize, inverses: &[f64]) {
+    pub(super) fn at_order(&mut self, n: usize, inverses: &[T]) {
         self.list[..2].copy_from_slice(&inverses[n..n + 2]);
     }
 
     /// Sets the slopes of the terms n x_n.
-    pub(super) fn thetas(&mut self, code: &Code<f64>, n: usize) {
+    pub(super) fn thetas(&mut self, code: &Code<T>, n: usize) {
         for theta in &code.thetas {
-            self.list[self.slopes + *theta as usize] = n as f64;
+            self.list[self.slopes + *theta as usize] = T::float(n as f64);
         }
     }
 
     pub(super) fn scale(&self, operation: usize) -> At {
-        At(Base::Constants, (SCALES + operation) as i32)
+        at(SCALES + operation, T::LANES)
     }
 
     pub(super) fn constant(&self, operation: usize) -> At {
-        At(Base::Constants, (self.constants + operation) as i32)
+        at(self.constants[operation] as usize, T::LANES)
     }
 
+    /// Slope of a term, to be read. It is that of all terms with this constant slope.
     pub(super) fn slope(&self, term: usize) -> At {
-        At(Base::Constants, (self.slopes + term) as i32)
+        if self.varies[term] { self.own_slope(term) } else { self.fixed(term) }
+    }
+
+    /// Slope of a term, to be written, if it depends on the values.
+    pub(super) fn varying(&self, term: usize) -> Option<At> {
+        self.varies[term].then(|| self.own_slope(term))
+    }
+
+    fn own_slope(&self, term: usize) -> At {
+        at(self.slopes + term, T::LANES)
     }
 
     pub(super) fn fixed(&self, term: usize) -> At {
-        At(Base::Constants, (self.fixed + term) as i32)
+        at(self.fixed[term] as usize, T::LANES)
     }
 
     pub(super) fn factor(&self, factor: usize) -> At {
-        At(Base::Constants, (self.factors + factor) as i32)
+        at(self.factors[factor] as usize, T::LANES)
     }
 
     pub(super) fn weight(&self, copy: usize) -> At {
-        At(Base::Constants, (self.weights + copy) as i32)
+        at(self.weights[copy] as usize, T::LANES)
     }
+}
+
+/// Address of a constant that takes this many f64.
+const fn at(index: usize, lanes: usize) -> At {
+    At(Base::Constants, (index * lanes) as i32)
 }

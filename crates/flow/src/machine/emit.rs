@@ -2,6 +2,7 @@
 
 use super::super::code::{Code, Order, Place, Product, first};
 use super::super::number::BLOCK;
+use super::call::Packed;
 use super::constants::Constants;
 use super::encode::{Assembler, At, Base, Pairs, Register, Width};
 
@@ -92,8 +93,13 @@ fn totals(to: &mut Assembler, width: Width, at: i32) {
 }
 
 /// Emits order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are
-/// addressed at order n.
-pub(super) fn finish(code: &Code<f64>, constants: &Constants) -> Assembler {
+/// addressed at order n, the inner sums of operations at a distance of `slot` numbers.
+pub(super) fn finish<T: Packed>(
+    code: &Code<T>,
+    constants: &Constants<T>,
+    width: Width,
+    slot: usize,
+) -> Assembler {
     let mut to = Assembler::default();
     let mut kept = Kept::new();
     let mut term = 0;
@@ -102,48 +108,73 @@ pub(super) fn finish(code: &Code<f64>, constants: &Constants) -> Assembler {
     for (index, finish) in code.finishes.iter().enumerate() {
         let own = first(&mut terms, finish.terms);
         let sum = kept.place_of(finish.place);
-        to.load(Width::One, sum, constants.scale(index));
-        to.multiply(sum, sum, At(Base::Sums, finish.inner as i32));
+        let inner = At(Base::Sums, (finish.inner as usize * slot * T::LANES) as i32);
+        if finish.inner as usize == code.counts.len() {
+            to.zero(sum);
+        } else if code.operations[index].rule.is_sum() {
+            to.load(width, sum, inner);
+        } else {
+            to.load(width, sum, constants.scale(index));
+            to.multiply(width, sum, sum, inner);
+        }
         if let Order::Divides = finish.order {
-            to.multiply(sum, sum, Constants::BY_N);
+            to.multiply(width, sum, sum, Constants::<T>::BY_N);
         }
         for read in own {
             let x = kept.find(read.x).unwrap_or_else(|| {
-                to.load(Width::One, 0, At(Base::Rows, read.x as i32));
+                to.load(width, 0, row::<T>(read.x));
                 0
             });
-            to.fused(Width::One, sum, x, constants.slope(term));
+            to.fused(width, sum, x, constants.slope(term));
             term += 1;
         }
-        to.store(Width::One, sum, At(Base::Rows, finish.place as i32));
+        to.store(width, sum, row::<T>(finish.place));
         for _ in 0..finish.copies {
-            to.multiply(1, sum, constants.weight(copy));
-            to.store(Width::One, 1, At(Base::Copies, code.copies[copy].place as i32));
+            to.multiply(width, 1, sum, constants.weight(copy));
+            to.store(width, 1, copied::<T>(code.copies[copy].place));
             copy += 1;
         }
     }
-    next_order(code, constants, &mut to, &kept);
+    next_order(code, constants, width, &mut to, &kept);
     to.end();
     to
 }
 
 /// Emits order n + 1 of the state.
-pub(super) fn next_order(code: &Code<f64>, constants: &Constants, to: &mut Assembler, kept: &Kept) {
+pub(super) fn next_order<T: Packed>(
+    code: &Code<T>,
+    constants: &Constants<T>,
+    width: Width,
+    to: &mut Assembler,
+    kept: &Kept,
+) {
+    let next = |At(base, distance): At, orders: i32| At(base, distance + orders * T::LANES as i32);
+    // Copies run backwards where numbers are added along the order.
+    let along = if T::WIDTH > 1 { -1 } else { 1 };
     let mut copy = 0;
     for component in &code.state {
         let rate = kept.find(component.rate).unwrap_or_else(|| {
-            to.load(Width::One, 0, At(Base::Rows, component.rate as i32));
+            to.load(width, 0, row::<T>(component.rate));
             0
         });
-        to.multiply(1, rate, Constants::BY_NEXT);
-        to.store(Width::One, 1, At(Base::Rows, component.place as i32 + 1));
+        to.multiply(width, 1, rate, Constants::<T>::BY_NEXT);
+        to.store(width, 1, next(row::<T>(component.place), 1));
         for _ in 0..component.copies {
-            to.multiply(0, 1, constants.weight(copy));
-            // Copies run backwards.
-            to.store(Width::One, 0, At(Base::Copies, code.copies[copy].place as i32 - 1));
+            to.multiply(width, 0, 1, constants.weight(copy));
+            to.store(width, 0, next(copied::<T>(code.copies[copy].place), along));
             copy += 1;
         }
     }
+}
+
+/// Address of a row.
+pub(super) fn row<T: Packed>(place: Place) -> At {
+    At(Base::Rows, (place as usize * T::LANES) as i32)
+}
+
+/// Address of a copy.
+fn copied<T: Packed>(place: Place) -> At {
+    At(Base::Copies, (place as usize * T::LANES) as i32)
 }
 
 /// Rows held in registers.

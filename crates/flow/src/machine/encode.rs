@@ -2,6 +2,7 @@
 //!
 //! Operands in memory are a base register and a distance in f64; encodings are those of the Intel
 //! SDM, vol. 2A, 2.3 (VEX) and 2.7 (EVEX). The tests read everything back with a disassembler.
+//! Addresses are moved, and subroutines called, in `calls`.
 
 /// Number of a register; vectors use the same sixteen.
 pub(super) type Register = u8;
@@ -92,25 +93,38 @@ impl Assembler {
         self.plain(width, 0x11, register, 0, to);
     }
 
-    /// Sets register = x · y, one number.
-    pub(super) fn multiply(&mut self, register: Register, x: Register, y: At) {
-        self.plain(Width::One, 0x59, register, x, y);
+    /// Sets register = x · y.
+    pub(super) fn multiply(&mut self, width: Width, register: Register, x: Register, y: At) {
+        self.plain(width, 0x59, register, x, y);
     }
 
-    /// Sets register = x / y, one number.
-    pub(super) fn divide(&mut self, register: Register, x: Register, y: At) {
-        self.plain(Width::One, 0x5e, register, x, y);
+    /// Sets register = x / y.
+    pub(super) fn divide(&mut self, width: Width, register: Register, x: Register, y: At) {
+        self.plain(width, 0x5e, register, x, y);
     }
 
-    /// Sets register = √x, one number.
-    pub(super) fn square_root(&mut self, register: Register, x: At) {
-        self.plain(Width::One, 0x51, register, register, x);
+    /// Sets register = √x.
+    pub(super) fn square_root(&mut self, width: Width, register: Register, x: At) {
+        // Of one number the upper half of the result is copied from a register.
+        let upper = if width == Width::One { register } else { 0 };
+        self.plain(width, 0x51, register, upper, x);
     }
 
     /// Sets register = register + x · y, rounded once.
     pub(super) fn fused(&mut self, width: Width, register: Register, x: Register, y: At) {
         let opcode = if width == Width::One { 0xb9 } else { 0xb8 };
         self.instruction(width, MAP_0F38, PACKED, 1, [opcode, register, x], y);
+    }
+
+    /// Sets register = register + x · y, or register - x · y, rounded once, vectors.
+    pub(super) fn fused_with(
+        &mut self,
+        width: Width,
+        negative: bool,
+        [register, x, y]: [Register; 3],
+    ) {
+        let opcode = if negative { 0xbc } else { 0xb8 };
+        self.between(width, MAP_0F38, [opcode, register, x, y]);
     }
 
     /// Sets register = x + y, vectors.
@@ -154,9 +168,10 @@ impl Assembler {
     fn between(&mut self, width: Width, map: u8, [opcode, register, x, y]: [u8; 4]) {
         let not = |register: Register| (register >> 3 ^ 1) & 1;
         let first = not(register) << 7 | 1 << 6 | not(y) << 5 | map;
-        let second = (!x & 15) << 3 | 1 << 2 | PACKED;
+        let wide = u8::from(width == Width::Eight || map == MAP_0F38);
+        let second = wide << 7 | (!x & 15) << 3 | 1 << 2 | PACKED;
         match width {
-            Width::Eight => self.bytes.extend([0x62, first | 1 << 4, 1 << 7 | second, 0b0100_1000]),
+            Width::Eight => self.bytes.extend([0x62, first | 1 << 4, second, 0b0100_1000]),
             _ => self.bytes.extend([0xc4, first, second]),
         }
         self.bytes.extend([opcode, 0b11 << 6 | (register & 7) << 3 | y & 7]);
@@ -185,8 +200,17 @@ impl Assembler {
             Base::Constants => 2,
             Base::Sums => 1,
         };
-        self.bytes.extend([opcode, 0b10 << 6 | (register & 7) << 3 | number]);
-        self.bytes.extend((8 * distance).to_le_bytes());
+        let operand = (register & 7) << 3 | number;
+        // A short distance counts whole vectors of eight.
+        match i8::try_from(distance / 8) {
+            Ok(short) if width == Width::Eight && distance % 8 == 0 => {
+                self.bytes.extend([opcode, 0b01 << 6 | operand, short.cast_unsigned()]);
+            }
+            _ => {
+                self.bytes.extend([opcode, 0b10 << 6 | operand]);
+                self.bytes.extend((8 * distance).to_le_bytes());
+            }
+        }
         let (least, most) = &mut self.touched[base as usize];
         *least = (*least).min(distance);
         *most = (*most).max(distance + width.numbers() as i32);
@@ -261,15 +285,24 @@ mod tests {
                         assert_eq!(found.op_register(1), named(width, x), "{found:?}");
                         assert_memory(&found, 2);
                     }
-                    for (found, mnemonic, x) in [
-                        (one(|to| to.multiply(register, x, at)), Mnemonic::Vmulsd, x),
-                        (one(|to| to.divide(register, x, at)), Mnemonic::Vdivsd, x),
-                        (one(|to| to.square_root(register, at)), Mnemonic::Vsqrtsd, register),
-                    ] {
-                        assert_eq!(found.mnemonic(), mnemonic, "{found:?}");
-                        assert_eq!(found.op_register(0), named(Width::One, register), "{found:?}");
-                        assert_eq!(found.op_register(1), named(Width::One, x), "{found:?}");
-                        assert_memory(&found, 2);
+                    for width in [Width::One, Width::Four, Width::Eight] {
+                        let one_or = |one, more| if width == Width::One { one } else { more };
+                        let product = one(|to| to.multiply(width, register, x, at));
+                        let quotient = one(|to| to.divide(width, register, x, at));
+                        for (found, mnemonic) in [
+                            (product, one_or(Mnemonic::Vmulsd, Mnemonic::Vmulpd)),
+                            (quotient, one_or(Mnemonic::Vdivsd, Mnemonic::Vdivpd)),
+                        ] {
+                            assert_eq!(found.mnemonic(), mnemonic, "{found:?}");
+                            assert_eq!(found.op_register(0), named(width, register), "{found:?}");
+                            assert_eq!(found.op_register(1), named(width, x), "{found:?}");
+                            assert_memory(&found, 2);
+                        }
+                        let found = one(|to| to.square_root(width, register, at));
+                        let root = one_or(Mnemonic::Vsqrtsd, Mnemonic::Vsqrtpd);
+                        assert_eq!(found.mnemonic(), root, "{found:?}");
+                        assert_eq!(found.op_register(0), named(width, register), "{found:?}");
+                        assert_memory(&found, if width == Width::One { 2 } else { 1 });
                     }
                     let found = one(|to| to.zero(register));
                     assert_eq!(found.mnemonic(), Mnemonic::Vxorpd, "zero");
@@ -299,6 +332,9 @@ mod tests {
                     assert_eq!(found.op_mask(), Iced::None, "{found:?}");
                 };
                 assert_three(&one(|to| to.add(width, register, x, y)), Mnemonic::Vaddpd);
+                let fused = |negative| one(|to| to.fused_with(width, negative, [register, x, y]));
+                assert_three(&fused(false), Mnemonic::Vfmadd231pd);
+                assert_three(&fused(true), Mnemonic::Vfnmadd231pd);
                 let mixed = |odd| one(|to| to.mix(width, odd, [register, x, y]));
                 assert_three(&mixed(false), Mnemonic::Vunpcklpd);
                 assert_three(&mixed(true), Mnemonic::Vunpckhpd);

@@ -1,13 +1,16 @@
-//! Machine code for the expansions of a program over f64.
+//! Machine code for the expansions of a program over f64, of one motion or of eight in lanes.
 //!
 //! An interpreter of programs spends most of its time on addresses. Here addresses are part of the
 //! instructions, and recent results stay in registers. The same sums are made in the same order, so
 //! that the bits are those of the interpreter.
 
 mod call;
+mod calls;
 mod constants;
 mod emit;
 mod encode;
+mod kernel;
+mod lanes;
 mod values;
 
 #[cfg(test)]
@@ -18,10 +21,11 @@ use super::number::{BLOCK, Number};
 use call::{Executable, Given};
 use constants::Constants;
 use encode::Width;
+pub use lanes::LaneMachine;
 use liouville::graph::{Vectors, widest};
 
 /// Functions of a program, and the data they need besides its memory.
-pub(super) struct Machine {
+pub struct Machine {
     order: usize,
     orders: usize,
     /// Inner sums, indexed by the number of vectors along the order, less one.
@@ -29,7 +33,7 @@ pub(super) struct Machine {
     finish: Executable,
     /// Order 0, if all functions in it are instructions.
     values: Option<Executable>,
-    constants: Constants,
+    constants: Constants<f64>,
     /// Values of the inner sums.
     inner: Vec<f64>,
 }
@@ -54,8 +58,8 @@ impl Machine {
             order,
             orders: order.next_multiple_of(BLOCK),
             inner_sums: inner_sums.collect::<Option<_>>()?,
-            finish: Executable::new(&emit::finish(code, &constants))?,
-            values: match values::values(code, &constants) {
+            finish: Executable::new(&emit::finish(code, &constants, Width::One, 1))?,
+            values: match values::values(code, &constants, Width::One) {
                 Some(values) => Some(Executable::new(&values)?),
                 None => None,
             },

@@ -1,7 +1,9 @@
 use num_dual::DualNum;
 
+use super::super::lanes::Lanes;
 use super::super::program::Program;
 use super::super::series::Series;
+use super::super::swarm::LANES;
 use super::encode::Width;
 use super::*;
 use liouville::graph::{Expr, record};
@@ -79,6 +81,63 @@ fn machine_code_has_the_bits_of_the_interpreter() {
                     let expected = coefficients(&interpreted, dimension);
                     assert!(f64::from_bits(expected[order]).is_finite(), "{name}: a series");
                     assert_eq!(found, expected, "{name}, order {order}, {width:?}, {state:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Machine code for lanes, of each width that the processor has; `None` for the interpreter.
+fn in_lanes(program: &Program, order: usize) -> Vec<Series<Lanes<LANES>>> {
+    let widths = match widest() {
+        Vectors::Avx512 => &[None, Some(Width::Four), Some(Width::Eight)][..],
+        Vectors::Avx2 => &[None, Some(Width::Four)],
+        Vectors::Baseline => &[None],
+    };
+    let series = |width: &Option<Width>| {
+        let mut series = Series::<Lanes<LANES>>::new(program, order);
+        if let Some(width) = width {
+            series.expansions = u32::MAX;
+            series.machine = LaneMachine::with_width(&series.code, order, *width).map(Box::new);
+            assert!(series.machine.is_some(), "there is machine code");
+        }
+        series
+    };
+    widths.iter().map(series).collect()
+}
+
+#[test]
+fn lanes_have_the_bits_of_single_motions() {
+    for (name, program) in programs() {
+        for order in ORDERS {
+            let dimension = program.dimension();
+            let mut single = Series::<f64>::new(&program, order);
+            let mut all = in_lanes(&program, order);
+            for turn in 0..20 {
+                let at = |lane: usize, k: usize| {
+                    f64::from((turn * 37 + k as i32 * 61 + lane as i32 * 17) % 101 - 50) / 47.0
+                };
+                let states: Vec<Lanes<LANES>> = (0..dimension)
+                    .map(|k| Lanes(std::array::from_fn(|lane| at(lane, k))))
+                    .collect();
+                for series in &mut all {
+                    if series.machine.is_none() {
+                        series.expansions = 0;
+                    }
+                    series.expand(&states);
+                }
+                for lane in 0..LANES {
+                    let state: Vec<f64> = (0..dimension).map(|k| at(lane, k)).collect();
+                    single.expand(&state);
+                    let expected = coefficients(&single, dimension);
+                    assert!(f64::from_bits(expected[order]).is_finite(), "{name}: a series");
+                    for series in &all {
+                        let rows = (0..dimension).map(|index| series.component(index));
+                        let own = rows.chain([series.output(0)]).flatten();
+                        let found: Vec<u64> = own.map(|x| x.0[lane].to_bits()).collect();
+                        let is_compiled = series.machine.is_some();
+                        assert_eq!(found, expected, "{name}, {order}, {lane}, {is_compiled}");
+                    }
                 }
             }
         }

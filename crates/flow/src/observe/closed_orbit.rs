@@ -1,15 +1,13 @@
 //! Closed orbits, proved by enclosures, and the densities that their ∮ div v excludes.
 
 use super::finding::Finding;
+use super::ground::Ground;
 use super::scene::Scene;
 use crate::{Enclosure, FlowError, Measured, Obstacle, ProvedOrbit, Request, Start, prove};
 use liouville::case::Case;
-use liouville::claim::Claim;
-use liouville::claim::motion::{Beginning, Change, ClosedOrbit, Stability, Stated};
-use liouville::formula::Formula;
-use liouville::mechanics::{Chart, Draw, LevelFunction, Line};
+use liouville::claim::motion::{Change, ClosedOrbit, Neighbourhood, Stability, Stated};
 use liouville::number::rational::Rational;
-use liouville::verdict::{self, Options, Trust, Verdict};
+use liouville::verdict::Options;
 
 /// Distance from the start within which an orbit is the claimed one, relative to the state; the
 /// same for the period.
@@ -21,29 +19,26 @@ pub fn look(
     scene: &Scene<'_>,
     options: &Options,
 ) -> Result<Finding, FlowError> {
+    by(claim, scene, options, prove).map(|(finding, _)| finding)
+}
+
+/// Judges a claim by an orbit that `proof` encloses; returns the orbit too.
+pub fn by(
+    claim: &ClosedOrbit,
+    scene: &Scene<'_>,
+    options: &Options,
+    proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
+) -> Result<(Finding, Option<ProvedOrbit>), FlowError> {
     let mut finding = Finding::default();
-    let case = scene.case;
-    let model = &case.model;
-    if model.system.has_arbitrary_function() {
-        return Err(FlowError::Arbitrary);
+    let found = match Ground::of(claim, scene, options)? {
+        Ok(ground) => ground.enclosed(proof),
+        Err(reason) => Err(reason),
+    };
+    match &found {
+        Ok(found) => judge(claim, found, &mut finding),
+        Err(reason) => finding.leave_open(reason.clone()),
     }
-    if model.free_components() > 0 {
-        let reason = "some parameters have ranges, and an orbit is proved for fixed values";
-        finding.leave_open(reason.to_string());
-        return Ok(finding);
-    }
-    if case.one_sided.is_some() {
-        finding.leave_open("under a one-sided constraint no orbit is proved".to_string());
-        return Ok(finding);
-    }
-    let start = scene.start(&claim.beginning)?;
-    let found = kept(case, &claim.integrals, options)
-        .and_then(|keeps_energy| claimed(claim, scene, &start, keeps_energy));
-    match found {
-        Ok(found) => judge(claim, &found, &mut finding),
-        Err(reason) => finding.leave_open(reason),
-    }
-    Ok(finding)
+    Ok((finding, found.ok()))
 }
 
 /// Proves that no density is continuous and positive on the closed orbit near a start; `None` where
@@ -55,111 +50,10 @@ pub(super) fn exclusion(
     energy: Option<&Rational>,
     options: &Options,
 ) -> Option<String> {
-    if case.one_sided.is_some() || case.model.free_components() > 0 {
-        return None;
-    }
-    let keeps_energy = kept(case, &[], options).ok()?;
-    let found = enclosed(
-        case,
-        &Request {
-            model: &case.model,
-            start,
-            period,
-            keeps_energy,
-            energy,
-            integrals: &[],
-            wants_multipliers: true,
-        },
-    );
-    let found = found.ok()?;
+    let ground = Ground::near(case, start.clone(), period, energy, options).ok()?;
+    let found = ground.enclosed(prove).ok()?;
     let changes = found.volume.is_positive() || (-found.volume).is_positive();
-    changes.then(|| format!("proved: {}", theorem(&found, true, stability(&found))))
-}
-
-/// Encloses the orbit of a claim.
-fn claimed(
-    claim: &ClosedOrbit,
-    scene: &Scene<'_>,
-    start: &Start,
-    keeps_energy: bool,
-) -> Result<ProvedOrbit, String> {
-    let energy = match claim.beginning {
-        Beginning::Section(_) => scene.case.section.as_ref().map(|plan| &plan.energy),
-        Beginning::State(_) => None,
-    };
-    enclosed(
-        scene.case,
-        &Request {
-            model: &scene.case.model,
-            start,
-            period: claim.period.value,
-            keeps_energy,
-            energy,
-            integrals: &claim.integrals.iter().collect::<Vec<_>>(),
-            wants_multipliers: claim.stability.is_some(),
-        },
-    )
-}
-
-/// Encloses an orbit, and checks that it lies where its integrals are proved.
-fn enclosed(case: &Case, request: &Request<'_>) -> Result<ProvedOrbit, String> {
-    let found = prove(request).map_err(|obstacle| match obstacle {
-        Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
-        other => other.to_string(),
-    })?;
-    if found.kept > 0 && !is_inside(case, &found.start) {
-        let reason = "the orbit starts outside the ranges of [state], where its integrals are \
-                      proved";
-        return Err(reason.to_string());
-    }
-    Ok(found)
-}
-
-/// Checks that the level functions and the claimed integrals are proved to be conserved. Returns
-/// whether the energy is.
-fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, String> {
-    let level = case.model.level.iter().map(|equation| match &equation.function {
-        LevelFunction::UnitNormal => "(γ,γ)".to_string(),
-        LevelFunction::NoSpin => "(ω,γ)".to_string(),
-        LevelFunction::Formula(_) => match equation.text.split_once('=') {
-            Some((left, right)) => format!("({left}) - ({right})"),
-            None => equation.text.clone(),
-        },
-    });
-    let integrals = integrals.iter().map(|formula| formula.text().to_string());
-    let needed: Vec<String> = level.chain(integrals).collect();
-    if let Some(text) = needed.iter().find(|text| !is_proved(case, text, options)) {
-        return Err(format!("it is not proved that the motion keeps {}", text.trim()));
-    }
-    Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
-}
-
-/// Whether a function is proved to be an integral on the level.
-fn is_proved(case: &Case, function: &str, options: &Options) -> bool {
-    let Ok(asked) = case.with_claims(&[Claim::integral(function)]) else { return false };
-    let options = Options { trust: Trust::Best, mutants: false, ..*options };
-    let report = verdict::judge(&asked, &options);
-    report.is_ok_and(|report| report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))
-}
-
-/// Whether a box of states lies where identities are proved: near a state that can be drawn they
-/// hold, and an analytic function that is 0 there is 0 along the orbit.
-fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
-    match case.chart {
-        Chart::Rolling | Chart::Sphere => return true,
-        Chart::Given(_) => return false,
-        Chart::Free | Chart::Equations => {}
-    }
-    let is_within = |(draw, x): (&Draw, &Enclosure)| {
-        let (low, high) = (x.mid - x.rad, x.mid + x.rad);
-        match draw {
-            Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
-            Draw::Of(Line::All, _) => true,
-            Draw::Of(Line::Positive, _) => low > 0.0,
-            Draw::OneOf(_) | Draw::Sign => false,
-        }
-    };
-    case.free_draws.len() == state.len() && case.free_draws.iter().zip(state).all(is_within)
+    changes.then(|| format!("proved: {}", theorem(&found, true, stability(&found), &[])))
 }
 
 /// Compares an orbit with the claim.
@@ -202,7 +96,7 @@ fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut Finding) {
             None => finding.leave_open("its stability is not proved by the enclosures".to_string()),
         }
     }
-    finding.theorem = Some(theorem(found, changes, seen));
+    finding.theorem = Some(theorem(found, changes, seen, &claim.parameters));
 }
 
 /// Stability by the enclosed multipliers, one or two of them. That their moduli are 1 is not proved.
@@ -273,15 +167,26 @@ fn printed(x: Enclosure) -> String {
 /// Number of decimals of the state in a theorem.
 const DECIMALS: usize = 12;
 
-fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> String {
+fn theorem(
+    found: &ProvedOrbit,
+    changes: bool,
+    seen: Option<Stability>,
+    varied: &[Neighbourhood],
+) -> String {
     let state: Vec<String> = found.start.iter().map(|x| format!("{:.DECIMALS$}", x.mid)).collect();
     let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
     let wide = printed_bound(wide + 0.51 * libm::pow(10.0, -(DECIMALS as f64)));
     let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
     let (period, volume) = (printed(found.period), printed(found.volume));
     let contraction = printed_bound(found.contraction);
+    let varied: Vec<String> = varied.iter().map(Neighbourhood::text).collect();
+    let varied = varied.join(", ");
+    let each = match varied.as_str() {
+        "" => String::new(),
+        varied => format!("for all parameters with {varied}, "),
+    };
     let orbit = format!(
-        "a closed orbit goes through ({}) ± {wide}, with period {period} and ∮ div v dt = {volume} \
+        "{each}a closed orbit goes through ({}) ± {wide}, with period {period} and ∮ div v dt = {volume} \
          ({} segments, ‖1 − CG'‖ ≤ {contraction}){kind}",
         state.join(", "),
         found.segments,
@@ -293,9 +198,10 @@ fn theorem(found: &ProvedOrbit, changes: bool, seen: Option<Stability>) -> Strin
         0 => "and all near them",
         _ => "and all near them for which the motion keeps the same functions",
     };
+    let these = if varied.is_empty() { "these parameters" } else { "all these parameters" };
     format!(
         "{orbit}; so no invariant measure has a density that is continuous and positive on it, for \
-         these parameters {near}"
+         {these} {near}"
     )
 }
 

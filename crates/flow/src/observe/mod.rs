@@ -14,6 +14,7 @@ mod contacts;
 mod density;
 mod exponents;
 mod finding;
+mod ground;
 mod limit;
 mod periodic;
 mod reaches;
@@ -21,6 +22,7 @@ mod scene;
 mod section;
 
 use crate::FlowError;
+use crate::{Data, Obstacle, ProvedOrbit, Request, replay};
 use liouville::case::{Case, Expect, MotionClaim};
 use liouville::claim::motion::Motion;
 use liouville::verdict::{
@@ -52,6 +54,48 @@ pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimRe
     let scene = Scene::new(case, options.seed);
     for claim in &case.motions {
         keep(report(claim, look(claim, &scene, options), options));
+    }
+}
+
+/// Proves a claim about a closed orbit, and returns the report with the orbit and the data of its
+/// proof. `None` for other claims, and where there is no proof.
+pub fn proof(
+    case: &Case,
+    claim: &MotionClaim,
+    options: &Options,
+) -> Option<(ClaimReport, ProvedOrbit)> {
+    by(case, claim, options, crate::prove).ok()
+}
+
+/// Judges a claim about a closed orbit by the data of a proof, replayed in balls of 256 bits.
+///
+/// # Errors
+/// The reason why the data do not prove the claim.
+pub fn verify(
+    case: &Case,
+    claim: &MotionClaim,
+    data: &Data,
+    options: &Options,
+) -> Result<(ClaimReport, ProvedOrbit), String> {
+    by(case, claim, options, |request| replay(request, data))
+}
+
+fn by(
+    case: &Case,
+    claim: &MotionClaim,
+    options: &Options,
+    proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
+) -> Result<(ClaimReport, ProvedOrbit), String> {
+    let Motion::ClosedOrbit(kind) = &claim.kind else {
+        return Err("the claim is not about a closed orbit".to_string());
+    };
+    let scene = Scene::new(case, options.seed);
+    let (finding, found) = closed_orbit::by(kind, &scene, options, proof)
+        .map_err(|problem| format!("{problem}: {}", problem.help()))?;
+    let report = report(claim, Ok(finding), options);
+    match (report.verdict, found) {
+        (Verdict::Proved, Some(found)) => Ok((report, found)),
+        _ => Err(report.evidence.reason.unwrap_or_else(|| "the claim is not proved".to_string())),
     }
 }
 

@@ -13,6 +13,7 @@ use super::coefficients::LANES;
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
+use super::laws::Laws;
 use super::motion::{Boxed, Motion, Passage};
 use super::{KAPPAS, LEAST_RADIUS, Obstacle};
 use crate::start::Start;
@@ -45,7 +46,8 @@ pub fn follow(
     start: &[Enclosure],
     time: Enclosure,
 ) -> Result<Reached, Obstacle> {
-    let motion = Motion::new(model, parameters, false, &[])?;
+    let laws = Laws { model, parameters, loose: &[], energy: false, integrals: &[] };
+    let motion = Motion::new(&laws)?;
     let state = start.iter().map(|x| Pair::from_f64(x.mid)).collect();
     let begin = Start { parameters: parameters.to_vec(), state, moved: 0.0 };
     let mut obstacle = Obstacle::NoStep(0.0);

@@ -23,6 +23,11 @@ impl Inverse {
         Some(Self { size, entries })
     }
 
+    /// Row of the inverse.
+    pub fn row(&self, index: usize) -> &[f64] {
+        &self.entries[index * self.size..][..self.size]
+    }
+
     /// Approximate product with a vector.
     pub fn times(&self, vector: &[Enclosure]) -> Vec<f64> {
         let row = |row: &[f64]| row.iter().zip(vector).map(|(c, x)| c * x.mid).sum();

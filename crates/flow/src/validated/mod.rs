@@ -14,28 +14,30 @@ mod forward;
 mod functions;
 mod guess;
 mod krawczyk;
+mod laws;
 mod motion;
 mod multipliers;
+mod obstacle;
 mod plan;
+mod replay;
+mod request;
 mod sharp;
 mod shooting;
 mod tail;
 #[cfg(test)]
 mod tests;
 
-use crate::error::FlowError;
-use crate::start::Start;
-use liouville::formula::Formula;
-use liouville::mechanics::Model;
-use liouville::number::rational::Rational;
-
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
+pub use obstacle::Obstacle;
+pub use replay::{Data, replay};
+pub use request::Request;
 
-use functions::{Functions, norm};
+use functions::Functions;
 use guess::Nodes;
 use krawczyk::{Inverse, is_regular};
-use motion::{Boxed, Motion, Passage};
+use motion::{Boxed, Motion, ORDER, Passage};
+use request::moved;
 use shooting::{Frames, Shooting, boxes, times};
 
 /// Largest number of unknowns; the inverse has its square of entries.
@@ -50,24 +52,6 @@ const MOST_BOXES: usize = 6;
 const GROWTH: f64 = 1.3;
 /// Least radius of a box, relative to the unknown.
 const LEAST_RADIUS: f64 = 1e-15;
-
-/// Request for a closed orbit.
-pub struct Request<'r> {
-    /// Model of the case.
-    pub model: &'r Model,
-    /// State near the orbit, with the values of the free parameters.
-    pub start: &'r Start,
-    /// Approximate period.
-    pub period: f64,
-    /// Whether the energy is proved to be conserved.
-    pub keeps_energy: bool,
-    /// Exact value of the energy; that of the start where none is given.
-    pub energy: Option<&'r Rational>,
-    /// Further functions proved to be conserved.
-    pub integrals: &'r [&'r Formula],
-    /// Whether the sum of two multipliers is to be enclosed.
-    pub wants_multipliers: bool,
-}
 
 /// A closed orbit that is proved to exist.
 #[derive(Clone, Debug)]
@@ -92,69 +76,21 @@ pub struct ProvedOrbit {
     pub moved: f64,
     /// Number of conserved functions, the level's among them.
     pub kept: usize,
-}
-
-/// Reason why a motion is not enclosed, or no closed orbit proved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Obstacle {
-    /// The motion cannot be computed.
-    #[error(transparent)]
-    Motion(#[from] FlowError),
-    /// The level equations are dependent at the start.
-    #[error("the level equations are not independent at the start")]
-    Level,
-    /// The orbit is too long.
-    #[error("the orbit takes more than {MOST_UNKNOWNS} unknowns")]
-    TooLong,
-    /// The motion is too long.
-    #[error("the motion takes more than {} steps", forward::MOST_STEPS)]
-    TooManySteps,
-    /// The state is not enclosed well enough.
-    #[error("the enclosure of the state grows too wide near t = {0:.3}")]
-    Wide(f64),
-    /// The equations are singular.
-    #[error(
-        "the equations for the orbit are singular: it is degenerate, or one of a family of closed \
-         orbits, or there is none"
-    )]
-    Degenerate,
-    /// Newton's method does not converge.
-    #[error("no closed orbit is found near the start: Newton's method does not converge")]
-    NoOrbit,
-    /// A step is not proved.
-    #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
-    NoStep(f64),
-    /// The boxes are not mapped into themselves.
-    #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
-    NoContraction(f64),
-    /// The gradients of the conserved functions are not proved independent.
-    #[error("the gradients of the functions kept are not proved independent along the orbit")]
-    Gradients,
+    /// Numbers by which the proof can be replayed.
+    pub data: Data,
 }
 
 /// Proves that there is a closed orbit near a state, with enclosures.
 pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
     let Request { model, start, .. } = request;
-    let state: Vec<f64> = start.state.iter().map(|x| x.hi).collect();
-    let mut functions =
-        Functions::new(model, &start.parameters, request.keeps_energy, request.integrals)?;
-    let values = functions.choose(&state);
+    let state = request.state();
+    let mut functions = Functions::new(&request.laws())?;
+    let numbers = functions.choose(&state);
     if functions.of_level_in_use() < functions.of_level {
         return Err(Obstacle::Level);
     }
-    let known = values.into_iter().map(|value| Rational::from_f64(value).ok_or(Obstacle::NoOrbit));
-    let mut values = known.collect::<Result<Vec<Rational>, _>>()?;
-    values[..functions.of_level].fill(Rational::from(0));
-    if request.keeps_energy
-        && let Some(energy) = request.energy
-    {
-        let place = functions.of_level;
-        if functions.uses(place) {
-            values[place] = energy.clone();
-        }
-    }
-    let (energy, integrals) = (request.keeps_energy, request.integrals);
-    let motion = Motion::new(model, &start.parameters, energy, integrals)?;
+    let values = request.values(&functions, &numbers)?;
+    let motion = Motion::new(&request.laws())?;
     let shooting = Shooting { motion, functions, values };
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {
@@ -164,9 +100,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             .and_then(|search| search.prove(request.wants_multipliers))
         {
             Ok(mut found) => {
-                let gap: Vec<f64> =
-                    found.start.iter().zip(&state).map(|(x, y)| x.mid - y).collect();
-                found.moved = norm(&gap) / norm(&state);
+                found.moved = moved(&found.start, &state);
+                found.data.values = numbers;
                 return Ok(found);
             }
             // Shorter segments have better chances.
@@ -188,7 +123,7 @@ struct Search<'s> {
 impl<'s> Search<'s> {
     /// Moves the nodes to a closed orbit by Newton's method.
     fn new(shooting: &'s Shooting, mut nodes: Nodes) -> Result<Self, Obstacle> {
-        let order = shooting.folded(nodes.states.len());
+        let order = shooting::folded(shooting.motion.dimension, nodes.states.len());
         let size = nodes.states.iter().flatten().fold(nodes.period, |a, b| a.max(b.abs()));
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
@@ -223,7 +158,16 @@ impl<'s> Search<'s> {
         let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
         self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
         let Self { shooting, nodes, frames, inverse } = &self;
-        let offsets = inverse.bounds(&residual(shooting, nodes, frames)?);
+        let mut offsets = inverse.bounds(&residual(shooting, nodes, frames)?);
+        if shooting.motion.loose > 0 {
+            // By the mean value theorem in the parameters, at the nodes.
+            let starts = boxes(nodes, None);
+            let passages = passages(shooting, nodes, &starts, Enclosure::exact(nodes.period))?;
+            for column in shooting.by_parameters(frames, &starts, &passages) {
+                let moved = inverse.bounds(&column);
+                offsets = offsets.iter().zip(&moved).map(|(a, b)| raised(a, b)).collect();
+            }
+        }
         let unknowns: Vec<f64> =
             nodes.states.iter().flatten().copied().chain([nodes.period]).collect();
         let floor = |x: &f64| LEAST_RADIUS * x.abs().max(1.0);
@@ -240,6 +184,7 @@ impl<'s> Search<'s> {
             let images: Vec<f64> = offsets.iter().zip(&moved).map(|(z, d)| raised(z, d)).collect();
             if images.iter().zip(&radii).all(|(image, radius)| image < radius) {
                 let mut found = self.proved(&starts, &passages, &images, norm)?;
+                found.data.radii = radii;
                 if wants_multipliers && found.multipliers == 2 {
                     found.sum = multipliers::sum(shooting, frames, &starts, &passages);
                 }
@@ -250,7 +195,10 @@ impl<'s> Search<'s> {
             }
             radii = images.iter().zip(&unknowns).map(|(k, x)| GROWTH * k + floor(x)).collect();
         }
-        Err(Obstacle::NoContraction(contraction))
+        Err(match shooting.motion.loose {
+            0 => Obstacle::NoContraction(contraction),
+            _ => Obstacle::TooWide(contraction),
+        })
     }
 
     /// Checks that the segments fit together, and gathers the enclosures. The zero lies in the image
@@ -271,7 +219,7 @@ impl<'s> Search<'s> {
             let mut rows: Vec<Boxed> = directions
                 .map(|direction| direction.iter().map(|x| Enclosure::exact(*x)).collect())
                 .collect();
-            rows.extend(shooting.functions.at(&hull).1);
+            rows.extend(shooting.functions.slopes(&hull));
             if !is_regular(&rows) {
                 return Err(Obstacle::Gradients);
             }
@@ -291,6 +239,16 @@ impl<'s> Search<'s> {
             contraction,
             moved: 0.0,
             kept: shooting.functions.len(),
+            data: Data {
+                order: ORDER,
+                functions: shooting.functions.used().to_vec(),
+                values: Vec::new(),
+                nodes: nodes.states.clone(),
+                shares: nodes.shares.clone(),
+                period: nodes.period,
+                radii: Vec::new(),
+                tails: passages.iter().map(|passage| passage.radius).collect(),
+            },
         })
     }
 }

@@ -2,16 +2,15 @@
 
 use super::coefficients::{Block, Coefficients, LANES};
 use super::enclosure::Enclosure;
+use super::laws::Laws;
 use super::plan::Plan;
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
-use crate::motion::point;
 use crate::program::Program;
-use liouville::formula::Formula;
 use liouville::graph::{Expr, record};
+use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::Jet;
-use liouville::mechanics::{Model, Phase};
 use liouville::number::ball::Balls;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -27,39 +26,48 @@ pub type Boxed = Vec<Enclosure>;
 pub struct Passage {
     /// End states.
     pub end: Boxed,
-    /// Derivative of the end with respect to the start, row by row.
+    /// Derivative of the end with respect to the start, then to the loose parameters, row by row.
     pub derivative: Vec<Boxed>,
     /// Integral of the divergence on the level.
     pub volume: Enclosure,
+    /// Radius ρ of the norm in which the tails are bounded.
+    pub radius: f64,
 }
 
-/// Equations of a model with fixed parameters, for steps that are proved.
+/// Equations of a model, for steps that are proved.
 pub struct Motion {
     pub dimension: usize,
-    state: Plan,
+    /// Number of loose parameters, each a function of a variable between -1 and 1.
+    pub loose: usize,
+    /// Plan with all parameters at their centres.
+    pub state: Plan,
+    /// Plan with the loose parameters as further components of the state.
+    pub wide: Plan,
     /// Plan with the derivative and ∫ div v, and with ∫ L_vF of the conserved functions F: no step
     /// is proved across a point where one of them is not analytic.
-    full: Plan,
+    pub full: Plan,
 }
 
 impl Motion {
-    /// Records the field, its derivative along each axis, the divergence on the level, and the rates
-    /// of the conserved functions: the level's, the energy where asked, and integrals.
-    pub fn new(
-        model: &Model,
-        parameters: &[Rational],
-        energy: bool,
-        integrals: &[&Formula],
-    ) -> Result<Self, FlowError> {
-        let n = model.dimension();
-        let state = plan(model, parameters, 0, |phase, _| phase.field().to_vec())?;
+    /// Records the field, its derivative along each axis and each loose parameter, the divergence on
+    /// the level, and the rates of the conserved functions.
+    pub fn new(laws: &Laws<'_>) -> Result<Self, FlowError> {
+        let Laws { model, energy, integrals, .. } = *laws;
+        let (n, loose) = (model.dimension(), laws.loose.len());
+        let state = plan(&Laws { loose: &[], ..*laws }, 0, |phase, _, _| phase.field().to_vec())?;
+        let wide = plan(laws, 0, |phase, _, _| phase.field().to_vec())?;
         let sizes = integrals.iter().map(|formula| formula.value_type().size());
         let kept = model.level.len() + usize::from(energy) + sizes.sum::<usize>();
-        let full = plan(model, parameters, n * n + 1 + kept, |phase, more| {
+        let full = plan(laws, n * (n + loose) + 1 + kept, |phase, inputs, more| {
             let jet = Jet::new(phase.with(&[], &phase.state()));
             let mut rates = jet.phase.field().to_vec();
-            for vector in more[..n * n].chunks(n) {
-                rates.extend(jet.phase.lift(vector).field().iter().map(|rate| rate.eps));
+            for (index, vector) in more[..n * (n + loose)].chunks(n).enumerate() {
+                rates.extend(match index.checked_sub(n) {
+                    None => slopes(&jet.phase.lift(vector)),
+                    Some(parameter) => {
+                        slopes(&laws.lifted(&phase.state(), inputs, vector, parameter))
+                    }
+                });
             }
             let level = vec![true; model.level.len()];
             rates.push(jet.divergence() - jet.level_cofactor(&level));
@@ -73,7 +81,7 @@ impl Motion {
             rates.extend(integrals.iter().flat_map(|formula| jet.rates(formula)));
             rates
         })?;
-        Ok(Self { dimension: n, state, full })
+        Ok(Self { dimension: n, loose, state, wide, full })
     }
 
     /// Encloses how far the states after steps of `shares` of a period are from `targets`, in
@@ -102,52 +110,76 @@ impl Motion {
 
     /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
     pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Passage>> {
-        let n = self.dimension;
+        let (n, loose) = (self.dimension, self.loose);
+        let count = n * (n + loose);
         let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
-        let vectors = (0..n).flat_map(|i| (0..n).map(move |j| Enclosure::exact(unit(i, j))));
-        let integrals = std::iter::repeat_n(Enclosure::ZERO, self.full.dimension - n - n * n);
-        let vectors: Vec<Enclosure> = vectors.chain(integrals).collect();
+        let vectors =
+            (0..n + loose).flat_map(|i| (0..n).map(move |j| Enclosure::exact(unit(i, j))));
+        let others = self.full.dimension - n - loose - count;
+        let further: Vec<Enclosure> = self
+            .ranges()
+            .chain(vectors)
+            .chain(std::iter::repeat_n(Enclosure::ZERO, others))
+            .collect();
         let starts: Vec<Boxed> =
-            starts.iter().map(|state| [state.as_slice(), &vectors].concat()).collect();
+            starts.iter().map(|state| [state.as_slice(), &further].concat()).collect();
         let passage = |end: End| {
-            let mut end = end.state;
-            let columns = end.split_off(n);
+            let (mut end, radius) = (end.state, end.radius);
+            let columns = end.split_off(n).split_off(loose);
             let derivative = (0..n)
-                .map(|row| (0..n).map(|column| columns[column * n + row]).collect())
+                .map(|row| (0..n + loose).map(|column| columns[column * n + row]).collect())
                 .collect();
-            Passage { end, derivative, volume: columns[n * n] }
+            Passage { end, derivative, volume: columns[count], radius }
         };
         steps(&self.full, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
 
-    /// Encloses the field at states.
+    /// Encloses the field at states, for all values of the loose parameters.
     pub fn field(&self, states: &[Boxed]) -> Vec<Boxed> {
-        let mut coefficients = Coefficients::new(&self.state, 1);
+        let mut coefficients = Coefficients::new(&self.wide, 1);
         let mut fields = Vec::new();
+        let whole = |state: &Boxed| state.iter().copied().chain(self.ranges()).collect();
+        let states: Vec<Boxed> = states.iter().map(whole).collect();
         for group in states.chunks(LANES) {
             coefficients.values(&blocks(group));
             for lane in 0..group.len() {
-                let rates = self.state.rates.iter();
+                let rates = self.wide.rates[..self.dimension].iter();
                 fields.push(rates.map(|row| of_lane(&coefficients.get(*row, 0), lane)).collect());
             }
         }
         fields
     }
+
+    /// Encloses the variables of the loose parameters.
+    fn ranges(&self) -> impl Iterator<Item = Enclosure> + use<> {
+        std::iter::repeat_n(Enclosure::about(0.0, 1.0), self.loose)
+    }
 }
 
-/// Compiles rates over the state and `more` further variables, all constants enclosed.
+/// Derivative parts of the field.
+fn slopes(phase: &Phase<'_, Dual<Expr>>) -> Vec<Expr> {
+    phase.field().iter().map(|rate| rate.eps).collect()
+}
+
+/// Compiles rates over the state, the loose parameters and `more` further variables, all constants
+/// enclosed. `build` receives a point, the loose parameters and the variables, and returns the rates
+/// of the state and of the variables.
 fn plan(
-    model: &Model,
-    parameters: &[Rational],
+    laws: &Laws<'_>,
     more: usize,
-    build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> Vec<Expr>,
+    build: impl FnOnce(&Phase<'_, Expr>, &[Expr], &[Expr]) -> Vec<Expr>,
 ) -> Result<Plan, FlowError> {
-    let dimension = model.dimension();
-    let (graph, rates) = record(dimension + more, |inputs| {
-        let (state, more) = inputs.split_at(dimension);
-        build(&point(model, parameters, state), more)
+    let (dimension, loose) = (laws.model.dimension(), laws.loose.len());
+    let (graph, rates) = record(dimension + loose + more, |inputs| {
+        let (state, rest) = inputs.split_at(dimension);
+        let (free, more) = rest.split_at(loose);
+        let mut rates = build(&laws.point(state, free), free, more);
+        let rest = rates.split_off(dimension.min(rates.len()));
+        rates.extend(free.iter().map(|_| Expr::rational(&Rational::from(0))));
+        rates.extend(rest);
+        rates
     })?;
-    if graph.inputs() > dimension + more {
+    if graph.inputs() > dimension + loose + more {
         return Err(FlowError::Antiderivative);
     }
     Plan::new(&Program::exact(&graph, &rates)?)

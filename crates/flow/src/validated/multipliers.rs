@@ -33,7 +33,7 @@ pub fn sum(
             columns[component].push((row, Enclosure::exact(*x)));
         }
     }
-    for (row, gradient) in shooting.functions.at(boxes.first()?).1.iter().enumerate() {
+    for (row, gradient) in shooting.functions.slopes(boxes.first()?).iter().enumerate() {
         for (component, slope) in gradient.iter().enumerate() {
             columns[component].push((across.len() + row, *slope));
         }
@@ -42,7 +42,7 @@ pub fn sum(
     for (index, passage) in others.iter().enumerate() {
         for row in 0..n {
             let place = n * (index + 1) + row;
-            for (component, slope) in passage.derivative[row].iter().enumerate() {
+            for (component, slope) in passage.derivative[row][..n].iter().enumerate() {
                 columns[n * index + component].push((place, -*slope));
             }
             columns[place].push((place, Enclosure::exact(1.0)));

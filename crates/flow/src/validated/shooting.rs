@@ -114,7 +114,7 @@ impl Shooting {
                 let share = Enclosure::exact(nodes.shares[index]);
                 columns[n * count].push((row, share * combined(direction, &fields[index])));
             }
-            let gradients = self.functions.at(&boxes[index]).1;
+            let gradients = self.functions.slopes(&boxes[index]);
             for (row, gradient) in gradients.iter().enumerate() {
                 for (component, slope) in gradient.iter().enumerate() {
                     columns[n * index + component].push((n * index + across + row, *slope));
@@ -127,12 +127,36 @@ impl Shooting {
         columns
     }
 
-    /// Order of the unknowns in which the equations of a closed chain lie near the diagonal: nodes
-    /// 0, m - 1, 1, m - 2, …, and the period.
-    pub fn folded(&self, count: usize) -> Vec<usize> {
-        let n = self.motion.dimension;
-        let node = |k: usize| if k.is_multiple_of(2) { k / 2 } else { count - k.div_ceil(2) };
-        let nodes = (0..count).flat_map(|k| (0..n).map(move |component| n * node(k) + component));
-        nodes.chain([n * count]).collect()
+    /// Encloses the derivative of the equations with respect to each loose parameter, a column each.
+    pub fn by_parameters(
+        &self,
+        frames: &Frames,
+        boxes: &[Boxed],
+        passages: &[Passage],
+    ) -> Vec<Boxed> {
+        let (n, count) = (self.motion.dimension, boxes.len());
+        let mut columns = vec![Boxed::new(); self.motion.loose];
+        for (index, passage) in passages.iter().enumerate() {
+            let next = (index + 1) % count;
+            let gradients = self.functions.gradients(&boxes[index]);
+            for (parameter, column) in columns.iter_mut().enumerate() {
+                let moved: Boxed =
+                    passage.derivative.iter().map(|row| row[n + parameter]).collect();
+                let directions = frames.across[next].iter();
+                column.extend(directions.map(|direction| combined(direction, &moved)));
+                column.extend(gradients.iter().map(|gradient| gradient[n + parameter]));
+            }
+        }
+        // The phase does not depend on them.
+        columns.iter_mut().for_each(|column| column.push(Enclosure::ZERO));
+        columns
     }
+}
+
+/// Order of the unknowns in which the equations of a closed chain lie near the diagonal: nodes 0,
+/// m - 1, 1, m - 2, …, and the period.
+pub fn folded(n: usize, count: usize) -> Vec<usize> {
+    let node = |k: usize| if k.is_multiple_of(2) { k / 2 } else { count - k.div_ceil(2) };
+    let nodes = (0..count).flat_map(|k| (0..n).map(move |component| n * node(k) + component));
+    nodes.chain([n * count]).collect()
 }

@@ -335,6 +335,8 @@ pub struct End {
     pub state: Vec<Enclosure>,
     /// Bounds of the remainders of the polynomials of the components.
     pub rest: Vec<f64>,
+    /// Radius ρ of the norm.
+    pub radius: f64,
 }
 
 /// Work of settling tails, and the lanes where they are.
@@ -387,6 +389,11 @@ pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Op
         let end = |block: &Block| Enclosure { mid: block.mid[lane], rad: block.rad[lane] };
         let state: Vec<Enclosure> = ends.iter().map(end).collect();
         let rest = rests.iter().map(|rest| rest[lane]).collect();
-        (settled[lane] && state.iter().all(|x| x.is_finite())).then_some(End { state, rest })
+        let radius = tails.radius[lane];
+        (settled[lane] && state.iter().all(|x| x.is_finite())).then_some(End {
+            state,
+            rest,
+            radius,
+        })
     })
 }

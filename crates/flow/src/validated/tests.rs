@@ -19,7 +19,7 @@ type Number = <Precise as Domain>::Block;
 
 const PRECISE: fn() -> Precise = || Precise::new(200);
 
-fn plan(dimension: usize, field: impl FnOnce(&[Expr]) -> Vec<Expr>) -> Plan {
+pub(super) fn plan(dimension: usize, field: impl FnOnce(&[Expr]) -> Vec<Expr>) -> Plan {
     let (graph, rates) = record(dimension, |x| field(x)).expect("recorded");
     Plan::new(&Program::exact(&graph, &rates).expect("compiled")).expect("enclosed")
 }
@@ -61,7 +61,7 @@ fn assert_inside(found: Enclosure, truth: &Number, what: &str) {
 }
 
 /// Numbers in (0, 1), always the same.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
@@ -69,7 +69,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 }

@@ -8,7 +8,9 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
-use crate::graph::{Vectors, widest};
+use crate::graph::Vectors;
+#[cfg(target_arch = "x86_64")]
+use crate::graph::widest;
 
 /// A vector of `LANES` lanes; all operations are correctly rounded.
 pub(super) trait Vector: Copy {

@@ -32,6 +32,12 @@ impl Step<'_> {
         first.into_iter().chain(second)
     }
 
+    /// Repeats a step other than an input in the recording under way, from the values of its
+    /// arguments.
+    pub fn repeat_from(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        self.repeat(&[], at)
+    }
+
     /// Repeats the step in the recording under way, from other inputs and the values of its
     /// arguments.
     pub(super) fn repeat(

@@ -9,13 +9,14 @@
 //!
 //! docs/soundness.md, "Cells".
 
-use crate::graph::{Expr, Fault, Graph, record};
+use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::number::Function;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 use super::fact::Fact;
 use super::rewrite::{Rewrite, conditions};
-use super::trial::{Certificate, Finding, both};
+use super::trial::{Certificate, Finding, MOST_NESTED, both};
 
 /// A part of the real inputs on which some signs are fixed.
 pub struct Cell {
@@ -62,7 +63,11 @@ impl Cell {
             facts.iter().map(|(value, fact)| (graph.place(*value), *fact)).collect();
         let all: Vec<usize> = places.iter().copied().chain(facts.iter().map(|f| f.0)).collect();
         let reached = graph.reached_from(&all);
+        let layers = layers(graph, &reached);
         let (own, found) = record(graph.inputs(), |inputs| {
+            for layer in &layers {
+                graph.replay(layer, inputs, |_, _, _| None);
+            }
             let values = graph.replay(&reached, inputs, |_, _, _| None);
             replayed(&values, places, &facts)
         })?;
@@ -124,6 +129,39 @@ impl Cell {
         let certificate = both(self.certificate, change.certificate);
         let fixed = self.fixed.iter().copied().chain(change.fixed).collect();
         Ok(Self { graph, values, facts, chosen, fixed, certificate })
+    }
+}
+
+/// Lists the values under at most 0, 1, … nested roots, if some root follows one that is nested more
+/// deeply; otherwise nothing. A root can be rewritten by those before it only.
+fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
+    let mut depths = vec![0; graph.len()];
+    let (mut deepest, mut is_ordered) = (0, true);
+    for place in (0..graph.len()).filter(|place| reached[*place]) {
+        let step = graph.step(place);
+        let below = step.arguments().map(|argument| depths[argument]).max().unwrap_or(0);
+        let is_root = is_root(&step);
+        // √√x belongs to x, like √x.
+        let is_first = step.arguments().all(|argument| !self::is_root(&graph.step(argument)));
+        depths[place] = below + usize::from(is_root && is_first);
+        is_ordered &= !is_root || depths[place] >= deepest;
+        deepest = deepest.max(depths[place]);
+    }
+    if is_ordered {
+        return Vec::new();
+    }
+    let within = |most: usize| {
+        let is_within = |place: usize| reached[place] && depths[place] <= most;
+        (0..graph.len()).map(is_within).collect()
+    };
+    (0..deepest.min(MOST_NESTED as usize)).map(within).collect()
+}
+
+fn is_root(step: &Step<'_>) -> bool {
+    match step {
+        Step::Unary(Function::Sqrt, _) => true,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
     }
 }
 

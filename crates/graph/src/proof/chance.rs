@@ -29,6 +29,8 @@ pub enum Stream {
     Squares = 7,
     /// Points for the classes of equal values in a graph.
     Classes = 8,
+    /// Points for the search for products of powers.
+    Logarithms = 9,
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.

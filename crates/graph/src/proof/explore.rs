@@ -12,6 +12,7 @@ use super::classes::Classes;
 use super::digest::Digest;
 use super::domain::Region;
 use super::fact::Fact;
+use super::logarithms::Rules;
 use super::lower::Algebraic;
 use super::rewrite::Rewrite;
 use super::roots::{RootFinder, Search};
@@ -182,6 +183,12 @@ impl Explorer<'_> {
                     None => open.push((modulus.place, argument)),
                 },
             }
+        }
+        if rewrites.is_empty() {
+            let (sources, digest) = (self.sources, self.digest);
+            let rules = Rules { graph, algebraic: &algebraic, sources, digest };
+            let found = rules.find(&cell.values);
+            (rewrites, certificate) = (found.0, both(certificate, found.1));
         }
         if !rewrites.is_empty() {
             return Ok(Next::Rewrite(rewrites, certificate));

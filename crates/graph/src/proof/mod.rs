@@ -31,6 +31,7 @@ mod elimination;
 mod explore;
 mod extent;
 mod fact;
+mod logarithms;
 mod lower;
 mod nested;
 mod numbers;

@@ -14,15 +14,15 @@ use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
 use super::symbols::Symbols;
 use super::tower::Tower;
-use super::trial::{Finding, LANES, Residues, Roots, Trial, points};
+use super::trial::{Certificate, Finding, LANES, Residues, Roots, Trial, points};
 
 /// Largest number of values to be related: the cost is cubic.
-const MOST: usize = 40;
+pub const MOST: usize = 40;
 /// Number of rows beyond the number of columns.
-const SPARE: usize = 4;
+pub const SPARE: usize = 4;
 
 /// A map from the values at some places to values that must vanish; `None` if a value is missing.
-type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
+pub type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
 
 /// A combination constant + Σ multiples_i e_i over a basis e.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,9 +59,12 @@ impl<'g> Relations<'g> {
             return None;
         }
         let mut chance = Chance::of(self.digest, Stream::Relations);
-        let modulus = self.prime(&mut chance);
+        let modulus = prime_for(&self.algebraic, &mut chance);
         let columns = places.len() + usize::from(with_one);
-        let rows = self.rows(places, with_one, columns + SPARE, &modulus, &mut chance)?;
+        let outputs: Option<Vec<Expr>> =
+            places.iter().map(|place| self.algebraic.values[*place]).collect();
+        let count = columns + SPARE;
+        let rows = rows(&self.algebraic, &outputs?, with_one, count, &modulus, &mut chance)?;
         let (pivots, rows) = reduce(rows, columns, &modulus);
         let offset = usize::from(with_one);
         let basis: Vec<usize> = pivots.iter().copied().filter(|c| *c >= offset).collect();
@@ -98,52 +101,6 @@ impl<'g> Relations<'g> {
         [false, true].into_iter().find(holds)
     }
 
-    fn prime(&self, chance: &mut Chance) -> Modulus {
-        chance.prime_with_roots(&Wanted {
-            odd: self.algebraic.odd_indices(),
-            squares: self.algebraic.squares(),
-            depth: self.algebraic.depth(),
-        })
-    }
-
-    /// Evaluates at random points over one prime, two rows for each point: an element of the
-    /// quadratic extension is two of the field.
-    fn rows(
-        &self,
-        places: &[usize],
-        with_one: bool,
-        count: usize,
-        modulus: &Modulus,
-        chance: &mut Chance,
-    ) -> Option<Vec<Vec<u64>>> {
-        let outputs: Option<Vec<Expr>> =
-            places.iter().map(|place| self.algebraic.values[*place]).collect();
-        let tape = Tape::new(&self.algebraic.graph, &outputs?);
-        let moduli = [*modulus; LANES];
-        let mut evaluator = Evaluator::new(&tape, Quadratic::new(moduli));
-        let mut rows = Vec::new();
-        for _ in 0..64 * count {
-            let block = points(&moduli, &self.algebraic.sources, &[], chance);
-            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
-            for lane in 0..LANES {
-                let values: Vec<[u64; 2]> = evaluator.outputs().map(|block| block[lane]).collect();
-                if values.iter().any(|value| value[0] == UNDEFINED) {
-                    continue;
-                }
-                for (part, one) in [modulus.one(), 0].into_iter().enumerate() {
-                    let one = with_one.then_some(one);
-                    let row: Vec<u64> =
-                        one.into_iter().chain(values.iter().map(|value| value[part])).collect();
-                    rows.push(row);
-                }
-            }
-            if rows.len() >= 2 * count {
-                return Some(rows);
-            }
-        }
-        None
-    }
-
     /// Whether the values at the places are proved to be the combinations.
     fn verify(&self, places: &[usize], basis: &[usize], combinations: &[Combination]) -> bool {
         self.vanish(places, &|values| {
@@ -163,27 +120,102 @@ impl<'g> Relations<'g> {
 
     /// Whether some functions of the values at these places are proved to vanish.
     fn vanish(&self, places: &[usize], defects: &Defects<'_>) -> bool {
+        let Self { graph, sources, digest, .. } = *self;
+        Defect { graph, sources, digest, is_related: false }.vanishing(places, defects).is_some()
+    }
+}
+
+/// Draws a prime whose field contains the roots of an algebraic graph.
+pub fn prime_for(algebraic: &Algebraic<'_>, chance: &mut Chance) -> Modulus {
+    chance.prime_with_roots(&Wanted {
+        odd: algebraic.odd_indices(),
+        squares: algebraic.squares(),
+        depth: algebraic.depth(),
+    })
+}
+
+/// Evaluates at random points over one prime, two rows for each point: an element of the quadratic
+/// extension is two of the field. `None` if too few points exist.
+pub fn rows(
+    algebraic: &Algebraic<'_>,
+    outputs: &[Expr],
+    with_one: bool,
+    count: usize,
+    modulus: &Modulus,
+    chance: &mut Chance,
+) -> Option<Vec<Vec<u64>>> {
+    let tape = Tape::new(&algebraic.graph, outputs);
+    let moduli = [*modulus; LANES];
+    let mut evaluator = Evaluator::new(&tape, Quadratic::new(moduli));
+    let mut rows = Vec::new();
+    for _ in 0..64 * count {
+        let block = points(&moduli, &algebraic.sources, &[], chance);
+        evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
+        for lane in 0..LANES {
+            let values: Vec<[u64; 2]> = evaluator.outputs().map(|block| block[lane]).collect();
+            if values.iter().any(|value| value[0] == UNDEFINED) {
+                continue;
+            }
+            for (part, one) in [modulus.one(), 0].into_iter().enumerate() {
+                let one = with_one.then_some(one);
+                let row: Vec<u64> =
+                    one.into_iter().chain(values.iter().map(|value| value[part])).collect();
+                rows.push(row);
+            }
+        }
+        if rows.len() >= 2 * count {
+            return Some(rows);
+        }
+    }
+    None
+}
+
+/// A test of functions of the values at some places of a graph.
+#[derive(Clone, Copy)]
+pub struct Defect<'d> {
+    /// Graph of the computation.
+    pub graph: &'d Graph,
+    /// Distributions of its inputs.
+    pub sources: &'d [Source],
+    /// Digest of the statement to be proved.
+    pub digest: Digest,
+    /// Whether relations between the arguments of transcendental functions are used.
+    pub is_related: bool,
+}
+
+impl Defect<'_> {
+    /// Proves that functions of the values at these places vanish.
+    pub fn vanishing(&self, places: &[usize], defects: &Defects<'_>) -> Option<Certificate> {
+        let Self { sources, digest, .. } = *self;
         let reached = self.graph.reached_from(places);
-        let recorded = record(self.sources.len(), |inputs| {
+        let (graph, defects) = record(sources.len(), |inputs| {
             defects(&self.graph.replay(&reached, inputs, |_, _, _| None))
-        });
-        let Ok((graph, Some(defects))) = recorded else { return false };
+        })
+        .ok()?;
+        let defects = defects?;
         let reached = graph.reached(defects.iter().copied());
-        let symbols = Symbols::opaque(&graph, &reached);
-        let Ok(lowered) = Algebraic::of(&graph, &reached, self.sources, &symbols) else {
-            return false;
+        let opaque = Symbols::opaque(&graph, &reached);
+        let symbols = match self.is_related {
+            true => {
+                let formal = Algebraic::formal(&graph, &reached, sources, &opaque).ok()?;
+                let mut relations = Relations::new(&graph, sources, formal, digest);
+                Symbols::by_basis(&graph, &reached, &mut relations)
+            }
+            false => opaque,
         };
-        let lowered_defects: Option<Vec<Expr>> =
+        let lowered = Algebraic::of(&graph, &reached, sources, &symbols).ok()?;
+        let values: Option<Vec<Expr>> =
             defects.iter().map(|defect| lowered.values[graph.place(*defect)]).collect();
-        let Some(lowered_defects) = lowered_defects else { return false };
-        let trial = Trial::new(&lowered, self.digest);
-        let tower = Tower::of(&graph, &lowered, &trial, self.digest);
+        let values = values?;
+        let trial = Trial::new(&lowered, digest);
+        let tower = Tower::of(&graph, &lowered, &trial, digest);
         let is_clean = |defect: &Expr| tower.is_clean(&lowered, *defect);
-        lowered.has_few_signs()
-            && lowered_defects.iter().all(is_clean)
-            && matches!(
-                trial.test(&[&lowered_defects], Roots { nested: tower.nested, fixed: &[] }).pop(),
-                Some(Finding::Zero(_))
-            )
+        if !lowered.has_few_signs() || !values.iter().all(is_clean) {
+            return None;
+        }
+        match trial.test(&[&values], Roots { nested: tower.nested, fixed: &[] }).pop() {
+            Some(Finding::Zero(certificate)) => Some(certificate),
+            _ => None,
+        }
     }
 }

@@ -8,6 +8,7 @@ use crate::number::{Function, Operation};
 use crate::scalar::Scalar;
 
 use super::fact::Fact;
+use super::logarithms::{Logarithm, split_exponential};
 use super::nested::Written;
 use super::squares::Square;
 
@@ -54,6 +55,20 @@ pub enum Rewrite {
         /// Places of the product.
         arguments: Vec<usize>,
     },
+    /// ln X and X^y, by the logarithm of X.
+    Logarithm {
+        /// Place of X.
+        argument: usize,
+        /// Its logarithm.
+        logarithm: Logarithm,
+    },
+    /// e^E = e^R Π X_j^Y_j, where E = R + Σ Y_j ln X_j.
+    Exponential {
+        /// Place of E.
+        argument: usize,
+        /// Places of the ln X_j.
+        logarithms: Vec<usize>,
+    },
 }
 
 impl Rewrite {
@@ -67,6 +82,9 @@ impl Rewrite {
                     Root::Written(written) => needs.extend(written.places()),
                 }
                 needs
+            }
+            Rewrite::Logarithm { logarithm, .. } => {
+                logarithm.terms.iter().map(|(place, _)| *place).collect()
             }
             _ => Vec::new(),
         }
@@ -121,6 +139,19 @@ impl Rewrite {
                 }
                 split(graph, a, &exponent, values)
             }
+            (Rewrite::Logarithm { argument, logarithm }, step) => match step {
+                Step::Unary(Function::Ln, a) if a == *argument => logarithm.value(graph, values),
+                Step::Binary(Operation::Pow, a, y) if a == *argument => {
+                    logarithm.power(graph, values[y]?, values)
+                }
+                _ => None,
+            },
+            (Rewrite::Exponential { argument, logarithms }, step) => match step {
+                Step::Unary(Function::Exp, a) if a == *argument => {
+                    split_exponential(graph, a, logarithms, values)
+                }
+                _ => None,
+            },
             (Rewrite::Signed { .. }, _) => None,
         }
     }

@@ -50,8 +50,21 @@ pub struct RootFinder<'f> {
 }
 
 impl RootFinder<'_> {
-    /// Searches for an expression of the root of a base.
+    /// Searches for an expression of the root of a base. Roots of odd index are unique in the
+    /// fields that are used, and need none.
     pub fn search(&mut self, base: usize) -> Result<Search, Fault> {
+        let found = self.of_square(base)?;
+        Ok(match found {
+            Search::Rewrite(Rewrite::Root { .. } | Rewrite::Split { .. }, _)
+                if self.algebraic.bases[base].links.is_empty() =>
+            {
+                Search::Independent
+            }
+            found => found,
+        })
+    }
+
+    fn of_square(&mut self, base: usize) -> Result<Search, Fault> {
         let arguments = || self.algebraic.bases[base].arguments.clone();
         match &self.tower.standings[base] {
             Standing::Independent => Ok(Search::Independent),

@@ -1,4 +1,5 @@
-//! Closed subsystems: sets of variables whose rates depend on the set only. A field is searched
+//! Closed subsystems: sets of variables whose rates, and whose equations of the level set, depend on
+//! the set only. A field is searched
 //! subsystem by subsystem first, as fewer monomials allow a higher degree.
 
 use liouville::case::Case;
@@ -13,16 +14,20 @@ pub fn closed(case: &Case) -> Result<Vec<Vec<usize>>, SearchError> {
     let model = &case.model;
     let (first, dimension) = (model.free_components(), model.dimension());
     let all: Vec<usize> = (0..dimension).collect();
-    if !model.level.is_empty() {
-        return Ok(vec![all]);
-    }
-    let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let (graph, (rates, equations)) = recorded(case, |jet| {
+        let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
+        (jet.phase.field().to_vec(), level.collect::<Vec<_>>())
+    })?;
     let is_variable = |input: &usize| (first..first + dimension).contains(input);
     let needs = |rate: &Expr| -> Vec<usize> {
         let inputs = graph.inputs_of(*rate).into_iter().filter(is_variable);
         inputs.map(|input| input - first).collect()
     };
-    let needed: Vec<Vec<usize>> = rates.iter().map(needs).collect();
+    let mut needed: Vec<Vec<usize>> = rates.iter().map(needs).collect();
+    // A relation binds all its variables.
+    for bound in equations.iter().map(needs) {
+        bound.iter().for_each(|variable| needed[*variable].extend(&bound));
+    }
     let mut sets = vec![all.clone()];
     for start in all {
         let mut set = vec![start];

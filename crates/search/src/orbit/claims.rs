@@ -6,7 +6,8 @@ use liouville::verdict::{ClaimReport, Verdict};
 
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
-use super::super::{Effort, Found, Report, SearchError};
+use super::super::{Found, Report, SearchError};
+use super::setting::Setting;
 use liouville::case::Case;
 
 /// A statement about the case.
@@ -34,56 +35,91 @@ impl Statement {
         }
     }
 
-    fn formulas(&self) -> Vec<&Formula> {
-        match self {
-            Statement::Integral(formula) | Statement::Density(formula) => vec![formula],
-            Statement::Rate { function, rate } => vec![function, rate],
-        }
+    fn mapped(&self, map: impl Fn(&Formula) -> Option<Formula>) -> Option<Self> {
+        Some(match self {
+            Statement::Integral(formula) => Statement::Integral(map(formula)?),
+            Statement::Density(formula) => Statement::Density(map(formula)?),
+            Statement::Rate { function, rate } => {
+                Statement::Rate { function: map(function)?, rate: map(rate)? }
+            }
+        })
+    }
+}
+
+/// Case about which finds are claims.
+fn judged_case<'c>(setting: &Setting<'c>) -> &'c Case {
+    setting.origin.map_or(setting.case, |origin| origin.case)
+}
+
+/// Writes a formula in the names of the case that is judged; `None` if it is too long or too deep for
+/// the reader of formulas.
+fn written(setting: &Setting<'_>, formula: &Formula) -> Option<Formula> {
+    match setting.origin {
+        None => setting.case.formula(formula.text()).ok().map(|_| formula.clone()),
+        Some(origin) => origin.case.formula(&origin.extension.back(formula)).ok(),
+    }
+}
+
+/// Writes an integral, up to a factor, in the names of the case that is judged.
+fn written_integral(setting: &Setting<'_>, formula: &Formula) -> Option<Formula> {
+    match setting.origin {
+        None => written(setting, formula),
+        Some(origin) => origin.case.formula(&origin.extension.back_integral(formula)).ok(),
     }
 }
 
 /// Judges a statement; returns the report of one that is proved.
 pub fn proved(
-    case: &Case,
+    setting: &Setting<'_>,
     statement: &Statement,
-    effort: &Effort,
 ) -> Result<Option<ClaimReport>, SearchError> {
-    // A find that is too long or too deep for the reader of formulas is not reported.
-    let reads = |formula: &&Formula| case.formula(formula.text()).is_ok();
-    if !statement.formulas().iter().all(reads) {
+    let Some(statement) = statement.mapped(|formula| written(setting, formula)) else {
         return Ok(None);
-    }
-    let report = judged_alone(case, statement.claim(), effort)?;
+    };
+    judged_here(setting, &statement)
+}
+
+/// Judges a statement in the names of the case that is judged.
+fn judged_here(
+    setting: &Setting<'_>,
+    statement: &Statement,
+) -> Result<Option<ClaimReport>, SearchError> {
+    let report = judged_alone(judged_case(setting), statement.claim(), setting.effort)?;
     Ok(report.filter(|report| report.verdict == Verdict::Proved))
 }
 
 /// Adds an integral to the report if it is proved, and independent of those there; returns whether
 /// it was added.
 pub fn integral(
-    case: &Case,
+    setting: &Setting<'_>,
     formula: &Formula,
-    effort: &Effort,
     report: &mut Report,
 ) -> Result<bool, SearchError> {
+    let Some(formula) = written_integral(setting, formula) else { return Ok(false) };
     let statement = Statement::Integral(formula.clone());
-    let Some(found) = proved(case, &statement, effort)? else { return Ok(false) };
+    let Some(found) = judged_here(setting, &statement)? else { return Ok(false) };
     let before = report.found.len();
-    tell(case, formula, found, effort, report)?;
+    tell(judged_case(setting), &formula, found, setting.effort, report)?;
     Ok(report.found.len() > before)
 }
 
 /// Adds another find to the report if it is proved.
 pub fn other(
-    case: &Case,
+    setting: &Setting<'_>,
     kind: &'static str,
     formula: &Formula,
     statement: &Statement,
-    with: Vec<(&'static str, String)>,
-    effort: &Effort,
+    with: Vec<(&'static str, &Formula)>,
     report: &mut Report,
 ) -> Result<bool, SearchError> {
-    let Some(found) = proved(case, statement, effort)? else { return Ok(false) };
-    let found = Found { with, ..Found::new(kind, formula, None, found, &case.model) };
+    let Some(found) = proved(setting, statement)? else { return Ok(false) };
+    let Some(formula) = written(setting, formula) else { return Ok(false) };
+    let with = with
+        .into_iter()
+        .filter_map(|(what, own)| written(setting, own).map(|formula| (what, formula.to_string())));
+    let with = with.collect();
+    let model = &judged_case(setting).model;
+    let found = Found { with, ..Found::new(kind, &formula, None, found, model) };
     report.found.push(found);
     Ok(true)
 }

@@ -19,7 +19,7 @@ use super::factor::Factor;
 use super::images::{self, Images};
 use super::line::Line;
 use super::monomials;
-use super::setting::Setting;
+use super::setting::{Origin, Setting};
 
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
@@ -186,7 +186,6 @@ impl Search<'_, '_> {
         factors: &mut Vec<Factor>,
         report: &mut Report,
     ) -> Result<(), SearchError> {
-        let (case, effort) = (self.setting.case, self.setting.effort);
         let known = factors.iter().any(|factor| factor.formula.text() == formula.text());
         let Some(factor) = Factor::of(self.setting, formula, degree)?.filter(|_| !known) else {
             return Ok(());
@@ -203,9 +202,12 @@ impl Search<'_, '_> {
         if !cofactor.constant().is_some_and(|value| value.is_zero()) {
             let rate = (cofactor.bracketed() * &formula.bracketed())?;
             let statement = Statement::Rate { function: formula.clone(), rate };
-            let with = vec![("cofactor", cofactor.to_string())];
+            let is_adjoined = |origin: Origin<'_>| origin.extension.is_exponential(formula);
+            let with = vec![("cofactor", &cofactor)];
             let kind = "darboux-polynomial";
-            if !claims::other(case, kind, formula, &statement, with, effort, report)? {
+            if !self.setting.origin.is_some_and(is_adjoined)
+                && !claims::other(self.setting, kind, formula, &statement, with, report)?
+            {
                 return Ok(());
             }
         }

@@ -57,7 +57,10 @@ impl<'s, 'c> Exponents<'s, 'c> {
         variables: &'s [usize],
         factors: &'s [Factor],
     ) -> Result<Self, SearchError> {
-        let (graph, divergence) = recorded(setting.case, |jet| jet.divergence())?;
+        let own = setting.origin.map(|origin| &origin.extension.divergence);
+        let (graph, divergence) = recorded(setting.case, |jet| {
+            own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
+        })?;
         let fits = |degree: &u32| monomials::count(variables.len(), *degree) <= MONOMIALS;
         let degree = (1..=DEGREE).rev().find(fits).unwrap_or(1);
         let all = monomials::up_to(variables, setting.dimension(), degree);
@@ -151,7 +154,6 @@ impl<'s, 'c> Exponents<'s, 'c> {
         report: &mut Report,
     ) -> Result<(), SearchError> {
         let Some(vector) = self.vector(support) else { return Ok(()) };
-        let (case, effort) = (self.setting.case, self.setting.effort);
         let has_exponential =
             support.iter().any(|column| matches!(self.columns[*column], Column::Monomial(_)));
         let is_product = !has_exponential && (0..support.len()).all(|k| vector.is_number(k));
@@ -160,7 +162,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
             false => self.logarithm(support, &vector, moduli),
         };
         for formula in [formula(false)?, formula(true)?] {
-            if claims::integral(case, &formula, effort, report)? {
+            if claims::integral(self.setting, &formula, report)? {
                 known.add(formula, None, self.variables);
                 break;
             }
@@ -170,13 +172,12 @@ impl<'s, 'c> Exponents<'s, 'c> {
 
     fn rate(&self, support: &[usize], report: &mut Report) -> Result<(), SearchError> {
         let Some(vector) = self.vector(support) else { return Ok(()) };
-        let (case, effort) = (self.setting.case, self.setting.effort);
         let rate = vector.minus(support.len() - 1)?;
         for moduli in [false, true] {
             let function = self.logarithm(support, &vector, moduli)?;
             let statement = Statement::Rate { function: function.clone(), rate: rate.clone() };
-            let with = vec![("rate", rate.to_string())];
-            if claims::other(case, CONSTANT_RATE, &function, &statement, with, effort, report)? {
+            let with = vec![("rate", &rate)];
+            if claims::other(self.setting, CONSTANT_RATE, &function, &statement, with, report)? {
                 break;
             }
         }
@@ -188,11 +189,11 @@ impl<'s, 'c> Exponents<'s, 'c> {
             return Ok(());
         }
         let Some(vector) = self.vector(support) else { return Ok(()) };
-        let (case, effort) = (self.setting.case, self.setting.effort);
         for moduli in [false, true] {
             let formula = self.product(support, &vector, moduli)?;
             let statement = Statement::Density(formula.clone());
-            if claims::other(case, "density", &formula, &statement, Vec::new(), effort, report)? {
+            let (setting, none) = (self.setting, Vec::new());
+            if claims::other(setting, "density", &formula, &statement, none, report)? {
                 break;
             }
         }

@@ -51,8 +51,7 @@ impl Rational<'_, '_> {
             true => above.clone(),
             false => (above.bracketed() / &below.bracketed())?,
         };
-        let (case, effort) = (self.setting.case, self.setting.effort);
-        let is_new = claims::integral(case, &formula, effort, report)?;
+        let is_new = claims::integral(self.setting, &formula, report)?;
         if is_new {
             known.add(formula, None, self.variables);
             let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);

@@ -28,10 +28,16 @@ impl Known {
     /// Collects what the search has found before, and the energy where it is conserved.
     pub fn of(setting: &Setting<'_>, report: &Report) -> Result<Self, SearchError> {
         let mut known = Self::default();
+        if let Some(origin) = setting.origin {
+            for formula in &origin.extension.known {
+                known.add(formula.clone(), None, &used(setting, formula)?);
+            }
+            return Ok(known);
+        }
         let all: Vec<usize> = (0..setting.dimension()).collect();
         if let Some(energy) = energy(setting.case) {
             let statement = Statement::Integral(energy.clone());
-            if claims::proved(setting.case, &statement, setting.effort)?.is_some() {
+            if claims::proved(setting, &statement)?.is_some() {
                 known.add(energy, None, &all);
             }
         }

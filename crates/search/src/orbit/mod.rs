@@ -9,12 +9,14 @@
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
+//! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
 //! claims       each find is judged as a claim like any other
 //! ```
 //!
 //! The degree grows as the number of monomials allows, and further while there is time.
 
+mod adjoin;
 mod blocks;
 mod claims;
 mod darboux;
@@ -60,6 +62,9 @@ struct Limits {
 /// Limits without a limit of time.
 const MODEST: Limits = Limits { monomials: 300, degree: 8, steps: 4e7 };
 
+/// The same where functions are further variables.
+const EXTENDED: Limits = Limits { monomials: 400, degree: 8, steps: 4e7 };
+
 /// Limits that follow while there is time.
 const FURTHER: [Limits; 4] = [
     Limits { monomials: 500, degree: 16, steps: 2e8 },
@@ -88,34 +93,69 @@ pub fn search(
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+    let is_field = match case.model.system {
+        System::Field(_) | System::Hamiltonian(_) => true,
+        System::Lagrangian(_) => false,
+        _ => return Ok(()),
+    };
+    let mut divided = Vec::new();
+    let mut is_extended = false;
+    let is_done =
+        |report: &Report| report.functions("integral").count() + 1 >= case.model.dimension();
+    // At last with half of each angle.
+    for _ in 0..2 {
+        let Some(extension) = adjoin::extended(case, effort, report, divided)? else { break };
+        let Ok(setting) = Setting::extended(case, &extension, effort)? else { break };
+        is_extended = true;
+        report.without_points.clear();
+        let orbits = report.orbits.len();
+        along_orbits(&setting, report, progress)?;
+        report.orbits.truncate(orbits);
+        divided = extension.halves();
+        if is_done(report) || divided.is_empty() {
+            break;
+        }
+    }
+    if !is_field || is_done(report) && is_extended {
         return Ok(());
     }
-    let setting = match Setting::of(case, effort)? {
-        Ok(setting) => setting,
+    match Setting::of(case, effort)? {
+        Ok(setting) => along_orbits(&setting, report, progress),
         Err(reason) => {
-            report.remark(format!("no relations along orbits: {reason}"));
-            return Ok(());
+            if !is_extended {
+                report.remark(format!("no relations along orbits: {reason}"));
+            }
+            Ok(())
         }
-    };
-    let mut known = Known::of(&setting, report)?;
+    }
+}
+
+/// Searches the parts of a field, within growing limits.
+fn along_orbits(
+    setting: &Setting<'_>,
+    report: &mut Report,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let halt = &setting.effort.halt;
+    let mut known = Known::of(setting, report)?;
     let degree = match setting.is_on_level() || !setting.flow.is_rational {
         true => None,
-        false => degree_of_field(&setting)?,
+        false => degree_of_field(setting)?,
     };
     let part = |variables| Part::new(variables, degree);
-    let mut parts: Vec<Part> = blocks::closed(case)?.into_iter().map(part).collect();
+    let mut parts: Vec<Part> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let mut run = |limits: Limits, report: &mut Report| -> Result<(), SearchError> {
         for place in 0..parts.len() {
             let (before, rest) = parts.split_at_mut(place);
             let Some(part) = rest.first_mut() else { continue };
             part.inherit(before);
-            part.round(&setting, limits, &mut known, report, progress)?;
+            part.round(setting, limits, &mut known, report, progress)?;
         }
         Ok(())
     };
-    let outcome = run(MODEST, report).and_then(|()| {
-        for limits in FURTHER.iter().filter(|_| effort.halt.is_timed()) {
+    let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
+    let outcome = run(limits, report).and_then(|()| {
+        for limits in FURTHER.iter().filter(|_| halt.is_timed()) {
             match run(*limits, report) {
                 // The time limit of the user is reached.
                 Err(SearchError::Stopped) => break,
@@ -125,7 +165,7 @@ pub fn search(
         Ok(())
     });
     if let Some(whole) = parts.last() {
-        whole.conclude(&setting, report);
+        whole.conclude(setting, report)?;
     }
     match outcome {
         Err(error) if error.is_of_count() => {

@@ -1,14 +1,13 @@
 //! Separate search of a set of variables, and the theorem about all variables.
 
-use liouville::formula::Formula;
-
 use super::super::{Excluded, Report, SearchError};
+use super::adjoin::absence::{Class, Powers};
 use super::darboux::Search as Darboux;
 use super::exponents::Exponents;
 use super::factor::Factor;
 use super::known::Known;
 use super::rational::Rational;
-use super::setting::Setting;
+use super::setting::{Origin, Setting};
 use super::{Limits, OrbitReport, monomials, polynomials, relations};
 
 /// Largest degree of a Darboux polynomial.
@@ -66,11 +65,28 @@ impl Part {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let count = self.variables.len();
-        while self.next <= limits.degree && monomials::count(count, self.next) <= limits.monomials {
-            self.step(setting, known, report, progress)?;
+        while self.next <= limits.degree && !is_complete(setting, known) {
+            let all = self.monomials(setting);
+            if all.len() > limits.monomials {
+                break;
+            }
+            self.step(setting, &all, known, report, progress)?;
         }
-        let Some(degree) = self.degree else { return Ok(()) };
         let variables = &self.variables;
+        let Some(degree) = self.degree else {
+            // The whole state on a level: factors are given by the functions there.
+            if let Some(origin) = setting.origin.filter(|_| count == setting.dimension()) {
+                for formula in &origin.extension.factors {
+                    let has = |own: &Factor| own.formula.text() == formula.text();
+                    if !self.factors.iter().any(has) {
+                        self.factors.extend(Factor::of(setting, formula, 1)?);
+                    }
+                }
+                self.combined =
+                    combine(setting, variables, &self.factors, self.combined, known, report)?;
+            }
+            return Ok(());
+        };
         let search = Darboux { setting, variables, degree };
         while self.next_darboux <= DARBOUX
             && steps(count, self.next_darboux, degree) <= limits.steps
@@ -86,23 +102,32 @@ impl Part {
         Ok(())
     }
 
+    /// Monomials of the relations that come next; none if there are very many.
+    fn monomials(&self, setting: &Setting<'_>) -> Vec<Vec<u32>> {
+        let mut all = monomials::up_to(&self.variables, setting.dimension(), self.next);
+        if let Some(origin) = setting.origin {
+            all.retain(|own| origin.extension.is_standard(own));
+        }
+        all
+    }
+
     /// Searches one degree.
     fn step(
         &mut self,
         setting: &Setting<'_>,
+        monomials: &[Vec<u32>],
         known: &mut Known,
         report: &mut Report,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let degree = self.next;
-        let monomials = monomials::up_to(&self.variables, setting.dimension(), degree);
         progress(&format!(
             "relations of degree {degree} along an orbit: {} unknowns",
             monomials.len()
         ));
         setting.effort.halt.check()?;
         let Some(at) = setting.at(0, 0) else { return Err(SearchError::NoSeries) };
-        let Some(step) = relations::step(setting, &at, &monomials)? else {
+        let Some(step) = relations::step(setting, &at, monomials)? else {
             return Err(SearchError::NoSeries);
         };
         self.next += 1;
@@ -114,25 +139,38 @@ impl Part {
         });
         let variables = &self.variables;
         if step.integrals > known.within(variables) {
-            polynomials::polynomials(setting, variables, degree, known, report)?;
+            polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
         }
         if step.integrals > known.within(variables) {
-            let rational = Rational { setting, variables, monomials: &monomials, degree };
+            let rational = Rational { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
         Ok(())
     }
 
     /// Reports the degree reached and the theorem of absence.
-    pub fn conclude(&self, setting: &Setting<'_>, report: &mut Report) {
+    pub fn conclude(&self, setting: &Setting<'_>, report: &mut Report) -> Result<(), SearchError> {
         report.orbits.extend(self.done.iter().cloned());
-        let none = self.done.iter().rfind(|own| own.relations == 0);
-        let Some(none) = none else { return };
-        if setting.is_on_level() || !setting.flow.is_rational || setting.has_lists() {
-            return;
+        if !setting.flow.is_rational || setting.has_lists() {
+            return Ok(());
         }
-        let names: Vec<&str> = setting.terms.iter().map(Formula::text).collect();
-        let degree = none.degree;
+        let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
+        let (degree, names, addition) = match setting.origin {
+            None if setting.is_on_level() => return Ok(()),
+            None => {
+                let none = self.done.iter().rfind(|own| own.relations == 0);
+                (none.map(|own| own.degree), names, "")
+            }
+            Some(Origin { extension, .. }) => {
+                let Some(class) = &extension.class else { return Ok(()) };
+                let own = setting.terms.iter().zip(&class.powers);
+                let own = own.filter(|(_, powers)| **powers != Powers::None);
+                let names = own.map(|(term, _)| extension.back(term)).collect();
+                let addition = if class.is_linear { ", linear in each root" } else { "" };
+                (self.excluded(setting, class)?, names, addition)
+            }
+        };
+        let Some(degree) = degree else { return Ok(()) };
         let generic = match setting.case.model.free_components() {
             0 => "",
             _ => {
@@ -140,8 +178,8 @@ impl Part {
             }
         };
         let statement = format!(
-            "{generic}no fraction P/Q of polynomials in {} of degree at most {degree}, with any complex \
-             coefficients, is an integral, constants aside; a polynomial of that degree is none either.",
+            "{generic}no fraction P/Q of polynomials in {} of degree at most {degree}{addition}, with any \
+             complex coefficients, is an integral, constants aside; a polynomial of that degree is none either.",
             names.join(", ")
         );
         let mut letters = statement.chars();
@@ -153,7 +191,30 @@ impl Part {
             error_log2: None,
             theorem: first.unwrap_or_default() + letters.as_str(),
         });
+        Ok(())
     }
+
+    /// Highest degree for which the polynomials of a class have no relation along an orbit.
+    fn excluded(&self, setting: &Setting<'_>, class: &Class) -> Result<Option<u32>, SearchError> {
+        let mut found = None;
+        let Some(at) = setting.at(0, 0) else { return Ok(None) };
+        for degree in 1..self.next {
+            let mut own = monomials::up_to(&self.variables, setting.dimension(), degree);
+            own.retain(|monomial| class.has(monomial));
+            match setting.relations(&at, 0, &own)? {
+                Some(relations) if relations.free.is_empty() => found = Some(degree),
+                _ => break,
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Whether all integrals of an extended case are known: one less than its dimension.
+fn is_complete(setting: &Setting<'_>, known: &Known) -> bool {
+    let is_full =
+        |origin: Origin<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
+    setting.origin.is_some_and(is_full)
 }
 
 /// Number of steps of the eliminations on a line.

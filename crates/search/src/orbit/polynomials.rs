@@ -13,15 +13,15 @@ use super::super::{Report, SearchError};
 use super::claims;
 use super::images;
 use super::known::Known;
-use super::monomials;
 use super::setting::Setting;
 use liouville::formula::Formula;
 
-/// Searches for integrals that are polynomials of at most this degree in some variables; returns
-/// whether some was found.
+/// Searches for integrals that are sums of these monomials in some variables, of at most this degree;
+/// returns whether some was found.
 pub fn polynomials(
     setting: &Setting<'_>,
     variables: &[usize],
+    all: &[Vec<u32>],
     degree: u32,
     known: &mut Known,
     report: &mut Report,
@@ -35,7 +35,6 @@ pub fn polynomials(
         outputs = given.iter().map(|term| recording.give(jet.phase.scalar(term))).collect();
     })?;
     system.halt = effort.halt.clone();
-    let all = monomials::up_to(variables, setting.dimension(), degree);
     let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
     system.columns = all.iter().cloned().map(product).collect();
     let Some(at) = system.at(0, 0) else { return Ok(false) };
@@ -90,7 +89,7 @@ pub fn polynomials(
             .collect();
         let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions?)?;
         let Some(formula) = sum else { continue };
-        if claims::integral(case, &formula, effort, report)? {
+        if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);
             found = true;
         }

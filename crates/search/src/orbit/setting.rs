@@ -2,9 +2,12 @@
 
 use liouville::case::Case;
 use liouville::claim::Place;
-use liouville::graph::{Evaluator, Tape};
+use liouville::graph::{Evaluator, Expr, Step, Tape, record};
 use liouville::mechanics::Draw;
+use liouville::number::Operation;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::coordinates;
@@ -14,6 +17,7 @@ use super::super::local::{random, sign};
 use super::super::streams::Stream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
+use super::adjoin::Extension;
 use super::monomials::Along;
 use super::primes;
 use super::taylor::Flow;
@@ -41,6 +45,8 @@ pub struct Point {
 pub struct Setting<'c> {
     /// Case that is searched.
     pub case: &'c Case,
+    /// Case whose functions are further variables here.
+    pub origin: Option<Origin<'c>>,
     /// Limits of the search.
     pub effort: &'c Effort,
     /// Field of the case.
@@ -51,6 +57,15 @@ pub struct Setting<'c> {
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
     split_primes: Vec<Modulus>,
+}
+
+/// A case with the extension that is searched in its place.
+#[derive(Clone, Copy)]
+pub struct Origin<'c> {
+    /// Case itself.
+    pub case: &'c Case,
+    /// Its functions as variables.
+    pub extension: &'c Extension,
 }
 
 /// A point with the Taylor coefficients of its orbit, component by component.
@@ -69,6 +84,16 @@ struct Points {
 }
 
 impl<'c> Setting<'c> {
+    /// Records the extension of a case; the text is the reason why it has no orbits modulo primes.
+    pub fn extended(
+        case: &'c Case,
+        extension: &'c Extension,
+        effort: &'c Effort,
+    ) -> Result<Result<Self, String>, SearchError> {
+        let made = Self::of(&extension.case, effort)?;
+        Ok(made.map(|own| Self { origin: Some(Origin { case, extension }), ..own }))
+    }
+
     /// Records a case; the text is the reason why it has no orbits modulo primes.
     pub fn of(case: &'c Case, effort: &'c Effort) -> Result<Result<Self, String>, SearchError> {
         let model = &case.model;
@@ -94,7 +119,7 @@ impl<'c> Setting<'c> {
         })?;
         let parameters = model.free_components();
         let points = Points {
-            tape: Tape::new(sampler.graph(), sampler.made()),
+            tape: without_ranges(&sampler)?,
             draws: sampler.recipes().to_vec(),
             of_parameters: sampler.parameter_draws(),
             parameters,
@@ -104,7 +129,17 @@ impl<'c> Setting<'c> {
         let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
         let primes = (0..PRIMES).map(prime).collect();
         let split_primes = primes::split(seed, PRIMES as usize);
-        Ok(Ok(Self { case, effort, flow, terms, points, coordinates: named, primes, split_primes }))
+        Ok(Ok(Self {
+            case,
+            origin: None,
+            effort,
+            flow,
+            terms,
+            points,
+            coordinates: named,
+            primes,
+            split_primes,
+        }))
     }
 
     /// Number of components of the state.
@@ -226,6 +261,25 @@ impl<'c> Setting<'c> {
         }
         Ok(Some(Relations { point, vectors, free }))
     }
+}
+
+/// The map from draws to parameters and states without the terms 0·√(…) by which a state out of its
+/// declared range has no value: modulo a prime there are no ranges.
+fn without_ranges(sampler: &Sampler) -> Result<Tape, SearchError> {
+    let graph = sampler.graph();
+    let reached = graph.reached(sampler.made().iter().copied());
+    let is_zero =
+        |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_zero());
+    let (made, outputs) = record(graph.inputs(), |inputs| {
+        let zero = Expr::rational(&Rational::from(0));
+        let values = graph.replay(&reached, inputs, |_, step, _| match step {
+            Step::Binary(Operation::Mul, a, b) if is_zero(a) || is_zero(b) => Some(zero),
+            _ => None,
+        });
+        let value = |own: &Expr| values[graph.place(*own)].unwrap_or(zero);
+        sampler.made().iter().map(value).collect::<Vec<_>>()
+    })?;
+    Ok(Tape::new(&made, &outputs))
 }
 
 /// Runs a tape at one point; `None` where an output has no value.

@@ -47,7 +47,7 @@ pub use independence::Count;
 pub use question::{Finding, FixedSet};
 pub use shown::Shown;
 pub use sphere::SphereMap;
-pub use unknown::Unknown;
+pub use unknown::{Unknown, of_search};
 pub use wireframe::Wireframe;
 pub use words::Given;
 

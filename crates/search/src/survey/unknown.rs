@@ -55,7 +55,7 @@ impl Unknown {
                     .found
                     .into_iter()
                     .filter(is_new)
-                    .map(|one| found(case, one))
+                    .map(|one| of_search(case, one))
                     .collect(),
             },
             Err(error) => Self { remarks: vec![error.to_string()], ..Self::default() },
@@ -75,7 +75,7 @@ impl Unknown {
 }
 
 /// Makes a finding from a result of the search, with the names that the search added.
-fn found(case: &Case, found: Found) -> Finding {
+pub fn of_search(case: &Case, found: Found) -> Finding {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let claim = ClaimReport {
         name: format!("{} found by search", found.kind),

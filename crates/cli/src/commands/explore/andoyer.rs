@@ -1,24 +1,21 @@
 //! Sections g = g₀ of rolling bodies, in the Andoyer-like variables.
 
+use crate::report::data::Data;
+use crate::report::exponents;
+use crate::report::facts;
+use crate::report::section::SectionReport;
+use crate::report::section::drawing::{self, Colouring};
 use liouville::case::{Case, Direction, Expect, Line};
 use liouville::claim::motion::Motion;
 use liouville::number::pair::Pair;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::exponents;
-use liouville_cli::report::facts;
-use liouville_cli::report::section::SectionReport;
-use liouville_cli::report::section::drawing::{self, Colouring};
 use liouville_draw::{Plot, Text};
-use liouville_flow::{FlowError, Precision, SectionOrbit, SectionRequest};
+use liouville_flow::{FlowError, Precision, SectionChoice, SectionOrbit, SectionRequest};
 
-use super::motion::{Subject, whole};
+use super::motion::{Subject, whole, wrong_choice};
 use super::progress::progress;
 use super::section::{Drawn, Section, Wish};
 use super::starts::Given;
 
-/// Default numbers of orbits and of crossings.
-const ORBITS: usize = 40;
-const CROSSINGS: usize = 500;
 /// Number of points of a line whose images are drawn, and default number of images.
 const POINTS: usize = 800;
 const IMAGES: usize = 10;
@@ -213,33 +210,17 @@ fn images(
 
 /// Request of the command line, completed from the case.
 fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
-    let plan = case.section.as_ref();
-    let (g0, energy) = options.plane.of(case)?;
-    let given = given(case, options)?;
-    let spread = match (options.orbits, plan) {
-        (Some(count), _) => count,
-        (None, _) if !given.is_empty() => 0,
-        (None, Some(plan)) => {
-            plan.orbits.unwrap_or(if plan.starts.is_empty() { ORBITS } else { 0 })
-        }
-        (None, None) => ORBITS,
-    };
-    let mut starts = match plan {
-        Some(plan) if given.is_empty() => plan.starts.clone(),
-        _ => given,
-    };
-    starts.extend(liouville_flow::spread(spread));
-    Ok(SectionRequest {
-        g0,
-        energy,
-        direction: options.direction.or(plan.map(|plan| plan.direction)).unwrap_or_default(),
-        crossings: options.crossings.or(plan.and_then(|plan| plan.crossings)).unwrap_or(CROSSINGS),
-        skip: options.skip.or(plan.map(|plan| plan.skip)).unwrap_or(0),
-        starts,
-        backwards: options.backwards || plan.is_some_and(|plan| plan.backwards),
+    let choice = SectionChoice {
+        direction: options.direction,
+        orbits: options.orbits,
+        crossings: options.crossings,
+        skip: options.skip,
+        starts: given(case, options)?,
+        backwards: options.backwards,
         seed: options.subject.seed,
-        index: 0,
-    })
+        ..options.plane.choice()
+    };
+    choice.request(case).map_err(|error| wrong_choice(&error))
 }
 
 /// Points (l, L/G) of the options.

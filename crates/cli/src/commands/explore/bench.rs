@@ -4,10 +4,10 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use crate::report::bench::{self, BenchRun};
+use crate::report::{Failure, diagnostic, diagram, terminal};
 use clap::Args;
 use liouville::verdict::LANES;
-use liouville_cli::report::bench::{self, BenchRun};
-use liouville_cli::report::{Failure, diagnostic, diagram, terminal};
 use liouville_lab::bench::{Item, Measured, Options, measure_item, work_items};
 
 use super::{Answer, colour, files, source, width};

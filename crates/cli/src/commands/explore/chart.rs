@@ -1,18 +1,16 @@
 //! The command `liouville motion chart`.
 
+use crate::report::chart::{ChartReport, Colours};
+use crate::report::facts;
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
-use liouville::formula::{Type, canonical_name};
 use liouville::mechanics::Origin;
-use liouville::number::rational::Rational;
 use liouville::verdict;
-use liouville_cli::report::chart::{ChartReport, Colours};
-use liouville_cli::report::facts;
 use liouville_draw::{Text, math, plain};
-use liouville_flow::{Axis, Coordinate, Launch, PlaneRequest};
+use liouville_flow::{Axis, Coordinate, Launch, PlaneRequest, SectionChoice};
 
 use super::ink::Ink;
-use super::motion::{Plane, Subject, Threads, number_with_pi, parse_start};
+use super::motion::{Plane, Subject, Threads, parse_start, wrong_choice};
 use super::output::Ending;
 use super::progress::progress;
 use super::{Answer, write};
@@ -129,66 +127,6 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
     }
 }
 
-/// Reads `NAME=a..b`.
-fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, Axis), String> {
-    let wrong = |what: &str, help: &str| format!("error: {option} {text}: {what}\nhelp: {help}");
-    let form = "write NAME=a..b, such as a_g=0..14 or l=0..2pi";
-    let (name, range) = text.split_once('=').ok_or_else(|| wrong("there is no `=`", form))?;
-    let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`", form))?;
-    let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range", form));
-    let (from, to): (Rational, Rational) = (read(from)?, read(to)?);
-    if from == to {
-        return Err(wrong("the range is empty", form));
-    }
-    let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
-    let coordinate = match coordinate(case, &name) {
-        Some(coordinate) => coordinate,
-        None => return Err(wrong(&format!("there is no `{name}` to vary"), &known(case))),
-    };
-    if let Coordinate::Parameter { index, .. } = coordinate
-        && matches!(case.model.parameters[index].origin, Origin::Formula(_))
-    {
-        let what = format!("`{name}` is computed from other parameters");
-        return Err(wrong(&what, "vary those that it is computed from"));
-    }
-    if let Coordinate::Parameter { index, .. } = coordinate
-        && case.model.is_rigid(index, &[])
-    {
-        let what = format!("`{name}` is a size, or stands in an index");
-        return Err(wrong(&what, "vary another parameter"));
-    }
-    Ok((name, Axis { coordinate, from, to, count }))
-}
-
-/// Coordinate of a name: a parameter, a component of one, or a coordinate of the start.
-fn coordinate(case: &Case, name: &str) -> Option<Coordinate> {
-    let find = |name: &str| case.model.parameters.iter().position(|known| known.name == name);
-    if let Some(index) = find(name)
-        && case.model.parameters[index].kind == Type::Scalar
-    {
-        return Some(Coordinate::Parameter { index, component: 0 });
-    }
-    match name {
-        "l" => return Some(Coordinate::L),
-        "L/G" => return Some(Coordinate::Z),
-        "energy" => return Some(Coordinate::Energy),
-        _ => {}
-    }
-    let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-    let index = find(name.strip_suffix(digits)?)?;
-    let places: Vec<usize> =
-        digits.bytes().map(|digit| usize::from(digit).wrapping_sub(usize::from(b'1'))).collect();
-    let component = match (case.model.parameters[index].kind, &places[..]) {
-        (Type::Vector(length), _) => {
-            digits.parse::<usize>().ok()?.checked_sub(1).filter(|k| *k < length)?
-        }
-        (Type::Matrix(rows, columns), [k]) if *k < rows.min(columns) => (columns + 1) * k,
-        (Type::Matrix(rows, columns), [i, j]) if *i < rows && *j < columns => columns * i + j,
-        _ => return None,
-    };
-    Some(Coordinate::Parameter { index, component })
-}
-
 /// Value of the case itself on an axis.
 fn own(case: &Case, request: &PlaneRequest, place: usize) -> Option<f64> {
     match (&request.axes[place].coordinate, &request.launch) {
@@ -227,47 +165,18 @@ fn caption(case: &Case, request: &PlaneRequest, names: [&str; 2]) -> Text {
     facts::listed(found)
 }
 
-/// Help that lists the possible axes of a case.
-fn known(case: &Case) -> String {
-    let names = case.model.parameters.iter().map(|parameter| match parameter.kind {
-        Type::Scalar => parameter.name.clone(),
-        _ => format!("{0}1, {0}2, {0}3", parameter.name),
-    });
-    let names: Vec<String> = names.collect();
-    format!("vary {}, or l, L/G, energy of the start on a section", names.join(", "))
+/// Reads `NAME=a..b`.
+fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, Axis), String> {
+    Axis::read(case, text, count).map_err(|mistake| {
+        format!("error: {option} {text}: {}\nhelp: {}", mistake.message, mistake.help)
+    })
 }
 
 /// Launch of the motions: on the section, if the case or the command line defines one.
 fn launch(case: &Case, options: &Chart, axes: &[Axis; 2]) -> Result<Launch, String> {
-    let is_start = |axis: &Axis| !matches!(axis.coordinate, Coordinate::Parameter { .. });
-    let plan = case.section.as_ref();
-    let on_section = options.start.is_some() || axes.iter().any(is_start);
-    if options.state.is_none() && (on_section || plan.is_some()) {
-        let (g0, energy) = options.plane.of(case)?;
-        let planned = plan.and_then(|plan| plan.starts.first().copied());
-        let both =
-            axes.iter().filter(|axis| matches!(axis.coordinate, Coordinate::L | Coordinate::Z));
-        let at = match options.start.or(planned) {
-            Some(at) => at,
-            None if both.count() == 2 => [0.0, 0.0],
-            None => {
-                return Err(
-                    "error: where the motions start is not known\nhelp: give --start l,L/G"
-                        .to_string(),
-                );
-            }
-        };
-        return Ok(Launch::Section { g0, energy, at });
-    }
-    if options.state.is_some() && axes.iter().any(is_start) {
-        return Err("error: --state says where the motions start, and an axis too\n\
-                    help: leave one of them out"
-            .to_string());
-    }
-    match &options.state {
-        None => Ok(Launch::State(None)),
-        Some(text) => verdict::read_state(case, text)
-            .map(|state| Launch::State(Some(state)))
-            .map_err(|error| format!("error: --state: {error}")),
-    }
+    let state = options.state.as_deref().map(|text| verdict::read_state(case, text));
+    let state = state.transpose().map_err(|error| format!("error: --state: {error}"))?;
+    let choice =
+        SectionChoice { starts: options.start.into_iter().collect(), ..options.plane.choice() };
+    choice.launch(case, axes, state).map_err(|error| wrong_choice(&error))
 }

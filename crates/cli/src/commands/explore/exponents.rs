@@ -1,10 +1,10 @@
 //! The command `liouville motion exponents`.
 
+use crate::report::exponents;
 use clap::Args;
 use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville::verdict;
-use liouville_cli::report::exponents;
 use liouville_flow::{Begin, FlowError, Launches, Start};
 
 use super::Answer;

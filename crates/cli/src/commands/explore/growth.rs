@@ -3,8 +3,8 @@
 use std::process::Command;
 use std::time::Duration;
 
+use crate::report::growth;
 use clap::{Args, ValueEnum};
-use liouville_cli::report::growth;
 use liouville_lab::growth::{FAMILIES, Family, Growth as Measured, Point, measure, measure_one};
 
 use super::Answer;

@@ -14,6 +14,7 @@ mod progress;
 mod report;
 mod search;
 mod section;
+mod site;
 mod starts;
 mod stress;
 mod surface;
@@ -32,6 +33,9 @@ pub enum Command {
     /// List a system's invariants, each with a proof
     #[command(after_help = "Example:\n  liouville report plane/unbalanced-ball --out ball.html")]
     Report(report::Report),
+    /// Write a page for each case of a folder, and an index of them by hierarchy and by folder
+    #[command(after_help = "Example:\n  liouville site cases/plane --out public --within 60")]
+    Site(site::Site),
     /// Follow motions: orbits, sections, exponents, charts, periodic points
     Motion {
         #[command(subcommand)]
@@ -113,6 +117,7 @@ impl Command {
         match self {
             Self::Search(options) => search::run(options),
             Self::Report(options) => report::run(options),
+            Self::Site(options) => site::run(options),
             Self::Motion { command } => command.run(),
             Self::Former(Former::Motion(command)) => command.run(),
             Self::Measure { command } | Self::Former(Former::Measure(command)) => command.run(),
@@ -121,15 +126,16 @@ impl Command {
 }
 
 impl Command {
-    /// Limits of a command that has nothing to show before its end; a search has its own.
+    /// Limits of a command that has nothing to show before its end; a search and a site have their own.
     pub fn limits(&self) -> Limits {
         match self {
             Self::Report(options) => options.limits,
             Self::Motion { command } => command.limits(),
             Self::Former(Former::Motion(command)) => command.limits(),
-            Self::Search(_) | Self::Measure { .. } | Self::Former(Former::Measure(_)) => {
-                Limits::default()
-            }
+            Self::Search(_)
+            | Self::Site(_)
+            | Self::Measure { .. }
+            | Self::Former(Former::Measure(_)) => Limits::default(),
         }
     }
 }

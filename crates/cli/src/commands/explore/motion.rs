@@ -3,14 +3,13 @@
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
+use crate::report::data::Data;
+use crate::report::diagnostic;
 use clap::Args;
 use liouville::case::{Angle, Case};
-use liouville::mechanics::System;
 use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::diagnostic;
-use liouville_flow::{FlowError, FormulaMistake};
+use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, number_with_pi};
 
 use super::Limits;
 use super::colour;
@@ -63,26 +62,37 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// Choices of the options.
+    pub fn choice(&self) -> SectionChoice {
+        SectionChoice {
+            g0: self.g0.clone(),
+            energy: self.energy.clone(),
+            ..SectionChoice::default()
+        }
+    }
+
     /// Angle and energy of the section.
     pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
-        let plan = case.section.as_ref();
-        let rolls = matches!(case.model.system, System::Rubber(_));
-        if plan.is_none() && !rolls {
-            let error = FlowError::NoAndoyer;
-            return Err(format!("error: {error}\nhelp: {}", error.help()));
+        self.choice().place(case).map_err(|error| wrong_choice(&error))
+    }
+}
+
+/// Message about options that determine no section.
+pub fn wrong_choice(error: &ChoiceError) -> String {
+    let help = match error {
+        ChoiceError::Unknown(what) => {
+            let key = if *what == "angle" { "g0" } else { what };
+            format!("give --{key}, or add [section] with g0 and energy to the case")
         }
-        let missing = |what: &str, key: &str| {
-            format!(
-                "error: the case has no [section], so the {what} is unknown\n\
-                 help: give --{key}, or add [section] with g0 and energy to the case"
-            )
-        };
-        let g0 = self.g0.clone().or(plan.map(|plan| plan.g0.clone()));
-        let energy = self.energy.clone().or(plan.map(|plan| plan.energy.clone()));
-        Ok((
-            g0.ok_or_else(|| missing("angle", "g0"))?,
-            energy.ok_or_else(|| missing("energy", "energy"))?,
-        ))
+        ChoiceError::NoStart => "give --start l,L/G".to_string(),
+        ChoiceError::TwoStarts => "leave one of them out".to_string(),
+        ChoiceError::Flow(error) => error.help().to_string(),
+    };
+    match error {
+        ChoiceError::TwoStarts => {
+            format!("error: --state says where the motions start, and an axis too\nhelp: {help}")
+        }
+        _ => format!("error: {error}\nhelp: {help}"),
     }
 }
 
@@ -117,25 +127,6 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
     pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
-}
-
-/// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
-pub fn number_with_pi(text: &str) -> Option<Rational> {
-    let plain: String = text.split_whitespace().collect();
-    let plain = plain.replace("pi", "π").replace('*', "");
-    let Some((before, behind)) = plain.split_once('π') else { return plain.parse().ok() };
-    let factor: Rational = match before {
-        "" => Rational::from(1),
-        "-" | "−" => Rational::from(-1),
-        number => number.parse().ok()?,
-    };
-    let divisor: Rational = match behind.strip_prefix('/') {
-        Some(number) => number.parse().ok()?,
-        None if behind.is_empty() => Rational::from(1),
-        None => return None,
-    };
-    let pi = Rational::from_f64(std::f64::consts::PI)?;
-    Some(&(&pi * &factor) * &divisor.recip()?)
 }
 
 /// Renders data by the ending of their file.

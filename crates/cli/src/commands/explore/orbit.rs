@@ -1,12 +1,12 @@
 //! The command `liouville motion orbit`.
 
+use crate::report::data::Data;
+use crate::report::facts;
+use crate::report::orbit;
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville::verdict;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::facts;
-use liouville_cli::report::orbit;
 use liouville_draw::Plot;
 use liouville_flow::{
     Begin, Columns, FlowError, Launches, Lexicon, Precision, SampledOrbit, Sampling, Start,

@@ -1,9 +1,9 @@
 //! The command `liouville motion periodic`.
 
+use crate::report::cycle::{self, Found};
 use clap::Args;
 use liouville::case::Case;
 use liouville::number::rational::Rational;
-use liouville_cli::report::cycle::{self, Found};
 use liouville_flow::{
     Begin, FlowError, Launches, SectionMap, Surface, closed_orbit, crossing_time,
 };

@@ -3,9 +3,9 @@
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
+use crate::report::{Digest, diagnostic, survey as written};
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
-use liouville_cli::report::{Digest, diagnostic, survey as written};
 use liouville_search::survey::{self, Survey};
 
 use super::eval::open_signed;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::report::{diagnostic, search as written};
 use clap::Args;
-use liouville_cli::report::{diagnostic, search as written};
 use liouville_search::{Effort, Halt, Wanted};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::report::data::Data;
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
-use liouville_cli::report::data::Data;
 use liouville_draw::{Plot, Text, plain};
 
 use super::chart::parse_size;

@@ -7,9 +7,7 @@ use liouville::case::Case;
 use liouville::formula::canonical_name;
 use liouville::number::rational::Rational;
 use liouville::verdict;
-use liouville_flow::{FlowError, Start};
-
-use super::motion::number_with_pi;
+use liouville_flow::{FlowError, Start, number_with_pi};
 
 /// Starts of the motions.
 #[derive(Debug, Args)]

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use crate::report::stress::{Point, StressReport, SweepReport};
 use clap::Args;
-use liouville_cli::report::stress::{Point, StressReport, SweepReport};
 use liouville_lab::stress::{SCENARIOS, Scenario, StressError, Tally, digits_lost, verdicts};
 use rayon::prelude::*;
 

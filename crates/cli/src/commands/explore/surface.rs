@@ -1,10 +1,10 @@
 //! The command `liouville motion section --section`: crossings of a surface by any system.
 
+use crate::report::data::Data;
+use crate::report::facts;
+use crate::report::surface::{SurfaceReport, plot};
 use liouville::case::{Case, Direction};
 use liouville::number::pair::Pair;
-use liouville_cli::report::data::Data;
-use liouville_cli::report::facts;
-use liouville_cli::report::surface::{SurfaceReport, plot};
 use liouville_draw::{math, plain};
 use liouville_flow::{
     Begin, Columns, FlowError, Launches, Launchpad, Lexicon, Precision, Surface, SurfaceOrbit,

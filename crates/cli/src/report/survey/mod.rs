@@ -1,50 +1,32 @@
-//! Reports of surveys: on a terminal, as Markdown, LaTeX and one HTML page.
-//!
-//! ```text
-//! Survey ─ compose ─▶ Document ─▶ terminal, markdown, latex, html
-//! ```
-//!
-//! The content is made once, in `compose`; a format only typesets it.
+//! Reports of surveys: on a terminal, and with the pictures of the motion.
 
-mod compose;
-mod document;
-mod entry;
-mod html;
-mod latex;
-mod markdown;
 mod motion;
-mod picture;
 mod terminal;
 
 use liouville_flow::{FlowError, Portrait};
 use liouville_search::survey::Survey;
 
+pub use liouville_report::survey::{Document, document, json, latex, markdown, of_claims};
 pub use terminal::Style;
-
-/// Renders the survey as JSON.
-pub fn json(survey: &Survey) -> Result<String, serde_json::Error> {
-    serde_json::to_string_pretty(survey)
-}
 
 /// Renders the survey for a terminal; `origin` names the program and the case in all formats.
 pub fn text(survey: &Survey, origin: &str, style: Style) -> String {
-    terminal::render(&compose::document(survey, origin), style)
-}
-
-/// Renders the survey as Markdown, with formulas as LaTeX between dollars.
-pub fn markdown(survey: &Survey, origin: &str) -> String {
-    markdown::render(&compose::document(survey, origin))
-}
-
-/// Renders the survey as a LaTeX document, for XeLaTeX or LuaLaTeX.
-pub fn latex(survey: &Survey, origin: &str) -> String {
-    latex::render(&compose::document(survey, origin))
+    terminal::render(&document(survey, origin), style)
 }
 
 /// Renders the survey as one self-contained HTML page, with a section of the body's motion, or the
 /// reason why there is none.
 pub fn html(survey: &Survey, origin: &str, motion: Result<&Portrait, &FlowError>) -> String {
-    let mut document = compose::document(survey, origin);
-    document.insert_motion(motion);
-    html::render(&document)
+    with_motion(survey, origin, motion).html()
+}
+
+/// Composes the document of a survey, with a section of the body's motion.
+pub fn with_motion(
+    survey: &Survey,
+    origin: &str,
+    motion: Result<&Portrait, &FlowError>,
+) -> Document {
+    let mut document = document(survey, origin);
+    document.insert(motion::section(motion));
+    document
 }

@@ -1,24 +1,20 @@
 //! Poincaré section of a body's motion in a document.
 
-use super::document::{Block, Document, Section};
-use super::picture::Picture;
 use crate::report::section::drawing;
 use liouville_draw::{Figure, Size, inline_svg};
 use liouville_flow::{FlowError, Portrait};
+use liouville_report::survey::{Block, Picture, Section};
 
 /// Size of the picture.
 const SIZE: Size = Size { width: 150.0, height: None, dot: 0.3, opacity: 1.0 };
 
-impl Document {
-    /// Inserts the section after the system's description.
-    pub(super) fn insert_motion(&mut self, motion: Result<&Portrait, &FlowError>) {
-        let blocks = match motion {
-            Ok(portrait) => blocks(portrait),
-            Err(problem) => vec![Block::Text(format!("No section is drawn: {problem}."))],
-        };
-        let place = self.sections.len().min(2);
-        self.sections.insert(place, Section { title: "Its motion", blocks });
-    }
+/// Section of a document about the motion.
+pub fn section(motion: Result<&Portrait, &FlowError>) -> Section {
+    let blocks = match motion {
+        Ok(portrait) => blocks(portrait),
+        Err(problem) => vec![Block::Text(format!("No section is drawn: {problem}."))],
+    };
+    Section { title: "Its motion", blocks }
 }
 
 fn blocks(portrait: &Portrait) -> Vec<Block> {

@@ -2,7 +2,7 @@
 
 use comfy_table::{ContentArrangement, Table, presets};
 
-use super::document::{Block, Cell, Document, Entry, Mark};
+use liouville_report::survey::{Block, Cell, Document, Entry, Mark};
 
 /// Style of the output.
 #[derive(Clone, Copy, Debug)]

@@ -119,13 +119,22 @@ impl<'g> Algebraic<'g> {
         &self,
         build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
     ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
+        self.with_inputs(|inputs, at| build(&inputs[..self.original_inputs], at))
+    }
+
+    /// Makes the same graph with further values, which `build` makes from all inputs, those of
+    /// signs and symbols included, and from existing values.
+    pub fn with_inputs(
+        &self,
+        build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
+    ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
         let (graph, (values, odd)) = record(self.sources.len(), |inputs| {
             let reached = vec![true; self.graph.len()];
             let values = self.graph.replay(&reached, inputs, |_, _, _| None);
             let at = |expr: Expr| values[self.graph.place(expr)];
             let odd: Option<Vec<(Expr, u64)>> =
                 self.odd.iter().map(|(base, index)| Some((at(*base)?, *index))).collect();
-            (build(&inputs[..self.original_inputs], &at), odd)
+            (build(inputs, &at), odd)
         })?;
         let (Some(values), Some(odd)) = (values, odd) else { return Ok(None) };
         let mut all = Algebraic {

@@ -1,0 +1,63 @@
+//! The command `liouville verify`: proofs about motion, replayed from their certificates.
+
+use std::path::{Path, PathBuf};
+
+use crate::report::motion_certificate::{FORMAT, verify};
+use clap::Args;
+
+use super::eval::read_settings;
+use super::{Answer, Limits, Sampling};
+
+/// Words by which a certificate of a proof by points is known.
+const BY_POINTS: &str = "\"liouville certificate 1\"";
+
+#[derive(Debug, Args)]
+pub struct Verify {
+    /// Certificates, as `liouville check --motion --certificate FOLDER` writes them
+    #[arg(required = true)]
+    pub certificates: Vec<PathBuf>,
+    #[command(flatten)]
+    pub limits: Limits,
+    #[command(flatten)]
+    pub sampling: Sampling,
+}
+
+pub fn run(options: &Verify) -> Result<Answer, String> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.sampling.threads.unwrap_or(0))
+        .build()
+        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let (mut text, mut refused) = (String::new(), 0);
+    for path in &options.certificates {
+        match pool.install(|| one(path, options))? {
+            Ok(told) => text.push_str(&told),
+            Err(reason) => {
+                refused += 1;
+                text.push_str(&format!("REFUSED  {}: {reason}\n", path.display()));
+            }
+        }
+    }
+    let count = options.certificates.len();
+    let noun = if count == 1 { "certificate" } else { "certificates" };
+    text.push_str(&format!("{count} {noun}: {} proved, {refused} refused\n", count - refused));
+    Ok(Answer { text, code: u8::from(refused > 0) })
+}
+
+/// Verifies a certificate. The outer error is that of a file that cannot be read.
+fn one(path: &Path, options: &Verify) -> Result<Result<String, String>, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        format!(
+            "error: cannot read {}: {error}\n\
+             help: `liouville check CASE --motion --certificate FOLDER` writes certificates",
+            path.display()
+        )
+    })?;
+    if !text.contains(FORMAT) && text.contains(BY_POINTS) {
+        let reason = "a proof by points, which `python3 docs/certificates/check.py` checks";
+        return Ok(Err(reason.to_string()));
+    }
+    Ok(verify(&text, &options.sampling.options(), &read_settings).map(|report| {
+        let theorem = report.evidence.theorem.unwrap_or_default();
+        format!("proved   {}: {}\n         {theorem}\n", path.display(), report.name)
+    }))
+}

@@ -1,0 +1,151 @@
+//! Axes of a plane of motions: quantities that vary, by their names in a case.
+
+use super::plane::{Axis, Coordinate};
+use liouville::case::Case;
+use liouville::formula::{Type, canonical_name};
+use liouville::mechanics::Origin;
+use liouville::number::rational::Rational;
+
+/// Correct form of an axis.
+const FORM: &str = "write NAME=a..b, such as a_g=0..14 or l=0..2pi";
+
+/// Mistake in an axis that a user has given.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct AxisMistake {
+    /// Description of the mistake.
+    pub message: String,
+    /// Correction.
+    pub help: String,
+}
+
+impl AxisMistake {
+    fn new(message: &str, help: &str) -> Self {
+        Self { message: message.to_string(), help: help.to_string() }
+    }
+}
+
+impl Axis {
+    /// Reads an axis `NAME=a..b` of `count` points; also returns its canonical name.
+    pub fn read(case: &Case, text: &str, count: usize) -> Result<(String, Self), AxisMistake> {
+        let wrong = |message: &str| AxisMistake::new(message, FORM);
+        let (name, range) = text.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+        let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`"))?;
+        let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range"));
+        let (from, to): (Rational, Rational) = (read(from)?, read(to)?);
+        if from == to {
+            return Err(wrong("the range is empty"));
+        }
+        let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
+        let coordinate = Coordinate::of(case, &name).ok_or_else(|| {
+            AxisMistake::new(&format!("there is no `{name}` to vary"), &known(case))
+        })?;
+        if let Coordinate::Parameter { index, .. } = coordinate
+            && matches!(case.model.parameters[index].origin, Origin::Formula(_))
+        {
+            let message = format!("`{name}` is computed from other parameters");
+            return Err(AxisMistake::new(&message, "vary those that it is computed from"));
+        }
+        if let Coordinate::Parameter { index, .. } = coordinate
+            && case.model.is_rigid(index, &[])
+        {
+            let message = format!("`{name}` is a size, or stands in an index");
+            return Err(AxisMistake::new(&message, "vary another parameter"));
+        }
+        Ok((name, Self { coordinate, from, to, count }))
+    }
+}
+
+impl Coordinate {
+    /// Coordinate of a name: a parameter, a component of one, or a coordinate of the start.
+    pub fn of(case: &Case, name: &str) -> Option<Self> {
+        let find = |name: &str| case.model.parameters.iter().position(|known| known.name == name);
+        if let Some(index) = find(name)
+            && case.model.parameters[index].kind == Type::Scalar
+        {
+            return Some(Coordinate::Parameter { index, component: 0 });
+        }
+        match name {
+            "l" => return Some(Coordinate::L),
+            "L/G" => return Some(Coordinate::Z),
+            "energy" => return Some(Coordinate::Energy),
+            _ => {}
+        }
+        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+        let index = find(name.strip_suffix(digits)?)?;
+        let places: Vec<usize> = digits
+            .bytes()
+            .map(|digit| usize::from(digit).wrapping_sub(usize::from(b'1')))
+            .collect();
+        let component = match (case.model.parameters[index].kind, &places[..]) {
+            (Type::Vector(length), _) => {
+                digits.parse::<usize>().ok()?.checked_sub(1).filter(|k| *k < length)?
+            }
+            (Type::Matrix(rows, columns), [k]) if *k < rows.min(columns) => (columns + 1) * k,
+            (Type::Matrix(rows, columns), [i, j]) if *i < rows && *j < columns => columns * i + j,
+            _ => return None,
+        };
+        Some(Coordinate::Parameter { index, component })
+    }
+}
+
+/// Help that lists the possible axes of a case.
+fn known(case: &Case) -> String {
+    let names = case.model.parameters.iter().map(|parameter| match parameter.kind {
+        Type::Scalar => parameter.name.clone(),
+        _ => format!("{0}1, {0}2, {0}3", parameter.name),
+    });
+    let names: Vec<String> = names.collect();
+    format!("vary {}, or l, L/G, energy of the start on a section", names.join(", "))
+}
+
+/// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
+pub fn number_with_pi(text: &str) -> Option<Rational> {
+    let plain: String = text.split_whitespace().collect();
+    let plain = plain.replace("pi", "π").replace('*', "");
+    let Some((before, behind)) = plain.split_once('π') else { return plain.parse().ok() };
+    let factor: Rational = match before {
+        "" => Rational::from(1),
+        "-" | "−" => Rational::from(-1),
+        number => number.parse().ok()?,
+    };
+    let divisor: Rational = match behind.strip_prefix('/') {
+        Some(number) => number.parse().ok()?,
+        None if behind.is_empty() => Rational::from(1),
+        None => return None,
+    };
+    let pi = Rational::from_f64(std::f64::consts::PI)?;
+    Some(&(&pi * &factor) * &divisor.recip()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_are_read_by_name() {
+        let case = Case::parse(
+            "title = 'a'\n[parameters]\nn = 2\na = 1\nc = '[0, 0, 1]'\nb = '2*a'\n\
+             [state]\nx = 'vector(n, -1..1)'\n[field]\n\"x'\" = 'a*b*c[1]*x'\n",
+            &[],
+        );
+        let case = case.expect("a case");
+        let (name, axis) = Axis::read(&case, "c3 = -1/2 .. 2pi", 4).expect("an axis");
+        let component = Coordinate::Parameter { index: 2, component: 2 };
+        assert_eq!((name.as_str(), axis.coordinate, axis.count), ("c3", component, 4));
+        assert_eq!(axis.from, Rational::new(-1, 2));
+        for (text, wrong) in [
+            ("a", "there is no `=`"),
+            ("a=1", "there is no `..`"),
+            ("a=1..x", "is no range"),
+            ("a=1..1", "the range is empty"),
+            ("d=0..1", "there is no `d` to vary"),
+            ("c4=0..1", "there is no `c4` to vary"),
+            ("b=0..1", "`b` is computed from other parameters"),
+            ("n=0..1", "`n` is a size, or stands in an index"),
+        ] {
+            let mistake = Axis::read(&case, text, 4).expect_err(text);
+            assert_eq!(mistake.message, wrong, "{text}");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Grounds on which a closed orbit of a case is proved: the conditions on the case, the functions
+//! that its motion is proved to keep, and the values of its parameters.
+
+use std::borrow::Cow;
+
+use super::scene::Scene;
+use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedOrbit, Request, Start};
+use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::claim::motion::{Beginning, ClosedOrbit, Neighbourhood};
+use liouville::formula::Formula;
+use liouville::mechanics::{Chart, Draw, LevelFunction, Line, Origin, Parameter, Recipe};
+use liouville::number::rational::Rational;
+use liouville::verdict::{self, Options, Trust, Verdict};
+
+/// Case with all that a proof of a closed orbit rests on.
+pub struct Ground<'g> {
+    /// The case; parameters that vary are free in it.
+    case: Cow<'g, Case>,
+    start: Start,
+    period: f64,
+    keeps_energy: bool,
+    energy: Option<&'g Rational>,
+    integrals: &'g [Formula],
+    loose: Vec<Loose>,
+    wants_multipliers: bool,
+}
+
+impl<'g> Ground<'g> {
+    /// Grounds of a claim, or the reason why nothing is proved.
+    pub fn of(
+        claim: &'g ClosedOrbit,
+        scene: &'g Scene<'_>,
+        options: &Options,
+    ) -> Result<Result<Self, String>, FlowError> {
+        let case: &'g Case = scene.case;
+        if case.model.system.has_arbitrary_function() {
+            return Err(FlowError::Arbitrary);
+        }
+        if let Some(reason) = objection(case) {
+            return Ok(Err(reason.to_string()));
+        }
+        let mut start = scene.start(&claim.beginning)?;
+        let energy = match claim.beginning {
+            Beginning::Section(_) => case.section.as_ref().map(|plan| &plan.energy),
+            Beginning::State(_) => None,
+        };
+        let Some((case, loose)) = freed(case, &claim.parameters) else {
+            return Ok(Err("some parameters have no fixed value to vary about".to_string()));
+        };
+        start.parameters = centres(&case);
+        Ok(kept(&case, &claim.integrals, options).map(|keeps_energy| Self {
+            case,
+            start,
+            period: claim.period.value,
+            keeps_energy,
+            energy,
+            integrals: &claim.integrals,
+            loose,
+            wants_multipliers: claim.stability.is_some(),
+        }))
+    }
+
+    /// Grounds of an orbit near a start, with its multipliers.
+    pub fn near(
+        case: &'g Case,
+        start: Start,
+        period: f64,
+        energy: Option<&'g Rational>,
+        options: &Options,
+    ) -> Result<Self, String> {
+        if let Some(reason) = objection(case) {
+            return Err(reason.to_string());
+        }
+        Ok(Self {
+            case: Cow::Borrowed(case),
+            start,
+            period,
+            keeps_energy: kept(case, &[], options)?,
+            energy,
+            integrals: &[],
+            loose: Vec::new(),
+            wants_multipliers: true,
+        })
+    }
+
+    /// Encloses the orbit by a proof, and checks that it lies where its integrals are proved.
+    pub fn enclosed(
+        &self,
+        proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
+    ) -> Result<ProvedOrbit, String> {
+        let integrals: Vec<&Formula> = self.integrals.iter().collect();
+        let request = Request {
+            model: &self.case.model,
+            start: &self.start,
+            period: self.period,
+            keeps_energy: self.keeps_energy,
+            energy: self.energy,
+            integrals: &integrals,
+            loose: &self.loose,
+            wants_multipliers: self.wants_multipliers,
+        };
+        let found = proof(&request).map_err(|obstacle| match obstacle {
+            Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
+            other => other.to_string(),
+        })?;
+        if found.kept > 0 && !is_inside(&self.case, &found.start) {
+            let reason = "the orbit starts outside the ranges of [state], where its integrals are \
+                          proved";
+            return Err(reason.to_string());
+        }
+        Ok(found)
+    }
+}
+
+/// Reason why no orbit of a case is proved, whatever the claim.
+fn objection(case: &Case) -> Option<&'static str> {
+    if case.model.free_components() > 0 {
+        return Some("some parameters have ranges, and an orbit is proved for fixed values");
+    }
+    let is_one_sided = case.one_sided.is_some();
+    is_one_sided.then_some("under a one-sided constraint no orbit is proved")
+}
+
+/// Case in which some fixed parameters are free to vary about their values.
+fn freed<'c>(case: &'c Case, varied: &[Neighbourhood]) -> Option<(Cow<'c, Case>, Vec<Loose>)> {
+    if varied.is_empty() {
+        return Some((Cow::Borrowed(case), Vec::new()));
+    }
+    let mut own = case.clone();
+    for one in varied {
+        one.free(&mut own.model)?;
+    }
+    let (mut loose, mut first) = (Vec::new(), 0);
+    for parameter in own.model.free_parameters() {
+        let Origin::Free(Recipe::Around { centres, half, .. }) = &parameter.origin else {
+            return None;
+        };
+        let places = places(parameter, centres.len());
+        loose.extend(centres.iter().zip(places).map(|(centre, place)| Loose {
+            component: first + place,
+            centre: centre.clone(),
+            half: half.clone(),
+        }));
+        first += parameter.kind.size();
+    }
+    Some((Cow::Owned(own), loose))
+}
+
+/// Places of the numbers of a recipe among the components of a parameter: all, or the diagonal.
+fn places(parameter: &Parameter, count: usize) -> impl Iterator<Item = usize> + use<> {
+    let step = if parameter.kind.size() == count { 1 } else { count + 1 };
+    (0..count).map(move |index| index * step)
+}
+
+/// Components of the free parameters in the middle of their ranges.
+fn centres(case: &Case) -> Vec<Rational> {
+    let mut all = Vec::new();
+    for parameter in case.model.free_parameters() {
+        let mut own = vec![Rational::from(0); parameter.kind.size()];
+        if let Origin::Free(Recipe::Around { centres, .. }) = &parameter.origin {
+            for (place, centre) in places(parameter, centres.len()).zip(centres) {
+                own[place] = centre.clone();
+            }
+        }
+        all.extend(own);
+    }
+    all
+}
+
+/// Checks that the level functions and the claimed integrals are proved to be conserved. Returns
+/// whether the energy is.
+fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, String> {
+    let level = case.model.level.iter().map(|equation| match &equation.function {
+        LevelFunction::UnitNormal => "(γ,γ)".to_string(),
+        LevelFunction::NoSpin => "(ω,γ)".to_string(),
+        LevelFunction::Formula(_) => match equation.text.split_once('=') {
+            Some((left, right)) => format!("({left}) - ({right})"),
+            None => equation.text.clone(),
+        },
+    });
+    let integrals = integrals.iter().map(|formula| formula.text().to_string());
+    let needed: Vec<String> = level.chain(integrals).collect();
+    if let Some(text) = needed.iter().find(|text| !is_proved(case, text, options)) {
+        return Err(format!("it is not proved that the motion keeps {}", text.trim()));
+    }
+    Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
+}
+
+/// Whether a function is proved to be an integral on the level.
+fn is_proved(case: &Case, function: &str, options: &Options) -> bool {
+    let Ok(asked) = case.with_claims(&[Claim::integral(function)]) else { return false };
+    let options = Options { trust: Trust::Best, mutants: false, ..*options };
+    let report = verdict::judge(&asked, &options);
+    report.is_ok_and(|report| report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))
+}
+
+/// Whether a box of states lies where identities are proved: near a state that can be drawn they
+/// hold, and an analytic function that is 0 there is 0 along the orbit.
+fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
+    match case.chart {
+        Chart::Rolling | Chart::Sphere => return true,
+        Chart::Given(_) => return false,
+        Chart::Free | Chart::Equations => {}
+    }
+    let is_within = |(draw, x): (&Draw, &Enclosure)| {
+        let (low, high) = (x.mid - x.rad, x.mid + x.rad);
+        match draw {
+            Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
+            Draw::Of(Line::All, _) => true,
+            Draw::Of(Line::Positive, _) => low > 0.0,
+            Draw::OneOf(_) | Draw::Sign => false,
+        }
+    };
+    case.free_draws.len() == state.len() && case.free_draws.iter().zip(state).all(is_within)
+}

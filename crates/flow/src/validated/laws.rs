@@ -1,0 +1,50 @@
+//! Equations of a motion as they enter a proof: parameters, some of them loose, and the functions
+//! that the motion conserves.
+
+use crate::motion::{Loose, filled};
+use liouville::formula::Formula;
+use liouville::graph::Expr;
+use liouville::mechanics::{Model, Phase};
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+use num_dual::Dual;
+
+/// Model with its parameters and the functions that are proved to be conserved.
+#[derive(Clone, Copy)]
+pub struct Laws<'l> {
+    /// Model of the case.
+    pub model: &'l Model,
+    /// Values of the free parameters, at the centres of their ranges where they are loose.
+    pub parameters: &'l [Rational],
+    /// Free parameters that vary within ranges.
+    pub loose: &'l [Loose],
+    /// Whether the energy is conserved.
+    pub energy: bool,
+    /// Further functions that are conserved.
+    pub integrals: &'l [&'l Formula],
+}
+
+impl<'l> Laws<'l> {
+    /// Point over recorded scalars, the loose parameters given by variables between -1 and 1.
+    pub fn point(&self, state: &[Expr], loose: &[Expr]) -> Phase<'l, Expr> {
+        Phase::new(self.model, &filled(self.parameters, self.loose, loose), state)
+    }
+
+    /// Point with a derivative part along a loose parameter, and this one of the state.
+    pub fn lifted(
+        &self,
+        state: &[Expr],
+        loose: &[Expr],
+        direction: &[Expr],
+        along: usize,
+    ) -> Phase<'l, Dual<Expr>> {
+        let filled = filled(self.parameters, self.loose, loose);
+        let mut parameters: Vec<Dual<Expr>> = filled.into_iter().map(Dual::from_re).collect();
+        if let Some(one) = self.loose.get(along) {
+            parameters[one.component].eps = Expr::rational(&one.half);
+        }
+        let pairs = state.iter().zip(direction);
+        let state: Vec<Dual<Expr>> = pairs.map(|(x, dx)| Dual::new(*x, *dx)).collect();
+        Phase::new(self.model, &parameters, &state)
+    }
+}

@@ -1,0 +1,51 @@
+//! Reasons why nothing is proved about a motion.
+
+use super::{MOST_UNKNOWNS, forward};
+use crate::error::FlowError;
+
+/// Reason why a motion is not enclosed, or no closed orbit proved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Obstacle {
+    /// The motion cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] FlowError),
+    /// The level equations are dependent at the start.
+    #[error("the level equations are not independent at the start")]
+    Level,
+    /// The orbit is too long.
+    #[error("the orbit takes more than {MOST_UNKNOWNS} unknowns")]
+    TooLong,
+    /// The motion is too long.
+    #[error("the motion takes more than {} steps", forward::MOST_STEPS)]
+    TooManySteps,
+    /// The state is not enclosed well enough.
+    #[error("the enclosure of the state grows too wide near t = {0:.3}")]
+    Wide(f64),
+    /// The equations are singular.
+    #[error(
+        "the equations for the orbit are singular: it is degenerate, or one of a family of closed \
+         orbits, or there is none"
+    )]
+    Degenerate,
+    /// Newton's method does not converge.
+    #[error("no closed orbit is found near the start: Newton's method does not converge")]
+    NoOrbit,
+    /// A step is not proved.
+    #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
+    NoStep(f64),
+    /// The boxes are not mapped into themselves.
+    #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
+    NoContraction(f64),
+    /// The boxes are not mapped into themselves for all values of the parameters.
+    #[error(
+        "the boxes are not contracted for all values of the parameters (norm {0:.1e}): make their \
+         ranges smaller"
+    )]
+    TooWide(f64),
+    /// The data of a proof do not fit the equations.
+    #[error("the data do not fit the equations: {0}")]
+    Data(&'static str),
+    /// The gradients of the conserved functions are not proved independent.
+    #[error("the gradients of the functions kept are not proved independent along the orbit")]
+    Gradients,
+}

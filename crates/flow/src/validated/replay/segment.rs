@@ -1,0 +1,93 @@
+//! One segment of an orbit, in balls of many bits.
+
+use super::number::{Wide, domain};
+use super::series::Script;
+use super::tails::remainders;
+use crate::validated::functions::Functions;
+use crate::validated::motion::Motion;
+
+/// Scripts of the equations of a motion.
+pub struct Scripts<'m> {
+    pub motion: &'m Motion,
+    state: Script<'m>,
+    wide: Script<'m>,
+    full: Script<'m>,
+}
+
+/// End of a step from a box, with its derivative by the start and by the loose parameters.
+pub struct Passage {
+    pub end: Vec<Wide>,
+    /// Derivative, row by row.
+    pub derivative: Vec<Vec<Wide>>,
+    pub volume: Wide,
+}
+
+/// Values of the conserved functions and their gradients.
+pub type Values = (Vec<Wide>, Vec<Vec<Wide>>);
+
+impl<'m> Scripts<'m> {
+    /// Prepares the plans of a motion for series of this order.
+    pub fn new(motion: &'m Motion, order: usize) -> Self {
+        let script = |plan| Script::new(plan, order);
+        Self {
+            motion,
+            state: script(&motion.state),
+            wide: Script::new(&motion.wide, 1),
+            full: script(&motion.full),
+        }
+    }
+
+    /// Encloses the variables of the loose parameters.
+    fn ranges(&self) -> Vec<Wide> {
+        vec![Wide::about(0.0, 1.0); self.motion.loose]
+    }
+
+    /// Encloses the state after the time `h` from a point, all parameters at their centres.
+    pub fn end(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+        ends(&self.state, start, h, radius)
+    }
+
+    /// Encloses the states after the time `h` from a box, for all values of the parameters.
+    pub fn passage(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<Passage> {
+        let (n, loose) = (self.motion.dimension, self.motion.loose);
+        let count = n * (n + loose);
+        let unit = |i: usize, j: usize| Wide::exact(if i == j { 1.0 } else { 0.0 });
+        let vectors = (0..n + loose).flat_map(|i| (0..n).map(move |j| unit(i, j)));
+        let others = self.motion.full.dimension - n - loose - count;
+        let zeros = std::iter::repeat_n(Wide::zero(), others);
+        let all: Vec<Wide> =
+            start.iter().cloned().chain(self.ranges()).chain(vectors).chain(zeros).collect();
+        let mut end = ends(&self.full, &all, h, radius)?;
+        let columns = end.split_off(n).split_off(loose);
+        let entry = |row: usize, column: usize| columns[column * n + row].clone();
+        let derivative =
+            (0..n).map(|row| (0..n + loose).map(|column| entry(row, column)).collect()).collect();
+        Some(Passage { end, derivative, volume: columns[count].clone() })
+    }
+
+    /// Encloses the field over a box, for all values of the parameters.
+    pub fn field(&self, state: &[Wide]) -> Vec<Wide> {
+        let all: Vec<Wide> = state.iter().cloned().chain(self.ranges()).collect();
+        let series = self.wide.expand(&all);
+        let rates = &self.motion.wide.rates[..self.motion.dimension];
+        rates.iter().map(|row| series.rows[*row][0].clone()).collect()
+    }
+}
+
+fn ends(script: &Script<'_>, start: &[Wide], h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+    let series = script.expand(start);
+    let rests = remainders(&series, h, radius)?;
+    let end = |(row, rest): (usize, &Wide)| series.polynomial(row, h).plus(&Wide::within(rest));
+    let found: Vec<Wide> = rests.iter().enumerate().map(end).collect();
+    found.iter().all(Wide::is_known).then_some(found)
+}
+
+/// Encloses the conserved functions and their gradients over a box, for all values of the parameters
+/// or for those at the centres.
+pub fn functions(functions: &Functions, state: &[Wide], is_wide: bool) -> Values {
+    let loose = if is_wide { Wide::about(0.0, 1.0) } else { Wide::zero() };
+    let state = state.iter().map(Wide::block).collect();
+    let (values, gradients) = functions.over(domain(), state, &loose.block());
+    let known = |all: Vec<_>| all.into_iter().map(Wide::from_block).collect::<Vec<Wide>>();
+    (known(values), gradients.into_iter().map(known).collect())
+}

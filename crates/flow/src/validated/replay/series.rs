@@ -1,0 +1,156 @@
+//! Taylor coefficients of a plan in balls of many bits, one box at a time.
+
+use super::number::Wide;
+use crate::form::Row;
+use crate::validated::plan::{Exponent, Operation, Plan};
+use liouville::number::Function;
+use liouville::number::rational::Rational;
+
+/// Sum of products with enclosed coefficients.
+pub struct Weights {
+    pub constant: Option<Wide>,
+    pub linear: Vec<(Wide, Row)>,
+    pub products: Vec<(Wide, Row, Row)>,
+}
+
+/// Plan with its coefficients in many bits.
+pub struct Script<'p> {
+    pub plan: &'p Plan,
+    /// Sums of the operations, one for each; empty where the operation is none.
+    pub sums: Vec<Weights>,
+    pub order: usize,
+    /// The numbers n and 1/n.
+    whole: Vec<Wide>,
+    shares: Vec<Wide>,
+}
+
+impl<'p> Script<'p> {
+    /// Prepares expansions to this order.
+    pub fn new(plan: &'p Plan, order: usize) -> Self {
+        let weights = |(_, operation): &(Row, Operation)| match operation {
+            Operation::Sum(sum) => Weights {
+                constant: sum.form.constant.as_ref().map(Wide::of),
+                linear: sum.form.linear.iter().map(|(c, x)| (Wide::of(c), *x)).collect(),
+                products: sum.form.products.iter().map(|(c, x, y)| (Wide::of(c), *x, *y)).collect(),
+            },
+            _ => Weights { constant: None, linear: Vec::new(), products: Vec::new() },
+        };
+        let sums = plan.operations.iter().map(weights).collect();
+        let whole: Vec<Wide> = (0..=order + 1).map(|n| Wide::exact(n as f64)).collect();
+        let shares = whole.iter().map(Wide::recip).collect();
+        Self { plan, sums, order, whole, shares }
+    }
+
+    /// Computes all coefficients at a box of states.
+    pub fn expand(&self, state: &[Wide]) -> Series<'_, 'p> {
+        let mut series = Series { script: self, rows: vec![Vec::new(); self.plan.rows] };
+        for (row, value) in state.iter().enumerate() {
+            series.rows[row].push(value.clone());
+        }
+        for n in 0..self.order {
+            for (index, (out, operation)) in self.plan.operations.iter().enumerate() {
+                let value = series.coefficient(*out, operation, &self.sums[index], n);
+                series.rows[*out].push(value);
+            }
+            for (component, rate) in self.plan.rates.iter().enumerate() {
+                let next = series.at(*rate, n).times(&self.shares[n + 1]);
+                series.rows[component].push(next);
+            }
+        }
+        series
+    }
+}
+
+/// Coefficients of all rows, orders 0 to `order` of the state and to `order` - 1 of other rows.
+pub struct Series<'s, 'p> {
+    pub script: &'s Script<'p>,
+    pub rows: Vec<Vec<Wide>>,
+}
+
+impl Series<'_, '_> {
+    fn at(&self, row: Row, n: usize) -> &Wide {
+        &self.rows[row][n]
+    }
+
+    /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
+    fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Wide {
+        let mut sum = Wide::zero();
+        for k in first..=last {
+            let (a, b) = (self.at(x, k), self.at(y, n - k));
+            if !(a.is_zero() && b.is_known() || b.is_zero() && a.is_known()) {
+                sum = sum.plus(&a.times(b));
+            }
+        }
+        sum
+    }
+
+    /// Encloses Σ k x_k y_{n-k} over k from 1 to `last`.
+    fn weighted(&self, x: Row, y: Row, n: usize, last: usize) -> Wide {
+        (1..=last).fold(Wide::zero(), |sum, k| {
+            let product = self.at(x, k).times(self.at(y, n - k));
+            sum.plus(&self.script.whole[k].times(&product))
+        })
+    }
+
+    /// Computes one coefficient of a row from those of lower orders and of rows before it.
+    fn coefficient(&self, out: Row, operation: &Operation, sum: &Weights, n: usize) -> Wide {
+        let of = |function, x: &Row| self.at(*x, 0).apply(function);
+        let number = &self.script.whole[n];
+        let share = &self.script.shares[n];
+        let per = |x: &Row| number.times(self.at(*x, 0)).recip();
+        match operation {
+            Operation::Sum(_) => self.sum(sum, n),
+            Operation::Theta(x) => number.times(self.at(*x, n)),
+            Operation::Recip(x) if n == 0 => of(Function::Recip, x),
+            Operation::Recip(x) => self.at(out, 0).times(&self.convolved(*x, out, n, 1, n)).neg(),
+            Operation::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
+            Operation::Power { x, exponent, .. } => {
+                let moved = Wide::of(&exponent.exact).times(&self.weighted(*x, out, n, n));
+                moved.minus(&self.weighted(out, *x, n, n - 1)).times(&per(x))
+            }
+            Operation::Exp(x) if n == 0 => of(Function::Exp, x),
+            Operation::Exp(x) => self.weighted(*x, out, n, n).times(share),
+            Operation::Ln { x, .. } if n == 0 => of(Function::Ln, x),
+            Operation::Ln { x, .. } => {
+                let own = self.weighted(out, *x, n, n - 1);
+                number.times(self.at(*x, n)).minus(&own).times(&per(x))
+            }
+            Operation::Sin { x, .. } if n == 0 => of(Function::Sin, x),
+            Operation::Sin { x, cosine } => self.weighted(*x, *cosine, n, n).times(share),
+            Operation::Cos { x, .. } if n == 0 => of(Function::Cos, x),
+            Operation::Cos { x, sine } => self.weighted(*x, *sine, n, n).times(share).neg(),
+            Operation::Atan { x, .. } if n == 0 => of(Function::Atan, x),
+            Operation::Atan { x, square, .. } => {
+                let own = self.weighted(out, *square, n, n - 1);
+                number.times(self.at(*x, n)).minus(&own).times(&per(square))
+            }
+        }
+    }
+
+    fn sum(&self, sum: &Weights, n: usize) -> Wide {
+        let mut total = match &sum.constant {
+            Some(value) if n == 0 => value.clone(),
+            _ => Wide::zero(),
+        };
+        for (weight, x) in &sum.linear {
+            total = total.plus(&weight.times(self.at(*x, n)));
+        }
+        for (weight, x, y) in &sum.products {
+            total = total.plus(&weight.times(&self.convolved(*x, *y, n, 0, n)));
+        }
+        total
+    }
+
+    /// Encloses Σ x_k h^k of a component of the state, k from 0 to `order`.
+    pub fn polynomial(&self, component: usize, h: &Wide) -> Wide {
+        let own = &self.rows[component];
+        own.iter().rev().fold(Wide::zero(), |sum, coefficient| sum.times(h).plus(coefficient))
+    }
+}
+
+fn power(x: &Wide, exponent: &Exponent) -> Wide {
+    match exponent.exact == Rational::new(1, 2) {
+        true => x.apply(Function::Sqrt),
+        false => x.power(&exponent.exact),
+    }
+}

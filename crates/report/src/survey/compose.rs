@@ -1,0 +1,317 @@
+//! Composition of the document of a survey: its sections and their contents.
+
+use super::document::{Block, Cell, Document, Section};
+use super::entry::{self, blocks, independence};
+use super::picture;
+use liouville::case::Case;
+use liouville::verdict::CaseReport;
+use liouville_search::survey::{Count, Description, Finding, Integrals, Measure, Survey, Unknown};
+
+/// Composes the document of a survey; `origin` names the program and the case.
+pub fn document(survey: &Survey, origin: &str) -> Document {
+    let sections = [
+        Section::new("Where it stands", standing(survey)),
+        Section::new("The system", system(survey)),
+        Section::new("General integrals", blocks(&survey.general)),
+        Section::new("Invariant measure", measure(survey)),
+        Section::new("Further integrals", integrals(survey)),
+        Section::new("Symmetry fields", blocks(&survey.fields)),
+        Section::new("Reversors and symmetries", maps(survey)),
+        Section::new("Conformally Hamiltonian form", hamiltonian(survey)),
+        Section::new("What is excluded", excluded(survey)),
+        Section::new("Not proved", blocks(&survey.undecided)),
+        Section::new("What the case claims", blocks(&survey.claimed)),
+        Section::new("How to repeat this", repeated(survey.seed, origin)),
+    ];
+    Document {
+        title: survey.title.clone(),
+        lead: survey.sentence.clone(),
+        headline: survey.hierarchy.class.words().to_string(),
+        sections: sections.into_iter().flatten().collect(),
+    }
+}
+
+/// Composes the document of a case without a survey: its claims alone.
+pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> Document {
+    let claims = report.claims.iter().map(|claim| Finding::claimed(case, claim.clone()));
+    let own = Description::of(case);
+    let lists = [("Given by:", own.functions), ("Equations of motion:", own.equations)];
+    let lists = lists.into_iter().chain([("Parameters:", own.parameters)]);
+    let stated = lists.filter(|(_, lines)| !lines.is_empty());
+    let told = report.warnings.iter().map(|warning| text(format!("Warning: {warning}.")));
+    let sections = [
+        Section::new(
+            "The system",
+            stated.flat_map(|(words, lines)| [text(words), Block::List(lines)]).collect(),
+        ),
+        Section::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
+        Section::new("Notes", told.collect()),
+        Section::new("How to repeat this", repeated(seed, origin)),
+    ];
+    Document {
+        title: case.title.clone(),
+        lead: case.source.clone(),
+        headline: "verdicts on its claims".to_string(),
+        sections: sections.into_iter().flatten().collect(),
+    }
+}
+
+fn text(words: impl Into<String>) -> Block {
+    Block::Text(words.into())
+}
+
+fn standing(survey: &Survey) -> Vec<Block> {
+    let standing = &survey.hierarchy;
+    let mut found = vec![
+        text(format!("In the hierarchy: {}.", standing.class.words())),
+        Block::List(standing.grounds.clone()),
+        Block::Picture(picture::hierarchy(standing)),
+    ];
+    if !standing.typical.is_empty() {
+        found.push(text("Typical of it:"));
+        found.push(Block::List(standing.typical.clone()));
+    }
+    found
+}
+
+fn system(survey: &Survey) -> Vec<Block> {
+    let mut found = vec![text(survey.sentence.clone())];
+    found.extend(survey.wireframe.as_ref().map(|frame| Block::Picture(picture::body(frame))));
+    let own = &survey.description;
+    if !own.functions.is_empty() {
+        found.extend([text("Given by:"), Block::List(own.functions.clone())]);
+    }
+    if !own.equations.is_empty() {
+        found.extend([text("Equations of motion:"), Block::List(own.equations.clone())]);
+    }
+    if !own.parameters.is_empty() {
+        found.extend([text("Parameters:"), Block::List(own.parameters.clone())]);
+    }
+    if survey.parameters.iter().any(|one| one.value.is_none()) {
+        found.push(text("What is proved holds for all values of the free parameters."));
+    }
+    let (holds, fails): (Vec<_>, Vec<_>) = survey.facts.iter().partition(|fact| fact.holds);
+    let told = |facts: Vec<&liouville_search::survey::Fact>| {
+        facts.iter().map(|fact| fact.words.clone()).collect::<Vec<_>>()
+    };
+    if !holds.is_empty() {
+        found.extend([text("Established:"), Block::List(told(holds))]);
+    }
+    if !fails.is_empty() {
+        let not = told(fails).join("; ");
+        found.push(text(format!("Ruled out: {not}.")));
+    }
+    let grounds = survey.facts.iter().map(|fact| match &fact.claim {
+        None => format!("{}: as the file says", fact.words),
+        Some(claim) => {
+            let grounds = entry::grounds(&claim.evidence).pop().unwrap_or_default();
+            format!("{}: {}; {grounds}", fact.words, claim.verdict.word())
+        }
+    });
+    found.push(Block::Folded("how each was decided", grounds.collect()));
+    found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
+    found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
+    found
+}
+
+fn measure(survey: &Survey) -> Vec<Block> {
+    let mut found = blocks(&survey.criterion);
+    let witness = survey.criterion.iter().find_map(|one| one.claim.evidence.witness.as_ref());
+    found.extend(
+        witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))),
+    );
+    found.extend(blocks(&survey.densities));
+    let sentence = match survey.hierarchy.measure {
+        Measure::ByQuadrature if survey.densities.is_empty() => Some(
+            "The criterion proves that a density of the configuration exists; no closed form of it is \
+             known here. Its values follow by quadrature.",
+        ),
+        Measure::ExcludedForConfiguration => Some(
+            "With forces or a rotor the criterion excludes densities of the configuration alone; one \
+             that depends on the velocities stays open.",
+        ),
+        _ => None,
+    };
+    found.extend(sentence.map(text));
+    if let Some(map) = &survey.sphere {
+        let closure = map.closure.map(|error| {
+            format!(" Around closed parallels the quadrature vanishes to {error:.0e}.")
+        });
+        let what = match map.quantity {
+            "C₁" => {
+                "The condition C₁ over the sphere of γ: with a density of the configuration it would be 0 everywhere."
+            }
+            "C" => {
+                "The criterion (γ, rot w) over the sphere of γ: it would be 0 everywhere if there were a density of the configuration."
+            }
+            _ => {
+                "ln ρ over the sphere of γ, less its value at e₁, by quadrature from the criterion."
+            }
+        };
+        let values: Vec<String> =
+            map.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let of = match values.is_empty() || values.len() > 12 {
+            true => " For the parameters of the first state.".to_string(),
+            false => format!(" For {}.", values.join("; ")),
+        };
+        found.push(text(format!("{what}{of}{}", closure.unwrap_or_default())));
+        found.push(Block::Picture(picture::sphere(map)));
+        found.push(table_of(map));
+    }
+    found
+}
+
+/// Table of every eighth column and fourth row of the map, for formats without pictures.
+fn table_of(map: &liouville_search::survey::SphereMap) -> Block {
+    let shown =
+        |value: &Option<f64>| Cell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
+    let rows = map.latitudes.iter().zip(&map.values).skip(1).step_by(4).map(|(latitude, row)| {
+        let mut cells = vec![Cell::Text(format!("{latitude:+.1}°"))];
+        cells.extend(row.iter().step_by(8).map(shown));
+        cells
+    });
+    Block::Table {
+        head: vec!["latitude", "3.75°", "63.75°", "123.75°", "183.75°", "243.75°", "303.75°"],
+        rows: rows.collect(),
+    }
+}
+
+fn integrals(survey: &Survey) -> Vec<Block> {
+    let mut found = blocks(&survey.integrals);
+    if !survey.dependent.is_empty() {
+        found.push(text("Also integrals, and functions of those above:"));
+        found.extend(blocks(&survey.dependent));
+    }
+    if !survey.rates.is_empty() {
+        found.push(text("By a linear equation two integrals exist, without a closed form here:"));
+        found.extend(blocks(&survey.rates));
+    }
+    if found.is_empty() {
+        found.push(text(match survey.hierarchy.integrals {
+            Integrals::ExcludedToDegree(degree) => format!(
+                "None is known. None that is polynomial in the velocities of degree at most {degree} exists \
+                 for generic values of the free parameters."
+            ),
+            _ => "None is known.".to_string(),
+        }));
+    }
+    found.push(text(count(&survey.independence, survey.hierarchy.measure)));
+    found.extend(survey.independence.claim.as_ref().map(independence));
+    found
+}
+
+fn count(count: &Count, measure: Measure) -> String {
+    let has_measure = matches!(measure, Measure::ClosedForm | Measure::ByQuadrature);
+    let found = count.independent.len();
+    let verdict = match (found >= count.needed, has_measure) {
+        (true, true) => "with the measure this is enough",
+        (true, false) => "but there is no measure to go with them",
+        (false, _) => "some are missing",
+    };
+    let known = match found {
+        0 => "no integral is proved".to_string(),
+        1 => format!("1 independent integral is proved ({})", count.independent.join(", ")),
+        _ => format!("{found} independent integrals are proved ({})", count.independent.join(", ")),
+    };
+    format!(
+        "The level set has dimension {}; {known}. The Euler–Jacobi theorem needs {} and a measure: \
+         {verdict}.",
+        count.dimension, count.needed,
+    )
+}
+
+fn maps(survey: &Survey) -> Vec<Block> {
+    let mut found = Vec::new();
+    let row = |one: &Finding, with_set: bool| {
+        let map = one.images.iter().map(|image| format!("{} ↦ {}", image.name, image.formula));
+        let map = map.collect::<Vec<_>>().join(", ");
+        let mut cells = vec![
+            Cell::Text(one.claim.name.clone()),
+            Cell::Formula(map, one.shown.statement.clone()),
+            Cell::Text(one.claim.verdict.word().to_string()),
+        ];
+        if with_set {
+            cells.push(Cell::Text(match one.fixed_set.map(|set| set.dimension) {
+                Some(Some(dimension)) => dimension.to_string(),
+                Some(None) => "empty".to_string(),
+                None => "–".to_string(),
+            }));
+        }
+        cells
+    };
+    if survey.reversors.is_empty() {
+        found.push(text("No reversor was found among signed permutations of the axes."));
+    } else {
+        found.push(text(
+            "Reversors, with the dimension of what they leave in place on the level set:",
+        ));
+        found.push(Block::Table {
+            head: vec!["reversor", "map", "verdict", "dimension"],
+            rows: survey.reversors.iter().map(|one| row(one, true)).collect(),
+        });
+    }
+    if !survey.symmetries.is_empty() {
+        found.push(text("Discrete symmetries:"));
+        found.push(Block::Table {
+            head: vec!["symmetry", "map", "verdict"],
+            rows: survey.symmetries.iter().map(|one| row(one, false)).collect(),
+        });
+    }
+    found
+}
+
+fn hamiltonian(survey: &Survey) -> Vec<Block> {
+    if survey.hamiltonian.is_empty() {
+        return Vec::new();
+    }
+    let mut found = vec![text(
+        "With the multiplier N and the bracket of e(3), {Mᵢ,Mⱼ} = −εᵢⱼₖMₖ, {Mᵢ,γⱼ} = −εᵢⱼₖγₖ: \
+         N⁻¹M′ = M × ∂H/∂M + γ × ∂H/∂γ, N⁻¹γ′ = γ × ∂H/∂M on (M,γ) = 0, |γ| = 1; the measure is ρ dM dγ.",
+    )];
+    found.extend(blocks(&survey.hamiltonian));
+    found
+}
+
+fn excluded(survey: &Survey) -> Vec<Block> {
+    let mut found = theorems(&survey.search);
+    if !survey.fails.is_empty() {
+        found.push(text("Known of such systems, and refuted for this one:"));
+        found.extend(blocks(&survey.fails));
+    }
+    found
+}
+
+fn theorems(search: &Unknown) -> Vec<Block> {
+    let mut found: Vec<Block> =
+        search.excluded.iter().map(|one| text(format!("Theorem. {}", one.theorem))).collect();
+    if !search.counts.is_empty() {
+        found.push(text(
+            "Integrals polynomial in the velocities, with any smooth coefficients in the positions: at most \
+             so many independent over the constants, and how many products of known ones are among them.",
+        ));
+        let row = |count: &liouville_search::CountReport| {
+            let degree = match (count.mixed, count.free) {
+                (true, _) => format!("up to {}", count.degree),
+                (false, true) => format!("{} of the free motion", count.degree),
+                (false, false) => count.degree.to_string(),
+            };
+            let numbers = [count.dimension, count.known, count.unknowns, count.equations];
+            let cells = numbers.iter().map(|number| Cell::Text(number.to_string()));
+            std::iter::once(Cell::Text(degree)).chain(cells).collect()
+        };
+        found.push(Block::Table {
+            head: vec!["degree", "at most", "known", "unknowns", "equations"],
+            rows: search.counts.iter().map(row).collect(),
+        });
+    }
+    found.extend(search.remarks.iter().map(|remark| text(format!("Not counted: {remark}."))));
+    found
+}
+
+fn repeated(seed: u64, origin: &str) -> Vec<Block> {
+    vec![text(format!(
+        "{origin}, seed {}: the same input gives the same report. Pass a witness to `liouville eval` as \
+         printed.",
+        seed
+    ))]
+}

@@ -1,0 +1,122 @@
+//! Findings as entries of a report.
+
+use super::document::{Block, Entry, Mark};
+use crate::evidence::options;
+use liouville::verdict::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
+use liouville_search::survey::Finding;
+
+/// Findings as blocks, one after the other.
+pub fn blocks(findings: &[Finding]) -> Vec<Block> {
+    findings.iter().map(|one| Block::Entry(Box::new(entry(one)))).collect()
+}
+
+/// Entry of a finding.
+pub fn entry(finding: &Finding) -> Entry {
+    let claim = &finding.claim;
+    let evidence = &claim.evidence;
+    let map =
+        |one: &liouville_search::survey::Definition| format!("{} ↦ {}", one.name, one.formula);
+    let statement = match (claim.kind, finding.images.as_slice()) {
+        ("rate", [rate]) => Some(format!("d/dt {} = {}", rate.name, rate.formula)),
+        (_, []) => claim.formula.clone(),
+        (_, images) => Some(images.iter().map(map).collect::<Vec<_>>().join(", ")),
+    };
+    let mut definitions: Vec<(String, Option<liouville::formula::Layout>)> = finding
+        .definitions
+        .iter()
+        .map(|one| (format!("{} = {}", one.name, one.formula), None))
+        .collect();
+    if definitions.len() == finding.shown.definitions.len() {
+        for (definition, layout) in definitions.iter_mut().zip(&finding.shown.definitions) {
+            definition.1 = Some(layout.clone());
+        }
+    }
+    Entry {
+        mark: mark(claim.verdict),
+        verdict: claim.verdict.word(),
+        name: claim.name.clone(),
+        statement: statement.filter(|text| *text != claim.name),
+        layout: finding.shown.statement.clone(),
+        definitions,
+        remarks: remarks(finding),
+        source: claim.source.clone(),
+        evidence: grounds(evidence),
+    }
+}
+
+fn mark(verdict: Verdict) -> Mark {
+    match verdict {
+        Verdict::Proved | Verdict::Confirmed => Mark::Holds,
+        Verdict::Refuted => Mark::Fails,
+        Verdict::Undecided => Mark::Open,
+    }
+}
+
+/// Entry of the claim that integrals are independent.
+pub fn independence(claim: &ClaimReport) -> Block {
+    Block::Entry(Box::new(Entry {
+        mark: mark(claim.verdict),
+        verdict: claim.verdict.word(),
+        name: "they are independent".to_string(),
+        statement: None,
+        layout: None,
+        definitions: Vec::new(),
+        remarks: Vec::new(),
+        source: String::new(),
+        evidence: grounds(&claim.evidence),
+    }))
+}
+
+/// Additional facts about the verdict on a finding.
+fn remarks(finding: &Finding) -> Vec<String> {
+    let evidence = &finding.claim.evidence;
+    let mut remarks = Vec::new();
+    if finding.holds() {
+        remarks.extend(place(&evidence.holds));
+        match evidence.sign {
+            Some(Sign::Changes) => {
+                remarks.push("zeros or poles: a measure between them".to_string())
+            }
+            Some(Sign::Negative) => remarks.push("negative: take −ρ".to_string()),
+            _ => {}
+        }
+        if finding.is_quadrature() {
+            remarks.push("by quadrature".to_string());
+        }
+        if evidence.independence == Some(Independence::Constant) {
+            remarks.push("constant on the level".to_string());
+        }
+    }
+    remarks.extend(finding.remark.clone());
+    if finding.claim.verdict == Verdict::Undecided {
+        remarks.extend(evidence.reason.clone());
+    }
+    remarks
+}
+
+/// Domain on which a claim holds, in words.
+fn place(holds: &[String]) -> Option<String> {
+    Some(match holds.first()?.as_str() {
+        "everywhere" => "everywhere".to_string(),
+        "level" => "on the level set".to_string(),
+        equation => format!("on {equation}"),
+    })
+}
+
+/// Grounds of a verdict, line by line.
+pub fn grounds(evidence: &Evidence) -> Vec<String> {
+    let mut lines: Vec<String> =
+        evidence.climb.iter().map(|rung| format!("{}: {}", rung.rung, rung.found)).collect();
+    lines.extend(evidence.proof.as_ref().map(|proof| format!("proof: {proof}")));
+    lines.extend(evidence.volume.as_ref().map(|volume| format!("volume: {volume}")));
+    lines.extend(evidence.witness.as_ref().map(witness));
+    lines.extend(evidence.silence.as_ref().map(|silence| format!("no proof: {silence}")));
+    lines.extend(evidence.reason.clone());
+    lines
+}
+
+/// State at which a claim fails, in the notation of `eval`.
+pub fn witness(witness: &Witness) -> String {
+    let (residual, error) = (witness.residual, witness.error_bound);
+    format!("witness: {residual:.3e} ± {error:.1e} at {}", options(witness))
+}

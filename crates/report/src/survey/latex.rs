@@ -1,0 +1,92 @@
+//! A document as LaTeX, for XeLaTeX or LuaLaTeX.
+
+use super::document::{Block, Cell, Document, Entry};
+use crate::typeset::latex::{escaped, formula};
+
+const HEAD: &str = "% XeLaTeX or LuaLaTeX\n\\documentclass[a4paper,11pt]{article}\n\\usepackage{amsmath,amssymb,longtable,fontspec}\n\
+\\usepackage[margin=25mm]{geometry}\n\\setmainfont{DejaVu Serif}\n\\setmonofont{DejaVu Sans Mono}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{4pt}\n";
+
+/// Renders the whole document.
+pub fn render(document: &Document) -> String {
+    let mut out = format!(
+        "{HEAD}\\title{{{}}}\n\\date{{}}\n\\begin{{document}}\n\\maketitle\n",
+        escaped(&document.title)
+    );
+    for section in &document.sections {
+        out.push_str(&format!("\n\\section*{{{}}}\n", section.title));
+        for block in &section.blocks {
+            out.push_str(&set(block));
+        }
+    }
+    out + "\\end{document}\n"
+}
+
+fn set(block: &Block) -> String {
+    match block {
+        Block::Text(text) => format!("{}\n\n", escaped(text)),
+        Block::List(items) => list(items),
+        Block::Folded(_, lines) => small(lines),
+        Block::Entry(entry) => self::entry(entry),
+        Block::Table { head, rows } => {
+            let mut out = format!("\\begin{{longtable}}{{{}}}\n", "l".repeat(head.len()));
+            out.push_str(&format!("{} \\\\\n\\hline\n", head.join(" & ")));
+            for row in rows {
+                let cells: Vec<String> = row.iter().map(cell).collect();
+                out.push_str(&format!("{} \\\\\n", cells.join(" & ")));
+            }
+            out + "\\end{longtable}\n"
+        }
+        // LaTeX does not support SVG; the HTML page has the pictures.
+        Block::Picture(_) => String::new(),
+    }
+}
+
+fn list(items: &[String]) -> String {
+    let lines: String = items.iter().map(|item| format!("\\item {}\n", escaped(item))).collect();
+    format!("\\begin{{itemize}}\n{lines}\\end{{itemize}}\n")
+}
+
+fn small(lines: &[String]) -> String {
+    format!("{{\\footnotesize\n{}}}\n", list(lines))
+}
+
+fn cell(cell: &Cell) -> String {
+    match cell {
+        Cell::Text(text) => escaped(text),
+        Cell::Formula(_, Some(layout)) => format!("${}$", formula(layout)),
+        Cell::Formula(text, None) => format!("\\texttt{{{}}}", escaped(text)),
+    }
+}
+
+fn entry(entry: &Entry) -> String {
+    let mark = match entry.mark.sign() {
+        "✓" => "$\\checkmark$",
+        "✗" => "$\\times$",
+        other => other,
+    };
+    let mut out =
+        format!("\\par\\medskip {mark} \\textbf{{{}}} {}", entry.verdict, escaped(&entry.name));
+    if !entry.source.is_empty() {
+        out.push_str(&format!(" ({})", escaped(&entry.source)));
+    }
+    if !entry.remarks.is_empty() {
+        out.push_str(&format!(": {}", escaped(&entry.remarks.join("; "))));
+    }
+    out.push('\n');
+    match (&entry.layout, &entry.statement) {
+        (Some(layout), Some(_)) => out.push_str(&format!("\\[ {} \\]\n", formula(layout))),
+        (None, Some(text)) => out.push_str(&format!("\n\\texttt{{{}}}\n\n", escaped(text))),
+        _ => {}
+    }
+    if !entry.definitions.is_empty() {
+        let each = entry.definitions.iter().map(|(text, layout)| match layout {
+            Some(layout) => format!("$ {} $", formula(layout)),
+            None => format!("\\texttt{{{}}}", escaped(text)),
+        });
+        out.push_str(&format!("where {}.\n\n", each.collect::<Vec<_>>().join(", ")));
+    }
+    if !entry.evidence.is_empty() {
+        out.push_str(&small(&entry.evidence));
+    }
+    out
+}

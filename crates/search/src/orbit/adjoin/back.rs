@@ -1,0 +1,330 @@
+//! Formulas of the extended case in the names of the case itself.
+//!
+//! Terms are rewritten as a person writes them: u² − 2*k/√(x² + y²) for u² − 2*k*w, w = 1/r.
+
+use num_integer::Integer;
+
+use super::ring::{Atom, Ring};
+use super::write::{Names, written};
+
+/// A function by its name in the extended case.
+#[derive(Clone, Debug)]
+struct Entry {
+    name: String,
+    text: String,
+    /// Base and order of an inverse b^(−1/n).
+    inverse: Option<(String, u32)>,
+    /// Base and order of a root b^(1/n).
+    root: Option<(String, u32)>,
+}
+
+/// The names of all functions.
+#[derive(Clone, Debug)]
+pub struct Back {
+    entries: Vec<Entry>,
+}
+
+impl Back {
+    /// Takes the functions of a ring.
+    pub fn of(ring: &Ring, names: &Names) -> Self {
+        let entry = |(place, atom): (usize, &Atom)| {
+            let inverse = match atom {
+                Atom::Inverse(base, order) => Some((written(base, &names.original), *order)),
+                _ => None,
+            };
+            let root = match atom {
+                Atom::Root(base, order) => Some((written(base, &names.original), *order)),
+                _ => None,
+            };
+            Entry {
+                name: names.extended[place].clone(),
+                text: names.original[place].clone(),
+                inverse,
+                root,
+            }
+        };
+        let is_other = |place: usize, atom: &Atom| match atom {
+            Atom::Constant(_) => false,
+            _ => names.extended[place] != names.original[place],
+        };
+        let all = ring.atoms.iter().enumerate().filter(|(place, atom)| is_other(*place, atom));
+        Self { entries: all.map(entry).collect() }
+    }
+
+    /// Rewrites a formula.
+    pub fn rewritten(&self, text: &str) -> String {
+        joined(&self.rewritten_terms(text))
+    }
+
+    /// Rewrites an integral, up to a factor: most terms positive, and these first; F in place of 1/F.
+    pub fn integral(&self, text: &str) -> String {
+        let mut all = self.rewritten_terms(text);
+        if let [(_, only)] = all.as_slice()
+            && let Some(below) = only.strip_prefix("1/")
+        {
+            return below.split('/').collect::<Vec<_>>().join("*");
+        }
+        let negative = all.iter().filter(|(is_negative, _)| *is_negative).count();
+        if 2 * negative > all.len() {
+            all.iter_mut().for_each(|(is_negative, _)| *is_negative = !*is_negative);
+        }
+        all.sort_by_key(|(is_negative, _)| *is_negative);
+        joined(&all)
+    }
+
+    /// Terms with their signs.
+    fn rewritten_terms(&self, text: &str) -> Vec<(bool, String)> {
+        let all = terms(text);
+        if let [(is_negative, only)] = all.as_slice()
+            && let Some((above, below)) =
+                only.strip_prefix('(').and_then(|own| own.split_once(")/("))
+            && let Some(below) = below.strip_suffix(')')
+            && closes(&format!("({above})"))
+            && closes(&format!("({below})"))
+            && terms(below).len() == 1
+        {
+            // A fraction whose denominator is a product is divided term by term.
+            let divided = |(sign, term): (bool, &str)| {
+                (sign != *is_negative, self.term(&[(false, term), (true, below)]))
+            };
+            return terms(above).into_iter().map(divided).collect();
+        }
+        all.into_iter().map(|(sign, term)| (sign, self.term(&[(false, term)]))).collect()
+    }
+
+    /// Rewrites a product of products, some of which divide.
+    fn term(&self, parts: &[(bool, &str)]) -> String {
+        let mut powers: Vec<(String, i64, i64)> = Vec::new();
+        let mut add = |base: String, above: i64, below: i64| match powers
+            .iter_mut()
+            .find(|(own, ..)| *own == base)
+        {
+            Some((_, own, order)) => {
+                (*own, *order) = (*own * below + above * *order, *order * below)
+            }
+            None => powers.push((base, above, below)),
+        };
+        for (is_below, part) in parts {
+            for (divides, factor) in factors(part) {
+                let sign = if divides == *is_below { 1 } else { -1 };
+                let (base, power) = base_and_power(factor);
+                let own = self.entries.iter().find(|entry| entry.name == base);
+                match own.map(|entry| (entry, entry.inverse.as_ref())) {
+                    Some((_, Some((base, order)))) => {
+                        add(base.clone(), -sign * power, i64::from(*order));
+                    }
+                    Some((entry, None)) => match &entry.root {
+                        Some((base, order)) => add(base.clone(), sign * power, i64::from(*order)),
+                        None => add(entry.text.clone(), sign * power, 1),
+                    },
+                    None => add(self.inside(base), sign * power, 1),
+                }
+            }
+        }
+        let raised = |sign: i64| {
+            let own = powers.iter().filter(move |(_, above, _)| above.signum() == sign);
+            own.map(|(base, above, below)| raised(base, above.unsigned_abs(), below.unsigned_abs()))
+        };
+        let mut above: Vec<String> = raised(1).filter(|own| own != "1").collect();
+        if above.is_empty() {
+            above.push("1".to_string());
+        }
+        let made = raised(-1).fold(above.join("*"), |made, own| format!("{made}/{own}"));
+        self.replaced(&made)
+    }
+
+    /// Rewrites what stands in the brackets of a factor.
+    fn inside(&self, factor: &str) -> String {
+        let is_letter = |c: char| c.is_alphanumeric() || c == '_' || c == '√';
+        let start = factor.find('(').filter(|start| factor[..*start].chars().all(is_letter));
+        match (start, factor.strip_suffix(')')) {
+            (Some(start), Some(body)) if closes(&factor[start..]) => {
+                format!("{}({})", &factor[..start], self.rewritten(&body[start + 1..]))
+            }
+            _ => factor.to_string(),
+        }
+    }
+
+    /// Replaces the names that are left.
+    fn replaced(&self, text: &str) -> String {
+        let mut made = String::new();
+        let mut word = String::new();
+        for letter in text.chars().chain([' ']) {
+            if letter.is_alphanumeric() && !"²³".contains(letter) {
+                word.push(letter);
+                continue;
+            }
+            match self.entries.iter().find(|entry| entry.name == word) {
+                Some(entry) => made.push_str(&entry.text),
+                None => made.push_str(&word),
+            }
+            word.clear();
+            made.push(letter);
+        }
+        made.truncate(made.len() - 1);
+        made
+    }
+}
+
+/// Sum of terms with their signs.
+fn joined(all: &[(bool, String)]) -> String {
+    let mut text = String::new();
+    for (is_negative, term) in all {
+        text.push_str(match (is_negative, text.is_empty()) {
+            (true, true) => "−",
+            (true, false) => " − ",
+            (false, true) => "",
+            (false, false) => " + ",
+        });
+        text.push_str(term);
+    }
+    text
+}
+
+/// b^(power/order).
+fn raised(base: &str, power: u64, order: u64) -> String {
+    let common = power.gcd(&order).max(1);
+    let (power, order) = (power / common, order / common);
+    let is_number = base.chars().all(|letter| letter.is_ascii_digit());
+    let is_name = base.chars().all(|letter| letter.is_alphanumeric() && !"²³".contains(letter));
+    let is_tight = is_name || is_bracketed(base);
+    let bracketed = match is_tight && !(is_number && power > 1) {
+        true => base.to_string(),
+        false => format!("({base})"),
+    };
+    match (power, order) {
+        (1, 1) if is_number || is_tight => base.to_string(),
+        (1, 1) => bracketed,
+        (2, 1) => format!("{bracketed}²"),
+        (3, 1) => format!("{bracketed}³"),
+        (power, 1) => format!("{bracketed}^{power}"),
+        (1, 2) => format!("√({})", unbracketed(base)),
+        (power, order) => format!("({})^({power}/{order})", unbracketed(base)),
+    }
+}
+
+/// Whether a text is a call or a bracket as a whole.
+fn is_bracketed(text: &str) -> bool {
+    let is_letter = |c: char| c.is_alphabetic() || c == '√';
+    let start = text.find('(').filter(|start| text[..*start].chars().all(is_letter));
+    start.is_some_and(|start| closes(&text[start..]))
+}
+
+fn unbracketed(text: &str) -> &str {
+    let inner = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
+    inner.filter(|_| closes(text)).unwrap_or(text)
+}
+
+/// Splits off a whole exponent.
+fn base_and_power(factor: &str) -> (&str, i64) {
+    if let Some(base) = factor.strip_suffix('²') {
+        return (base, 2);
+    }
+    if let Some(base) = factor.strip_suffix('³') {
+        return (base, 3);
+    }
+    let split = factor.rsplit_once('^').and_then(|(base, power)| Some((base, power.parse().ok()?)));
+    split.unwrap_or((factor, 1))
+}
+
+/// Whether the first bracket is closed by the last letter only.
+fn closes(text: &str) -> bool {
+    let mut depth = 0usize;
+    let last = text.chars().count() - 1;
+    for (place, letter) in text.chars().enumerate() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth == 0 {
+            return place == last;
+        }
+    }
+    false
+}
+
+/// Places outside of brackets at which a letter of a set stands.
+fn places(text: &str, letters: &[char]) -> Vec<(usize, char)> {
+    let mut depth = 0usize;
+    let mut found = Vec::new();
+    for (place, letter) in text.char_indices() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ if depth == 0 && letters.contains(&letter) => found.push((place, letter)),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Splits a sum at its signs; the flag says whether a term is subtracted.
+fn terms(text: &str) -> Vec<(bool, &str)> {
+    let mut all = Vec::new();
+    let (mut start, mut is_negative) = (0, false);
+    for (place, letter) in places(text, &['+', '−', '-']) {
+        let before = text[start..place].trim();
+        // The sign of an exponent belongs to it.
+        if before.ends_with(['*', '/', '^']) {
+            continue;
+        }
+        if !before.is_empty() {
+            all.push((is_negative, before));
+        }
+        is_negative = letter != '+';
+        start = place + letter.len_utf8();
+    }
+    all.push((is_negative, text[start..].trim()));
+    all
+}
+
+/// Splits a product at its signs; the flag says whether a factor divides.
+fn factors(text: &str) -> Vec<(bool, &str)> {
+    let mut all = Vec::new();
+    let (mut start, mut is_below) = (0, false);
+    for (place, letter) in places(text, &['*', '/']) {
+        all.push((is_below, text[start..place].trim()));
+        (start, is_below) = (place + 1, letter == '/');
+    }
+    all.push((is_below, text[start..].trim()));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_are_written_as_a_person_writes_them() {
+        let entry = |name: &str, text: &str, inverse: Option<(&str, u32)>| Entry {
+            name: name.to_string(),
+            text: text.to_string(),
+            inverse: inverse.map(|(base, order)| (base.to_string(), order)),
+            root: None,
+        };
+        let back = Back {
+            entries: vec![
+                entry("aux4", "exp(q1 − q2)", None),
+                entry("aux5", "(1/√(x² + y²))", Some(("x² + y²", 2))),
+                entry("aux6", "(1/x)", Some(("x", 1))),
+            ],
+        };
+        let pairs = [
+            ("u² − 2*k*aux5", "u² − 2*k/√(x² + y²)"),
+            ("−aux6² + 2*aux4", "−1/x² + 2*exp(q1 − q2)"),
+            ("x*aux5³ + aux5²", "x/(x² + y²)^(3/2) + 1/(x² + y²)"),
+            ("(u*aux5 − 1)/(aux4² + 1)", "(u/√(x² + y²) − 1)/(exp(q1 − q2)² + 1)"),
+            ("ln(|aux4|) − x^(-2)", "ln(|exp(q1 − q2)|) − (x^(-2))"),
+            ("aux41 + aux5^4", "aux41 + 1/(x² + y²)²"),
+            ("(2*aux6 − x³*u²)/(x^5)", "2/x^6 − u²/x²"),
+            ("(2*u + 3)/(aux6)", "2*u*x + 3*x"),
+            ("−2*x", "−2*x"),
+        ];
+        for (text, wanted) in pairs {
+            assert_eq!(back.rewritten(text), wanted);
+        }
+        assert_eq!(back.integral("−2*k*aux5 + u²"), "u² − 2*k/√(x² + y²)");
+        assert_eq!(back.integral("(aux6)/(x*u)"), "x²*u");
+    }
+}

@@ -1,0 +1,242 @@
+//! Functions of the state as further variables.
+//!
+//! ```text
+//! polynomial   sparse polynomials with rational coefficients
+//! ring         which functions are adjoined, and what is written in them; their rates
+//! read         recorded formulas as polynomials of the ring
+//! absence      the polynomials that a theorem of absence covers
+//! write        the extended field as a case, with the functions' relations as a level set
+//! back         formulas of the extended case in the names of the case itself
+//! ```
+//!
+//! Exponentials, sines and cosines, roots, logarithms, powers and denominators that occur in a field
+//! have rates that are polynomials in them. So the field becomes a polynomial field of more
+//! variables. What is found there is written in the names of the case, and judged as a claim about
+//! it; nothing rests on the extension but the theorem of absence.
+
+pub mod absence;
+mod back;
+mod polynomial;
+mod read;
+mod ring;
+mod write;
+
+use liouville::case::Case;
+use liouville::formula::{Formula, Type};
+use liouville::mechanics::Chart;
+
+use self::absence::Class;
+use self::back::Back;
+use self::polynomial::{Monomial, Polynomial};
+use self::read::Reader;
+use self::ring::{Atom, Divided, Ring};
+use self::write::Names;
+use super::super::ask::proved_energy;
+use super::super::terms::recorded;
+use super::super::{Effort, Report, SearchError, Term};
+
+/// Largest number of variables.
+const VARIABLES: usize = 18;
+/// Largest number of factors.
+const FACTORS: usize = 40;
+/// Largest number of times that arguments are divided.
+const TRIES: usize = 8;
+
+/// A case whose state has the functions of its field as further components.
+pub struct Extension {
+    /// Extended case.
+    pub case: Case,
+    /// Divergence of the field of the case itself.
+    pub divergence: Formula,
+    /// Integrals that are known.
+    pub known: Vec<Formula>,
+    /// Polynomials that a theorem of absence covers.
+    pub class: Option<Class>,
+    /// Functions whose powers may be factors of densities and integrals.
+    pub factors: Vec<Formula>,
+    back: Back,
+    exponentials: Vec<String>,
+    /// Arguments of sines and cosines.
+    angles: Vec<Polynomial>,
+    /// Monomials of the extended state that relations between the functions write in others.
+    leading: Vec<Monomial>,
+}
+
+impl Extension {
+    /// Writes a formula of the extended case in the names of the case itself.
+    pub fn back(&self, formula: &Formula) -> String {
+        self.back.rewritten(formula.text())
+    }
+
+    /// Writes an integral in the names of the case itself, up to a factor or as its inverse.
+    pub fn back_integral(&self, formula: &Formula) -> String {
+        self.back.integral(formula.text())
+    }
+
+    /// Whether no relation between the functions writes a monomial in others of its degree.
+    pub fn is_standard(&self, monomial: &[u32]) -> bool {
+        let divides = |own: &[(usize, u32)]| {
+            own.iter().all(|(variable, power)| monomial[*variable] >= *power)
+        };
+        !self.leading.iter().any(|own| divides(own))
+    }
+
+    /// Half of each argument of a sine or cosine.
+    pub fn halves(&self) -> Vec<Divided> {
+        let angles = self.angles.iter();
+        angles.map(|argument| Divided { argument: argument.clone(), by: 2 }).collect()
+    }
+
+    /// Whether a formula is an adjoined exponential.
+    pub fn is_exponential(&self, formula: &Formula) -> bool {
+        self.exponentials.iter().any(|name| name == formula.text())
+    }
+}
+
+/// Polynomials that are read from one recording.
+struct Read {
+    ring: Ring,
+    field: Vec<Polynomial>,
+    divergence: Polynomial,
+    known: Vec<Polynomial>,
+}
+
+/// Adjoins the functions of a field; `None` if it is polynomial, or contains functions whose rates are
+/// not polynomials in them.
+pub fn extended(
+    case: &Case,
+    effort: &Effort,
+    report: &Report,
+    mut divided: Vec<Divided>,
+) -> Result<Option<Extension>, SearchError> {
+    let model = &case.model;
+    if !model.level.is_empty() || !matches!(case.chart, Chart::Free) {
+        return Ok(None);
+    }
+    let mut known: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
+    known.extend(report.functions("integral").cloned());
+    known.retain(|formula| formula.value_type() == Type::Scalar);
+    let typed: Vec<Formula> = effort
+        .terms
+        .iter()
+        .filter_map(|term: &Term| term.read(model).ok())
+        .filter(|formula| formula.value_type() == Type::Scalar)
+        .collect();
+    let (graph, (field, divergence, known, typed)) = recorded(case, |jet| {
+        let known: Vec<_> = known.iter().map(|own| jet.phase.scalar(own)).collect();
+        let typed: Vec<_> = typed.iter().map(|own| jet.phase.scalar(own)).collect();
+        (jet.phase.field().to_vec(), jet.divergence(), known, typed)
+    })?;
+    let parameters = model.free_components();
+    if graph.inputs() > parameters + model.dimension() {
+        return Ok(None);
+    }
+    let place = |own: &_| graph.place(*own);
+    let read = |ring: &mut Ring| -> Option<(Vec<Polynomial>, Polynomial, Vec<Polynomial>)> {
+        let mut reader = Reader::new(&graph);
+        let field: Option<Vec<Polynomial>> =
+            field.iter().map(|own| reader.read(place(own), ring)).collect();
+        let (field, divergence) = (field?, reader.read(place(&divergence), ring)?);
+        for own in &typed {
+            reader.read(place(own), ring);
+        }
+        let known = known.iter().filter_map(|own| reader.read(place(own), ring)).collect();
+        Some((field, divergence, known))
+    };
+    let mut made = None;
+    for _ in 0..TRIES {
+        let mut ring = Ring::new(parameters, model.dimension(), std::mem::take(&mut divided));
+        let found = read(&mut ring);
+        if ring.is_refined {
+            divided = ring.divided;
+            continue;
+        }
+        made = found.map(|(field, divergence, known)| Read { ring, field, divergence, known });
+        break;
+    }
+    let Some(made) = made else { return Ok(None) };
+    written(case, &made, effort.options.seed)
+}
+
+fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, SearchError> {
+    let ring = &read.ring;
+    let is_function =
+        |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
+    let functions = ring.atoms.iter().filter(is_function).count();
+    let is_needed = functions > 0 || names_are_foreign(case);
+    if !is_needed || functions + case.model.dimension() > VARIABLES {
+        return Ok(None);
+    }
+    let names = Names::of(case, ring);
+    let Some(rates) = ring.rates(&read.field) else { return Ok(None) };
+    let Some(text) = write::case(case, ring, &rates, &names) else { return Ok(None) };
+    let Ok(extended) = Case::parse(&text, &[]) else { return Ok(None) };
+    let formula = |own: &Polynomial| extended.formula(&write::written(own, &names.extended)).ok();
+    let Some(divergence) = formula(&read.divergence) else { return Ok(None) };
+    let known = read.known.iter().filter_map(formula).collect();
+    let exponentials = ring
+        .atoms
+        .iter()
+        .zip(&names.extended)
+        .filter_map(|(atom, name)| matches!(atom, Atom::Exponential(_)).then(|| name.clone()));
+    Ok(Some(Extension {
+        divergence,
+        known,
+        class: Class::of(&case.model, ring, seed),
+        factors: factors(ring, &names, formula),
+        angles: angles(ring),
+        leading: ring.leading(),
+        back: Back::of(ring, &names),
+        exponentials: exponentials.collect(),
+        case: extended,
+    }))
+}
+
+/// Whether some component of the state has a name that a variable of a field cannot have, as x'.
+fn names_are_foreign(case: &Case) -> bool {
+    let model = &case.model;
+    let is_plain = |name: &str| name.chars().all(char::is_alphanumeric);
+    (0..model.dimension()).any(|k| !is_plain(&model.component_name(k)))
+}
+
+/// Arguments of sines and cosines.
+fn angles(ring: &Ring) -> Vec<Polynomial> {
+    let argument = |atom: &Atom| match atom {
+        Atom::Sine(argument) => Some(argument.clone()),
+        _ => None,
+    };
+    ring.atoms.iter().filter_map(argument).collect()
+}
+
+/// Bases of denominators and roots, sines and cosines, and the sums of a root and a variable.
+fn factors(
+    ring: &Ring,
+    names: &Names,
+    formula: impl Fn(&Polynomial) -> Option<Formula>,
+) -> Vec<Formula> {
+    let mut all: Vec<Polynomial> = Vec::new();
+    let state = (0..ring.atoms.len()).filter(|k| matches!(ring.atoms[*k], Atom::State));
+    let state: Vec<usize> = state.collect();
+    for (place, atom) in ring.atoms.iter().enumerate() {
+        let this = Polynomial::variable(place, 1);
+        match atom {
+            Atom::Root(base, _) => {
+                all.push(base.clone());
+                let sum = |k: &usize| this.plus(&Polynomial::variable(*k, 1), &1.into());
+                all.extend(state.iter().filter_map(sum));
+            }
+            Atom::Inverse(base, 1) => all.push(base.clone()),
+            Atom::Sine(_) | Atom::Cosine(_) | Atom::Logarithm(..) => all.push(this),
+            _ => {}
+        }
+    }
+    let mut texts: Vec<String> = Vec::new();
+    all.retain(|own| {
+        let text = write::written(own, &names.extended);
+        let is_new = !texts.contains(&text);
+        texts.push(text);
+        is_new
+    });
+    all.truncate(FACTORS);
+    all.iter().filter_map(formula).collect()
+}

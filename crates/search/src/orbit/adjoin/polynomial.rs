@@ -1,0 +1,250 @@
+//! Sparse polynomials with rational coefficients.
+
+use std::collections::BTreeMap;
+
+use liouville::number::rational::Rational;
+
+/// Largest number of terms; longer polynomials are not made.
+const MOST: usize = 400;
+
+/// Powers of variables, by increasing variables, without powers 0.
+pub type Monomial = Vec<(usize, u32)>;
+
+/// A polynomial in numbered variables.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Polynomial(BTreeMap<Monomial, Rational>);
+
+impl Polynomial {
+    /// A constant.
+    pub fn constant(value: Rational) -> Self {
+        Self::term(Monomial::new(), value)
+    }
+
+    /// A power of a variable.
+    pub fn variable(variable: usize, power: u32) -> Self {
+        let own = if power > 0 { vec![(variable, power)] } else { Monomial::new() };
+        Self::term(own, Rational::from(1))
+    }
+
+    /// One term.
+    pub fn term(monomial: Monomial, value: Rational) -> Self {
+        let mut terms = BTreeMap::new();
+        if !value.is_zero() {
+            terms.insert(monomial, value);
+        }
+        Self(terms)
+    }
+
+    /// Iterates over the terms.
+    pub fn terms(&self) -> impl Iterator<Item = (&Monomial, &Rational)> {
+        self.0.iter()
+    }
+
+    /// Whether this is 0.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The only term; `None` if there are several, or none.
+    pub fn single(&self) -> Option<(&Monomial, &Rational)> {
+        self.0.iter().next().filter(|_| self.0.len() == 1)
+    }
+
+    /// The value of a constant.
+    pub fn value(&self) -> Option<Rational> {
+        match self.single() {
+            Some((own, value)) if own.is_empty() => Some(value.clone()),
+            Some(_) => None,
+            None => self.is_zero().then(|| Rational::from(0)),
+        }
+    }
+
+    /// Lists the variables.
+    pub fn variables(&self) -> Vec<usize> {
+        let mut all: Vec<usize> =
+            self.0.keys().flat_map(|own| own.iter().map(|(variable, _)| *variable)).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Sum with a multiple of another polynomial.
+    pub fn plus(&self, other: &Self, factor: &Rational) -> Option<Self> {
+        let mut terms = self.0.clone();
+        for (own, value) in &other.0 {
+            add(&mut terms, own.clone(), &(value * factor));
+        }
+        limited(terms)
+    }
+
+    /// Multiple by a number.
+    pub fn times_number(&self, factor: &Rational) -> Self {
+        let scaled = self.0.iter().map(|(own, value)| (own.clone(), value * factor));
+        Self(scaled.filter(|(_, value)| !value.is_zero()).collect())
+    }
+
+    /// Product; `None` if it is too long.
+    pub fn times(&self, other: &Self) -> Option<Self> {
+        let mut terms = BTreeMap::new();
+        for (a, x) in &self.0 {
+            for (b, y) in &other.0 {
+                add(&mut terms, product(a, b), &(x * y));
+            }
+            if terms.len() > MOST {
+                return None;
+            }
+        }
+        limited(terms)
+    }
+
+    /// Power; `None` if it is too long.
+    pub fn raised(&self, power: u32) -> Option<Self> {
+        let one = Self::constant(Rational::from(1));
+        (0..power).try_fold(one, |made, _| made.times(self))
+    }
+
+    /// Derivative along a motion in which each variable has a rate.
+    pub fn rate(&self, rates: impl Fn(usize) -> Option<Self>) -> Option<Self> {
+        let mut sum = Self::default();
+        for (own, value) in &self.0 {
+            for (place, (variable, power)) in own.iter().enumerate() {
+                let mut lower = own.clone();
+                match power {
+                    1 => drop(lower.remove(place)),
+                    _ => lower[place].1 -= 1,
+                }
+                let slope = Self::term(lower, value * &Rational::from(i64::from(*power)));
+                sum = sum.plus(&slope.times(&rates(*variable)?)?, &Rational::from(1))?;
+            }
+        }
+        Some(sum)
+    }
+
+    /// Splits off the common factor of all terms: value · monomial · rest, where the first
+    /// coefficient of the rest is 1 and all terms have no common variable.
+    pub fn split(&self) -> Option<(Rational, Monomial, Self)> {
+        let (first, value) = self.0.iter().next()?;
+        let mut common = first.clone();
+        for own in self.0.keys() {
+            common = common
+                .iter()
+                .filter_map(|(variable, power)| {
+                    let other = own.iter().find(|(other, _)| other == variable)?.1;
+                    Some((*variable, other.min(*power)))
+                })
+                .collect();
+        }
+        let inverse = value.recip()?;
+        let rest = self.0.iter().map(|(own, value)| (quotient(own, &common), value * &inverse));
+        let rest = Self(rest.collect());
+        Some((value.clone(), common, rest))
+    }
+}
+
+fn limited(terms: BTreeMap<Monomial, Rational>) -> Option<Polynomial> {
+    (terms.len() <= MOST).then_some(Polynomial(terms))
+}
+
+fn add(terms: &mut BTreeMap<Monomial, Rational>, own: Monomial, value: &Rational) {
+    let entry = terms.entry(own).or_insert_with(|| Rational::from(0));
+    *entry = &*entry + value;
+    if entry.is_zero() {
+        terms.retain(|_, value| !value.is_zero());
+    }
+}
+
+fn product(a: &Monomial, b: &Monomial) -> Monomial {
+    let mut all: BTreeMap<usize, u32> = a.iter().copied().collect();
+    for (variable, power) in b {
+        *all.entry(*variable).or_insert(0) += power;
+    }
+    all.into_iter().collect()
+}
+
+fn quotient(a: &Monomial, b: &Monomial) -> Monomial {
+    let less = |(variable, power): &(usize, u32)| {
+        let other = b.iter().find(|(other, _)| other == variable).map_or(0, |(_, power)| *power);
+        (*variable, power - other)
+    };
+    a.iter().map(less).filter(|(_, power)| *power > 0).collect()
+}
+
+/// Rational coefficients q with a = Σ q_j b_j.
+pub fn combination(a: &Polynomial, basis: &[Polynomial]) -> Option<Vec<Rational>> {
+    // Rows of monomials, columns of the basis, with `a` as the last.
+    let all: Vec<&Polynomial> = basis.iter().chain([a]).collect();
+    let mut monomials: Vec<&Monomial> = all.iter().flat_map(|own| own.0.keys()).collect();
+    monomials.sort();
+    monomials.dedup();
+    let entry = |own: &Polynomial, monomial: &Monomial| {
+        own.0.get(monomial).cloned().unwrap_or_else(|| Rational::from(0))
+    };
+    let mut rows: Vec<Vec<Rational>> = monomials
+        .iter()
+        .map(|monomial| all.iter().map(|own| entry(own, monomial)).collect())
+        .collect();
+    let width = basis.len();
+    let mut pivots = Vec::new();
+    for column in 0..=width {
+        let done = pivots.len();
+        let Some(found) = (done..rows.len()).find(|row| !rows[*row][column].is_zero()) else {
+            continue;
+        };
+        if column == width {
+            return None;
+        }
+        rows.swap(done, found);
+        let inverse = rows[done][column].recip()?;
+        let pivot: Vec<Rational> = rows[done].iter().map(|value| value * &inverse).collect();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(place, _)| *place != done) {
+            let factor = row[column].clone();
+            if !factor.is_zero() {
+                row.iter_mut().zip(&pivot).for_each(|(x, own)| *x = &*x - &(&factor * own));
+            }
+        }
+        rows[done] = pivot;
+        pivots.push(column);
+    }
+    let mut found = vec![Rational::from(0); width];
+    for (row, column) in pivots.into_iter().enumerate() {
+        found[column] = rows[row][width].clone();
+    }
+    Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn x(variable: usize) -> Polynomial {
+        Polynomial::variable(variable, 1)
+    }
+
+    #[test]
+    fn polynomials_are_added_multiplied_and_split() {
+        let (one, minus) = (Rational::from(1), Rational::from(-1));
+        let sum = x(0).plus(&x(1), &one).expect("short");
+        let difference = x(0).plus(&x(1), &minus).expect("short");
+        let product = sum.times(&difference).expect("short");
+        let squares = Polynomial::variable(0, 2).plus(&Polynomial::variable(1, 2), &minus);
+        assert_eq!(Some(product), squares, "(x + y)(x − y) = x² − y²");
+        assert!(sum.plus(&sum, &minus).expect("short").is_zero(), "x − x");
+        let own = x(2).times(&difference).expect("short").times_number(&Rational::from(3));
+        let (value, monomial, rest) = own.split().expect("not 0");
+        assert_eq!((value, monomial, rest), (Rational::from(3), vec![(2, 1)], difference));
+        // x' = y, y' = 1: (x y)' = y² + x
+        let rate = x(0).times(&x(1)).expect("short").rate(|k| match k {
+            0 => Some(x(1)),
+            _ => Some(Polynomial::constant(Rational::from(1))),
+        });
+        assert_eq!(rate, Polynomial::variable(1, 2).plus(&x(0), &one));
+    }
+
+    #[test]
+    fn combinations_are_exact() {
+        let (a, b) = (x(0), x(0).plus(&x(1), &Rational::from(2)).expect("short"));
+        let found = combination(&x(1), &[a.clone(), b.clone()]);
+        assert_eq!(found, Some(vec![Rational::new(-1, 2), Rational::new(1, 2)]));
+        assert_eq!(combination(&x(2), &[a, b]), None, "z is independent");
+    }
+}

@@ -1,0 +1,423 @@
+//! Polynomials in the state and in functions of it, which become further variables.
+//!
+//! A function is adjoined once: exponentials by arguments that are linearly independent over the
+//! rational numbers, sines and cosines of such arguments in pairs, roots with their inverses. What
+//! depends on them is written in them: e^(2x) = (e^x)², sin 2φ = 2 sin φ cos φ, x/r³ = x (1/r)³.
+
+use liouville::number::rational::Rational;
+
+use super::polynomial::{Monomial, Polynomial, combination};
+
+/// Largest power of a function that is written out.
+const HIGHEST: i64 = 24;
+
+/// A variable of the ring.
+#[derive(Clone, Debug)]
+pub enum Atom {
+    /// Component of a parameter.
+    Parameter,
+    /// Component of the state.
+    State,
+    /// Function of the parameters alone.
+    Constant(Of),
+    /// e^u with u independent of other arguments.
+    Exponential(Polynomial),
+    /// e^u as a product of powers of other exponentials, some negative.
+    ExponentialOf(Polynomial, Vec<(usize, i64)>),
+    /// sin u, where the next variable is cos u.
+    Sine(Polynomial),
+    /// cos u, where the variable before is sin u.
+    Cosine(Polynomial),
+    /// b^(1/n), where the next variable is its inverse.
+    Root(Polynomial, u32),
+    /// b^(−1/n), where the variable before is its inverse, if n > 1.
+    Inverse(Polynomial, u32),
+    /// ln b, with 1/b.
+    Logarithm(Polynomial, Polynomial),
+    /// atan u, with 1/(1 + u²).
+    Arctangent(Polynomial, Polynomial),
+    /// b^e with a constant e, with 1/b.
+    Power(Polynomial, Polynomial, Polynomial),
+}
+
+/// A function of the parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// 1/b.
+    Inverse(Polynomial),
+    /// √b.
+    Root(Polynomial),
+}
+
+/// A reason to begin anew: an argument has to be divided.
+#[derive(Clone, Debug)]
+pub struct Divided {
+    /// Argument that was taken first.
+    pub argument: Polynomial,
+    /// Divisor that makes later arguments whole multiples.
+    pub by: i64,
+}
+
+/// The ring of polynomials in the variables so far.
+#[derive(Clone, Debug, Default)]
+pub struct Ring {
+    /// Variables in the order in which they were adjoined.
+    pub atoms: Vec<Atom>,
+    /// Arguments of exponentials, and of sines and cosines, with the variable of each.
+    arguments: [Vec<(Polynomial, usize)>; 2],
+    /// Arguments to be divided.
+    pub divided: Vec<Divided>,
+    /// Whether reading failed as an argument has to be divided.
+    pub is_refined: bool,
+}
+
+/// A quotient in which the functions are adjoined; `None` where this is impossible.
+type Made = Option<Polynomial>;
+
+impl Ring {
+    /// Starts with the components of parameters and state; `divided` are arguments to be divided.
+    pub fn new(parameters: usize, state: usize, divided: Vec<Divided>) -> Self {
+        let parameters = vec![Atom::Parameter; parameters];
+        let atoms = [parameters, vec![Atom::State; state]].concat();
+        Self { atoms, divided, ..Self::default() }
+    }
+
+    /// Adds a variable.
+    fn push(&mut self, atom: Atom) -> usize {
+        self.atoms.push(atom);
+        self.atoms.len() - 1
+    }
+
+    /// Whether a polynomial depends on parameters only.
+    pub fn is_constant(&self, polynomial: &Polynomial) -> bool {
+        let is_constant = |k: &usize| matches!(self.atoms[*k], Atom::Parameter | Atom::Constant(_));
+        polynomial.variables().iter().all(is_constant)
+    }
+
+    fn constant(&mut self, own: Of) -> Polynomial {
+        let same = |atom: &Atom| matches!(atom, Atom::Constant(of) if *of == own);
+        let place = self.atoms.iter().position(same);
+        let place = place.unwrap_or_else(|| self.push(Atom::Constant(own)));
+        Polynomial::variable(place, 1)
+    }
+
+    /// Power with a rational exponent.
+    pub fn power(&mut self, base: &Polynomial, exponent: &Rational) -> Made {
+        let (above, below) = exponent.small_parts()?;
+        if above.abs() > HIGHEST || !(1..=HIGHEST).contains(&below) {
+            return None;
+        }
+        match below {
+            1 if above >= 0 => base.raised(above as u32),
+            1 => self.inverse(base)?.raised(above.unsigned_abs() as u32),
+            _ => self.root(base, above, below as u32),
+        }
+    }
+
+    /// 1/p, factor by factor.
+    pub fn inverse(&mut self, own: &Polynomial) -> Made {
+        let (value, monomial, rest) = own.split()?;
+        let mut made = Polynomial::constant(value.recip()?);
+        for (variable, power) in monomial {
+            made = made.times(&self.inverse_of_atom(variable)?.raised(power)?)?;
+        }
+        match rest.value() {
+            Some(_) => Some(made),
+            None => made.times(&self.inverse_of_sum(&rest)?),
+        }
+    }
+
+    fn inverse_of_atom(&mut self, variable: usize) -> Made {
+        let minus = Rational::from(-1);
+        match self.atoms[variable].clone() {
+            Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => {
+                self.exponential(&argument.times_number(&minus))
+            }
+            Atom::Root(..) => Some(Polynomial::variable(variable + 1, 1)),
+            Atom::Inverse(base, 1) => Some(base),
+            Atom::Inverse(..) => Some(Polynomial::variable(variable - 1, 1)),
+            Atom::Constant(Of::Inverse(base)) => Some(base),
+            _ => self.inverse_of_sum(&Polynomial::variable(variable, 1)),
+        }
+    }
+
+    /// 1/b as a variable, or as a power of 1/b^(1/n).
+    fn inverse_of_sum(&mut self, base: &Polynomial) -> Made {
+        if self.is_constant(base) {
+            return Some(self.constant(Of::Inverse(base.clone())));
+        }
+        for (place, atom) in self.atoms.iter().enumerate() {
+            let Atom::Inverse(own, order) = atom else { continue };
+            let Some((value, ..)) = own.split() else { continue };
+            if base.times_number(&value) == *own {
+                return Some(Polynomial::variable(place, *order).times_number(&value));
+            }
+        }
+        let place = self.push(Atom::Inverse(base.clone(), 1));
+        Some(Polynomial::variable(place, 1))
+    }
+
+    /// b^(above/order) with order > 1.
+    fn root(&mut self, base: &Polynomial, above: i64, order: u32) -> Made {
+        if self.is_constant(base) {
+            if order != 2 {
+                return None;
+            }
+            let root = self.constant(Of::Root(base.clone()));
+            return self.power(&root, &Rational::from(above));
+        }
+        let same = |atom: &Atom| matches!(atom, Atom::Root(own, n) if own == base && *n == order);
+        let place = match self.atoms.iter().position(same) {
+            Some(place) => place,
+            None => {
+                let place = self.push(Atom::Root(base.clone(), order));
+                self.push(Atom::Inverse(base.clone(), order));
+                place
+            }
+        };
+        let (whole, rest) = (above / i64::from(order), above % i64::from(order));
+        match above {
+            0.. => base.raised(whole as u32)?.times(&Polynomial::variable(place, rest as u32)),
+            _ => Some(Polynomial::variable(place + 1, above.unsigned_abs() as u32)),
+        }
+    }
+
+    /// Whole coefficients of an argument in those before, as (variable, multiple); a new argument is
+    /// added by `add`.
+    fn multiples(
+        &mut self,
+        kind: usize,
+        argument: &Polynomial,
+        add: fn(&mut Self, &Polynomial) -> usize,
+    ) -> Option<Vec<(usize, i64)>> {
+        let basis: Vec<Polynomial> =
+            self.arguments[kind].iter().map(|(own, _)| own.clone()).collect();
+        if let Some(found) = combination(argument, &basis) {
+            let mut all = Vec::new();
+            for (value, (own, variable)) in found.iter().zip(&self.arguments[kind]) {
+                let (above, below) = value.small_parts()?;
+                if below != 1 {
+                    self.divided.push(Divided { argument: own.clone(), by: below });
+                    self.is_refined = true;
+                    return None;
+                }
+                if above != 0 {
+                    all.push((*variable, above));
+                }
+            }
+            return Some(all);
+        }
+        let mut own = argument.clone();
+        // A divided argument may have to be divided again.
+        for divided in self.divided.clone() {
+            if divided.argument == own {
+                own = own.times_number(&Rational::new(1, divided.by));
+            }
+        }
+        let variable = add(self, &own);
+        self.arguments[kind].push((own, variable));
+        self.multiples(kind, argument, add)
+    }
+
+    /// e^u.
+    pub fn exponential(&mut self, argument: &Polynomial) -> Made {
+        if argument.is_zero() {
+            return Some(Polynomial::constant(Rational::from(1)));
+        }
+        if self.is_constant(argument) {
+            return None;
+        }
+        let add = |ring: &mut Self, own: &Polynomial| ring.push(Atom::Exponential(own.clone()));
+        let multiples = self.multiples(0, argument, add)?;
+        if multiples.iter().any(|(_, power)| power.abs() > HIGHEST) {
+            return None;
+        }
+        if multiples.iter().all(|(_, power)| *power > 0) {
+            let powers: Monomial =
+                multiples.iter().map(|(variable, power)| (*variable, *power as u32)).collect();
+            return Some(Polynomial::term(powers, Rational::from(1)));
+        }
+        let (own, power) = match multiples.as_slice() {
+            [(variable, power)] => (vec![(*variable, -1)], power.unsigned_abs() as u32),
+            _ => (multiples.clone(), 1),
+        };
+        let same = |atom: &Atom| matches!(atom, Atom::ExponentialOf(_, powers) if *powers == own);
+        let place = match self.atoms.iter().position(same) {
+            Some(place) => place,
+            None => {
+                let share = Rational::new(1, i64::from(power));
+                self.push(Atom::ExponentialOf(argument.times_number(&share), own))
+            }
+        };
+        Some(Polynomial::variable(place, power))
+    }
+
+    /// cos u and sin u.
+    pub fn circular(&mut self, argument: &Polynomial) -> Option<[Polynomial; 2]> {
+        let one = Polynomial::constant(Rational::from(1));
+        if argument.is_zero() {
+            return Some([one, Polynomial::default()]);
+        }
+        if self.is_constant(argument) {
+            return None;
+        }
+        let add = |ring: &mut Self, own: &Polynomial| {
+            let sine = ring.push(Atom::Sine(own.clone()));
+            ring.push(Atom::Cosine(own.clone()));
+            sine
+        };
+        let minus = Rational::from(-1);
+        let mut made = [one, Polynomial::default()];
+        for (sine, power) in self.multiples(1, argument, add)? {
+            if power.abs() > HIGHEST {
+                return None;
+            }
+            let sign = Rational::from(power.signum());
+            let (c, s) = (
+                Polynomial::variable(sine + 1, 1),
+                Polynomial::variable(sine, 1).times_number(&sign),
+            );
+            for _ in 0..power.abs() {
+                let [a, b] = &made;
+                made = [
+                    a.times(&c)?.plus(&b.times(&s)?, &minus)?,
+                    a.times(&s)?.plus(&b.times(&c)?, &Rational::from(1))?,
+                ];
+            }
+        }
+        Some(made)
+    }
+
+    /// ln b.
+    pub fn logarithm(&mut self, own: &Polynomial) -> Made {
+        self.function(
+            own,
+            |atom| matches!(atom, Atom::Logarithm(base, _) if base == own),
+            |ring| Some(Atom::Logarithm(own.clone(), ring.inverse(own)?)),
+        )
+    }
+
+    /// atan u.
+    pub fn arctangent(&mut self, own: &Polynomial) -> Made {
+        self.function(
+            own,
+            |atom| matches!(atom, Atom::Arctangent(base, _) if base == own),
+            |ring| {
+                let one = Polynomial::constant(Rational::from(1));
+                let below = one.plus(&own.times(own)?, &Rational::from(1))?;
+                Some(Atom::Arctangent(own.clone(), ring.inverse(&below)?))
+            },
+        )
+    }
+
+    /// b^e with an exponent made of parameters.
+    pub fn general_power(&mut self, base: &Polynomial, exponent: &Polynomial) -> Made {
+        if !self.is_constant(exponent) {
+            return None;
+        }
+        for place in 0..self.atoms.len() {
+            let Atom::Power(own, other, _) = &self.atoms[place] else { continue };
+            if own != base {
+                continue;
+            }
+            let less = exponent.plus(other, &Rational::from(-1))?;
+            if let Some(step) = less.value().and_then(|value| value.to_integer()) {
+                let rest = self.power(base, &Rational::from(step))?;
+                return Polynomial::variable(place, 1).times(&rest);
+            }
+        }
+        self.function(
+            base,
+            |_| false,
+            |ring| Some(Atom::Power(base.clone(), exponent.clone(), ring.inverse(base)?)),
+        )
+    }
+
+    fn function(
+        &mut self,
+        of: &Polynomial,
+        is_same: impl Fn(&Atom) -> bool,
+        make: impl FnOnce(&mut Self) -> Option<Atom>,
+    ) -> Made {
+        if self.is_constant(of) {
+            return None;
+        }
+        let place = match self.atoms.iter().position(is_same) {
+            Some(place) => place,
+            None => {
+                let atom = make(self)?;
+                self.push(atom)
+            }
+        };
+        Some(Polynomial::variable(place, 1))
+    }
+
+    /// Monomials that a relation between functions writes in others of at most its degree; their
+    /// variables are counted without parameters and functions of these.
+    pub fn leading(&self) -> Vec<Monomial> {
+        let is_constant = |atom: &&Atom| matches!(atom, Atom::Parameter | Atom::Constant(_));
+        let shifted = |place: usize| place - self.atoms[..place].iter().filter(is_constant).count();
+        let pair = |a: usize, b: usize| vec![(shifted(a), 1), (shifted(b), 1)];
+        let mut all = Vec::new();
+        for (place, atom) in self.atoms.iter().enumerate() {
+            match atom {
+                Atom::Sine(_) => all.push(vec![(shifted(place), 2)]),
+                Atom::Root(base, order) => {
+                    let power = |own: &Monomial| own.iter().map(|(_, power)| power).sum::<u32>();
+                    if base.terms().all(|(own, _)| power(own) <= *order) {
+                        all.push(vec![(shifted(place), *order)]);
+                    }
+                }
+                Atom::Inverse(_, order) if *order > 1 => all.push(pair(place - 1, place)),
+                Atom::Inverse(base, _) => {
+                    if let Some((own, _)) = base.single()
+                        && let [(variable, 1)] = own.as_slice()
+                    {
+                        all.push(pair(*variable, place));
+                    }
+                }
+                Atom::ExponentialOf(_, powers) => {
+                    if let [(variable, -1)] = powers.as_slice() {
+                        all.push(pair(*variable, place));
+                    }
+                }
+                _ => {}
+            }
+        }
+        all
+    }
+
+    /// Rates of all variables along a motion, `state` those of the state's components.
+    pub fn rates(&self, state: &[Polynomial]) -> Option<Vec<Polynomial>> {
+        let mut rates: Vec<Polynomial> = Vec::with_capacity(self.atoms.len());
+        let mut own = state.iter();
+        for (place, atom) in self.atoms.iter().enumerate() {
+            let slope = |of: &Polynomial| of.rate(|k| rates.get(k).cloned());
+            let this = |power| Polynomial::variable(place, power);
+            let rate = match atom {
+                Atom::Parameter | Atom::Constant(_) => Polynomial::default(),
+                Atom::State => own.next()?.clone(),
+                Atom::Exponential(u) | Atom::ExponentialOf(u, _) => slope(u)?.times(&this(1))?,
+                Atom::Sine(u) => slope(u)?.times(&Polynomial::variable(place + 1, 1))?,
+                Atom::Cosine(u) => {
+                    let sine = Polynomial::variable(place - 1, 1);
+                    slope(u)?.times(&sine)?.times_number(&Rational::from(-1))
+                }
+                Atom::Root(base, order) => slope(base)?
+                    .times(&Polynomial::variable(place + 1, order - 1))?
+                    .times_number(&Rational::new(1, i64::from(*order))),
+                Atom::Inverse(base, order) => slope(base)?
+                    .times(&this(order + 1))?
+                    .times_number(&Rational::new(-1, i64::from(*order))),
+                Atom::Logarithm(base, inverse) | Atom::Arctangent(base, inverse) => {
+                    slope(base)?.times(inverse)?
+                }
+                Atom::Power(base, exponent, inverse) => {
+                    slope(base)?.times(inverse)?.times(exponent)?.times(&this(1))?
+                }
+            };
+            rates.push(rate);
+        }
+        Some(rates)
+    }
+}

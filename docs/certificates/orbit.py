@@ -1,0 +1,413 @@
+#!/usr/bin/env python3
+"""Checks certificates of closed orbits: python3 orbit.py FILE.json ...
+
+The field is read from the text of the case: scalar variables, rational formulas, no level. All that
+docs/closed-orbits.md asks of the numbers is computed here, in intervals of integers over 2^192.
+Exit code 0 if every file passes, 1 otherwise. Python 3.11 or later, standard library only.
+"""
+
+import hashlib
+import json
+import sys
+from fractions import Fraction
+
+from check import Reader, Refused, Series, Unread, digest_of, require, GREEK
+
+BITS = 192
+ONE = 1 << BITS
+ROUNDS = 100
+
+
+# --- intervals (low, high) of integers, in units of 2^-192 -------------------------------------------
+
+def exact(value):
+    """Interval of a fraction or a float."""
+    value = Fraction(value) * ONE
+    low = value.numerator // value.denominator
+    return low, low if low == value else low + 1
+
+
+ZERO = (0, 0)
+
+
+def add(a, b):
+    return a[0] + b[0], a[1] + b[1]
+
+
+def sub(a, b):
+    return a[0] - b[1], a[1] - b[0]
+
+
+def mul(a, b):
+    if a == ZERO or b == ZERO:
+        return ZERO
+    ends = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
+    return min(ends) >> BITS, -(-max(ends) >> BITS)
+
+
+def inverse(a):
+    require(a[0] > 0 or a[1] < 0, "a denominator may be 0")
+    return ONE * ONE // a[1], -(ONE * ONE // -a[0])
+
+
+def size(a):
+    """Bound of |a|, as an integer."""
+    return max(abs(a[0]), abs(a[1]))
+
+
+def up(a, b):
+    """Bound of a product of bounds."""
+    return -(-(a * b) >> BITS)
+
+
+def middle(a):
+    return (a[0] + a[1]) / 2 / ONE
+
+
+def around(mid, radius):
+    """Interval of all numbers within a radius of a float."""
+    return exact(mid)[0] - exact(radius)[1], exact(mid)[1] + exact(radius)[1]
+
+
+# --- the equations from the text of the case -----------------------------------------------------------
+
+def spelled(name):
+    letters = name.rstrip("0123456789")
+    return GREEK.get(letters, letters) + name[len(letters):]
+
+
+class Motion:
+    """Rates of the state, of parameters s, of n vectors by n + len(s), and of the integral of div v.
+
+    Inputs are these variables; each step is a sum, difference, product, reciprocal, or constant."""
+
+    def __init__(self, case, varied):
+        known = {"title", "source", "system", "note", "notes", "parameters", "state", "field",
+                 "claim", "let", "check-weights"}
+        if case.get("system", "field") != "field" or set(case) - known:
+            raise Unread("the case is no plain field")
+        self.names = [spelled(name) for name in case["state"]]
+        formulas = {spelled(k): str(v) for k, v in case.get("let", {}).items()}
+        centres = {}
+        for name, value in case.get("parameters", {}).items():
+            if isinstance(value, (list, dict, bool)) or ".." in str(value):
+                raise Unread("a parameter is no number")
+            formulas[spelled(name)] = str(value)
+            centres[spelled(name)] = str(value)
+        n, q = len(self.names), len(varied)
+        self.n, self.q, self.size = n, q, n + q + n * (n + q) + 1
+        self.program, busy, rates = {}, set(), {}
+
+        def step(*one):
+            return self.program.setdefault(one, len(self.program))
+
+        zero, unit = step("constant", Fraction(0)), step("constant", Fraction(1))
+        inputs = [step("input", k) for k in range(self.size)]
+
+        def number(value):
+            return Series(self.program, step("constant", value), zero)
+
+        def value_of(name):
+            if name in self.names:
+                return Series(self.program, inputs[self.names.index(name)], rates.get(name, zero))
+            require(name in formulas and name not in busy, f"the name {name} is not known")
+            if name in varied and name in centres:
+                s = n + list(varied).index(name)
+                variable = Series(self.program, inputs[s], rates.get(s, zero))
+                return number(Fraction(centres[name])) + number(varied[name]) * variable
+            busy.add(name)
+            value = Reader(formulas[name], number, value_of).whole()
+            busy.remove(name)
+            return value
+
+        field = {spelled(name.rstrip("'′")): rate for name, rate in case["field"].items()}
+        require(set(field) == set(self.names), "the rates are not those of the variables")
+
+        def derivative(along):
+            rates.clear()
+            rates.update(along)
+            return [Reader(field[name], number, value_of).whole() for name in self.names]
+
+        self.rates = [one.value for one in derivative({})] + [zero] * q
+        for vector in range(n + q):
+            first = n + q + n * vector
+            along = {name: inputs[first + k] for k, name in enumerate(self.names)}
+            if vector >= n:
+                along[vector] = unit
+            self.rates += [one.rate for one in derivative(along)]
+        divergence = zero
+        for k, name in enumerate(self.names):
+            divergence = step("sum", divergence, derivative({name: unit})[k].rate)
+        self.rates.append(divergence)
+        self.steps = list(self.program)
+
+    def step(self, start, h, order, rho):
+        """Encloses the variables after the time h, by tails in the norm of radius rho."""
+        series = [[] for _ in self.steps]
+        state = [[value] for value in start]
+        for k in range(order):
+            for place, (kind, *args) in enumerate(self.steps):
+                series[place].append(coefficient(kind, args, series, state, k, place))
+            for row, rate in zip(state, self.rates):
+                row.append(mul(series[rate][k], exact(Fraction(1, k + 1))))
+        rests = self.remainders(series, state, h, order, rho)
+        ends = []
+        for row, rest in zip(state, rests):
+            total = ZERO
+            for value in reversed(row):
+                total = add(mul(total, h), value)
+            ends.append((total[0] - rest, total[1] + rest))
+        return ends
+
+    def remainders(self, series, state, h, order, rho):
+        radius = exact(rho)[1]
+        require(size(h) < radius, "a step is longer than the radius of its tails")
+        powers = [ONE]
+        for _ in range(order):
+            powers.append(up(powers[-1], radius))
+        terms = [[up(size(a), p) for a, p in zip(row, powers)] for row in series]
+        sums = [[sum(row[k:]) for k in range(order + 1)] for row in terms]
+        last = [up(size(row[order]), powers[order]) for row in state]
+
+        def cross(a, b):
+            return sum(up(terms[a][k], sums[b][order - k]) for k in range(1, order))
+
+        pairs = {}
+        for place, (kind, *args) in enumerate(self.steps):
+            if kind == "product":
+                pairs[place] = cross(*args)
+            elif kind == "reciprocal":
+                pairs[place] = cross(args[0], place)
+        tails = [value * 3 // 2 + 1 for value in last]
+        ratio = -(-size(h) * ONE // radius)
+        most = ONE + max(up(size(a), p) for row in state for a, p in zip(row, powers))
+        for _ in range(ROUNDS):
+            bounds = []
+            for place, (kind, *args) in enumerate(self.steps):
+                own = [bounds[a] for a in args] if kind not in ("constant", "input") else []
+                norms = [sums[a][0] for a in args] if own else []
+                if kind == "input":
+                    bounds.append(tails[args[0]])
+                elif kind == "constant":
+                    bounds.append(0)
+                elif kind == "product":
+                    mixed = up(norms[0], own[1]) + up(norms[1], own[0]) + up(own[0], own[1])
+                    bounds.append(pairs[place] + mixed)
+                elif kind == "reciprocal":
+                    norm = sums[place][0]
+                    defect = pairs[place] + up(norm, own[0])
+                    require(defect < ONE, "the tail of a denominator is too large")
+                    bounds.append(-(-up(defect, norm) * ONE // (ONE - defect)))
+                else:
+                    bounds.append(sum(own))
+            moved = [-(-up(radius, bounds[rate]) // (order + 1)) for rate in self.rates]
+            new = [a + b for a, b in zip(last, moved)]
+            if all(a <= b for a, b in zip(new, tails)):
+                power = ONE
+                for _ in range(order + 1):
+                    power = up(power, ratio)
+                return [up(bound, power) + 1 for bound in moved]
+            tails = [max(b, a * 11 // 10 + 1) for a, b in zip(new, tails)]
+            require(max(tails) < most, "the tails grow without bound")
+        raise Refused("no tail is mapped to itself")
+
+    def start(self, state, is_wide):
+        """All variables at the begin of a segment."""
+        unit = [exact(int(i == j)) for i in range(self.n + self.q) for j in range(self.n)]
+        return list(state) + [(-ONE, ONE) if is_wide else ZERO] * self.q + unit + [ZERO]
+
+    def column(self, end, index):
+        first = self.n + self.q + self.n * index
+        return end[first:first + self.n]
+
+    def field(self, state, is_wide):
+        values, inputs = [], [[value] for value in self.start(state, is_wide)]
+        for kind, *args in self.steps:
+            values.append([])
+            values[-1].append(coefficient(kind, args, values, inputs, 0, len(values) - 1))
+        return [values[rate][0] for rate in self.rates[:self.n]]
+
+
+def coefficient(kind, args, series, state, k, place):
+    """The coefficient of order k of a step."""
+    if kind == "constant":
+        return exact(args[0]) if k == 0 else ZERO
+    if kind == "input":
+        return state[args[0]][k]
+    a = series[args[0]]
+    if kind == "negative":
+        return -a[k][1], -a[k][0]
+    if kind == "reciprocal":
+        own = series[place]
+        if k == 0:
+            return inverse(a[0])
+        total = ZERO
+        for i in range(1, k + 1):
+            total = add(total, mul(a[i], own[k - i]))
+        return sub(ZERO, mul(own[0], total))
+    b = series[args[1]]
+    if kind == "sum":
+        return add(a[k], b[k])
+    if kind == "difference":
+        return sub(a[k], b[k])
+    low = high = 0
+    for i in range(k + 1):
+        part = mul(a[i], b[k - i])
+        low, high = low + part[0], high + part[1]
+    return low, high
+
+
+# --- Krawczyk's test -------------------------------------------------------------------------------------
+
+def approximate_inverse(columns, count):
+    """Inverse in floats by Gauss and Jordan; nothing is assumed about it."""
+    rows = [[0.0] * count + [float(i == j) for j in range(count)] for i in range(count)]
+    for j, column in enumerate(columns):
+        for i, value in column.items():
+            rows[i][j] = middle(value)
+    for j in range(count):
+        pivot = max(range(j, count), key=lambda i: abs(rows[i][j]))
+        rows[j], rows[pivot] = rows[pivot], rows[j]
+        require(rows[j][j] != 0, "the equations are singular")
+        by = 1 / rows[j][j]
+        rows[j] = [x * by for x in rows[j]]
+        for i in range(count):
+            factor = rows[i][j]
+            if i != j and factor:
+                rows[i] = [x - factor * y for x, y in zip(rows[i], rows[j])]
+    return [row[count:] for row in rows]
+
+
+def prove(motion, proof):
+    """Encloses start, period and the integral of the divergence, or raises Refused."""
+    n, m, order = motion.n, len(proof["nodes"]), proof["order"]
+    number = float.fromhex
+    nodes = [[number(x) for x in node] for node in proof["nodes"]]
+    shares, tails = [[number(x) for x in proof[key]] for key in ("shares", "tails")]
+    radii, period = [number(x) for x in proof["radii"]], number(proof["period"])
+    require(proof["functions"] == [] and proof["values"] == [], "functions are conserved")
+    require(m > 0 and all(len(node) == n for node in nodes) and len(shares) == len(tails) == m
+            and len(radii) == n * m + 1, "the lists have other lengths")
+    require(2 <= order <= 60 and min(shares + tails + radii + [period]) > 0, "numbers are not positive")
+    count = n * m + 1
+    turn = around(period, radii[-1])
+    residual, shifts, columns = [], [[] for _ in range(motion.q)], [{} for _ in range(count)]
+    volume, total = ZERO, ZERO
+    for i in range(m):
+        following, share = (i + 1) % m, exact(shares[i])
+        point = [exact(x) for x in nodes[i]]
+        h = mul(share, exact(period))
+        end = motion.step(motion.start(point, False), h, order, tails[i])[:n]
+        residual += [sub(x, exact(y)) for x, y in zip(end, nodes[following])]
+        if motion.q:
+            moved = motion.step(motion.start(point, True), h, order, tails[i])
+            for k in range(motion.q):
+                shifts[k] += motion.column(moved, n + k)
+        box = [around(x, r) for x, r in zip(nodes[i], radii[n * i:])]
+        end = motion.step(motion.start(box, True), mul(share, turn), order, tails[i])
+        for j in range(n):
+            for k, slope in enumerate(motion.column(end, j)):
+                own = columns[n * i + j]
+                own[n * i + k] = add(own.get(n * i + k, ZERO), slope)
+        for k, rate in enumerate(motion.field(end[:n], True)):
+            other = columns[n * following + k]
+            other[n * i + k] = sub(other.get(n * i + k, ZERO), exact(1))
+            columns[-1][n * i + k] = mul(share, rate)
+        volume, total = add(volume, end[-1]), add(total, share)
+    residual.append(ZERO)
+    for k, rate in enumerate(motion.field([exact(x) for x in nodes[0]], False)):
+        columns[k][count - 1] = exact(middle(rate))
+    near = approximate_inverse(columns, count)
+    vectors = [residual] + [shift + [ZERO] for shift in shifts]
+    images = []
+    for i, row in enumerate(near):
+        row = [exact(c) for c in row]
+        image = 0
+        for vector in vectors:
+            parts = [mul(c, x) for c, x in zip(row, vector)]
+            image += size((sum(p[0] for p in parts), sum(p[1] for p in parts)))
+        for j, column in enumerate(columns):
+            entry = exact(int(i == j))
+            for place, slope in column.items():
+                entry = sub(entry, mul(row[place], slope))
+            image += up(size(entry), exact(radii[j])[1])
+        require(image < exact(radii[i])[0], "the boxes are not mapped into themselves")
+        images.append(image)
+    middles = [exact(x) for x in nodes[0]] + [exact(period)]
+    found = [(x[0] - r, x[1] + r) for x, r in zip(middles, images[:n] + images[-1:])]
+    return found[:n], mul(total, found[n]), volume
+
+
+# --- the certificate ----------------------------------------------------------------------------------------
+
+def inside(found, stated, what):
+    mid, radius = [Fraction(float.fromhex(x)) * ONE for x in stated]
+    require(mid - radius <= found[0] and found[1] <= mid + radius, f"the {what} is another")
+
+
+def check(certificate):
+    """Raises Refused or Unread, or returns the claim in words."""
+    try:
+        import tomllib
+    except ImportError:
+        raise Unread("Python before 3.11 reads no TOML") from None
+    try:
+        require(certificate["format"] == "liouville motion certificate 1", "the format is unknown")
+        statement, proof = certificate["statement"], certificate["proof"]
+        require(certificate["digest"] == digest_of({"statement": statement, "proof": proof}),
+                "the digest does not fit")
+        text, claim = statement["case"]["text"], statement["claim"]
+        require(hashlib.sha256(text.encode()).hexdigest() == statement["case"]["sha256"],
+                "the text of the case has another digest")
+        require(claim["kind"] == "closed-orbit" and claim["verdict"] == "proved", "no closed orbit")
+        if statement["settings"]:
+            raise Unread("the case is changed by --set")
+        case = tomllib.loads(text, parse_float=str)
+        own = [one for one in case["claim"] if one.get("name") == claim["name"]]
+        require(len(own) == 1 and "closed-orbit" in own[0], "the case has no such claim")
+        own, varied = own[0], {}
+        if "integrals" in own:
+            raise Unread("integrals hold the orbit")
+        for name, half in own.get("parameters", {}).items():
+            varied[spelled(name)] = Fraction(half.split("±")[1].strip())
+            require(varied[spelled(name)] > 0, "a range is empty")
+        motion = Motion(case, varied)
+        start, period, volume = prove(motion, proof)
+        orbit = statement["orbit"]
+        require(len(orbit["start"]) == motion.n, "the start has other components")
+        for found, stated in zip(start, orbit["start"]):
+            inside(found, stated, "start")
+        inside(period, orbit["period"], "period")
+        inside(volume, orbit["volume"], "integral of the divergence")
+        digits = str(own["closed-orbit"])
+        unit = Fraction(1, 10 ** len(digits.partition(".")[2]))
+        gap = max(abs(Fraction(x, ONE) - Fraction(digits)) for x in period)
+        require("." in digits and gap <= unit, "the period is not the one claimed")
+        sign = (volume[0] > 0) - (volume[1] < 0)
+        wanted = {"negative": [-1], "positive": [1], "nonzero": [-1, 1], None: [-1, 0, 1]}
+        require(sign in wanted[own.get("divergence")], "volumes change otherwise")
+        require("density" not in own or sign, "volumes may be kept")
+        if "stability" in own:
+            if motion.n != 2:
+                raise Unread("more than one multiplier is beyond this script")
+            require({"sink": -1, "source": 1}.get(own["stability"]) == sign, "the kind is another")
+        return f"period {middle(period):.12f}, volume {middle(volume):.12f}"
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        raise Refused(f"the certificate is malformed: {error!r}") from error
+
+
+def main(files):
+    refused = 0
+    for name in files:
+        try:
+            with open(name, encoding="utf-8") as file:
+                print(f"proved  {name}: {check(json.load(file))}", flush=True)
+        except (Refused, Unread, OSError, ValueError, RecursionError) as problem:
+            refused += 1
+            print(f"REFUSED {name}: {problem}", flush=True)
+    print(f"{len(files)} certificates: {len(files) - refused} proved, {refused} refused")
+    return 1 if refused or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,56 @@
+"""Decides which tensor invariants a mechanical system has: integrals, invariant measures.
+
+>>> import liouville as lv
+>>> bool(lv.check(lv.read("plane/balanced-ball")))
+True
+"""
+
+from ._liouville import VERSION as __version__
+from .case import Case
+from .errors import (
+    CaseError,
+    FormulaError,
+    LiouvilleError,
+    Mistake,
+    MotionError,
+    MotionWarning,
+    SearchError,
+)
+from .found import Found, Search
+from .function import Field, Function
+from .motion import CLASSES, Chart, Exponents, Orbit, Section, Spectra
+from .reading import catalogue, check, parse, read, search
+from .report import Claim, Report
+from .symbolic import from_lagrangian, from_sympy, to_sympy
+
+__all__ = [
+    "CLASSES",
+    "Case",
+    "CaseError",
+    "Chart",
+    "Claim",
+    "Exponents",
+    "Field",
+    "FormulaError",
+    "Found",
+    "Function",
+    "LiouvilleError",
+    "Mistake",
+    "MotionError",
+    "MotionWarning",
+    "Orbit",
+    "Report",
+    "Search",
+    "SearchError",
+    "Section",
+    "Spectra",
+    "__version__",
+    "catalogue",
+    "check",
+    "from_lagrangian",
+    "from_sympy",
+    "parse",
+    "read",
+    "search",
+    "to_sympy",
+]

@@ -1,0 +1,377 @@
+"""Cases: systems with claims about them, and what is done with them."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from . import _liouville as native
+from . import _values
+from .found import Search
+from .function import Field, Function
+from .motion import Chart, Exponents, Orbit, Section, Spectra
+from .report import Report
+
+Start = str | Mapping[str, Any] | Sequence[Any] | np.ndarray | None
+"""A state by names or in order, a point (l, L/G) of a section, or `None` for one that is drawn."""
+
+MOST_NUMBERS = 30_000_000
+"""Limit on the numbers of an orbit."""
+
+
+class Case:
+    """A system with claims about it. Cases do not change, and may be shared by threads."""
+
+    def __init__(self, handle: native.Case, settings: dict[str, str], symbols=None):
+        self._native = handle
+        self._settings = settings
+        self.symbols: dict[str, Any] = symbols or {}
+        """Symbols of SymPy by the names that they have in the case."""
+
+    def __reduce__(self):
+        from .reading import restored
+
+        return restored, (self.text, self.name, self._settings, self.symbols)
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return self._native.title
+
+    @property
+    def name(self) -> str:
+        """Path of the file, or another name for messages."""
+        return self._native.name
+
+    @property
+    def text(self) -> str:
+        """Text of the case, as in a file."""
+        return self._native.text
+
+    @property
+    def system(self) -> str:
+        """Kind of the system, such as `field` or `rubber-plane`."""
+        return self._native.system
+
+    @property
+    def source(self) -> str:
+        """Publication that the case is taken from."""
+        return self._native.source
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the text."""
+        return self._native.digest
+
+    @property
+    def remarks(self) -> list[str]:
+        """Warnings, and remarks on what may be a slip."""
+        return self._native.remarks
+
+    @property
+    def state(self) -> list[str]:
+        """Names of the components of the state."""
+        return self._native.state
+
+    @property
+    def parameters(self) -> dict[str, str]:
+        """Names of the parameters: `fixed`, `drawn` for every state, or `computed` from others."""
+        return dict(self._native.parameters)
+
+    @property
+    def claims(self) -> dict[str, str | None]:
+        """Names of the claims, with their formulas."""
+        return {name: formula for name, _, formula in self._native.claims}
+
+    def __repr__(self) -> str:
+        return f"<Case {self.title}: {self.system}, {len(self._native.claims)} claims>"
+
+    def check(
+        self,
+        *,
+        seed: int = 1,
+        states: int = 256,
+        trust: Literal["best", "proof", "float"] = "best",
+        mutants: bool = False,
+        motion: bool = False,
+        threads: int | None = None,
+    ) -> Report:
+        """Judges all claims; with `motion` those about motion too, which may take minutes."""
+        sampling = (seed, states, trust)
+        return Report(json.loads(native.check(self._native, sampling, mutants, motion, threads)))
+
+    def search(
+        self,
+        *,
+        degree: int = 4,
+        within: float | None = None,
+        blind: bool = False,
+        terms: Iterable[str] = (),
+        conditions: str | bool = False,
+        ansatz: int | None = None,
+        potentials: bool = False,
+        gyrostats: bool = False,
+        poisson: str | bool = False,
+        seconds: float = 60,
+        megabytes: int = 500,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> Search:
+        """Searches for integrals, densities, brackets and symmetries, and proves the results.
+
+        `within` ends the search after that many seconds with what was found. The other arguments
+        are the options of `liouville search`.
+        """
+
+        def wanted(value: str | bool) -> str | None:
+            return value if isinstance(value, str) else ("" if value else None)
+
+        outcome = native.search(
+            self._native,
+            (degree, seed, blind),
+            [str(term) for term in terms],
+            wanted(conditions),
+            ansatz,
+            (potentials, gyrostats),
+            wanted(poisson),
+            (within, float(seconds), megabytes),
+            threads,
+        )
+        return Search(self, json.loads(outcome))
+
+    def report(
+        self,
+        format: Literal["html", "markdown", "latex", "text", "json"] = "text",
+        *,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> str:
+        """All known invariants of the system, each with a proof, as one document."""
+        if format not in ("html", "markdown", "latex", "text", "json"):
+            raise ValueError('format is "html", "markdown", "latex", "text" or "json"')
+        return native.report(self._native, format, seed, threads)
+
+    def report_html(self, *, seed: int = 1, threads: int | None = None) -> str:
+        """All known invariants of the system as one self-contained page."""
+        return self.report("html", seed=seed, threads=threads)
+
+    @property
+    def field(self) -> Field:
+        """The field as a function of (t, x), with the parameters that motions have."""
+        return self.field_at()
+
+    def field_at(self, *, seed: int = 1, index: int = 0) -> Field:
+        """The field with the free parameters drawn at an index of a seed."""
+        function = native.function(self._native, None, seed, index)
+        return Field(function, len(self.state))
+
+    def function(self, *formulas: str, seed: int = 1, index: int = 0) -> Function:
+        """Formulas, or claims by their names, as one function of the state."""
+        if not formulas:
+            raise TypeError("give at least one formula")
+        function = native.function(self._native, list(formulas), seed, index)
+        return Function(function, len(self.state))
+
+    def parameter_values(self, *, seed: int = 1, index: int = 0) -> dict[str, Any]:
+        """Exact values that the parameters without a value have in motions, as settings."""
+
+        def nested(shape: list[int], values: list[str]):
+            if not shape:
+                return values[0]
+            if len(shape) == 1:
+                return values
+            columns = shape[1]
+            return [values[k : k + columns] for k in range(0, len(values), columns)]
+
+        found = native.parameter_values(self._native, seed, index)
+        return {name: nested(shape, values) for name, shape, values in found}
+
+    def orbit(self, start: Start = None, *, time: Any = 100, **options: Any) -> Orbit:
+        """Follows the motion from a start for a time, backwards if it is negative.
+
+        Takes the options of `orbits`. Raises `MotionError` if the motion runs into a singularity.
+        """
+        (found,) = self.orbits([start], time=time, **options)
+        if found.problem is not None:
+            raise found.problem
+        return found
+
+    def orbits(
+        self,
+        starts: Sequence[Start],
+        *,
+        time: Any = 100,
+        every: Any = None,
+        columns: str | Iterable[str] | None = None,
+        precision: Literal["double", "double-double"] = "double",
+        seed: int = 1,
+        index: int = 0,
+        threads: int | None = None,
+    ) -> list[Orbit]:
+        """Follows several motions, with samples at the times 0, `every`, 2 `every`, …
+
+        `columns` are `t`, formulas of the case and names of its claims; by default the time and
+        the state. A motion that ends early has its samples up to there, and a `problem`.
+        """
+        time_text = _values.exact(time)
+        every = every if every is not None else _thousandth(time_text)
+        every_text = _values.exact(every)
+        step = _number(every_text)
+        if not step > 0:
+            raise ValueError("every is the time between samples, above 0")
+        width = len(self.state) + 1
+        if abs(_number(time_text)) / step * width * len(starts) > MOST_NUMBERS:
+            raise ValueError("too many samples: give a longer `every` or a shorter `time`")
+        if precision not in ("double", "double-double"):
+            raise ValueError('precision is "double" or "double-double"')
+        names, found = native.orbits(
+            self._native,
+            [_values.start(one) for one in starts],
+            (time_text, every_text, _values.listed(columns)),
+            precision == "double-double",
+            (seed, index),
+            threads,
+        )
+        return [Orbit(names, self.state, *one) for one in found]
+
+    def section(
+        self,
+        surface: str | None = None,
+        *,
+        axes: str | Iterable[str] | None = None,
+        starts: Any = None,
+        orbits: int | None = None,
+        crossings: int | None = None,
+        skip: int | None = None,
+        direction: Literal["up", "down", "both"] | None = None,
+        backwards: bool = False,
+        g0: Any = None,
+        energy: Any = None,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> Section:
+        """Poincaré section: by a surface such as `"x = 0"`, or g = g₀ of a rolling body.
+
+        Returns an array with the named fields `start` (number of the motion), `direction` (1 or
+        −1), `t`, and the axes. Motions that end early are warned of; see `Section.problems`.
+        """
+        given = [] if starts is None else _values.starts(starts)
+        energy = None if energy is None else _values.exact(energy)
+        course = (direction, backwards)
+        if surface is None:
+            if axes is not None:
+                raise TypeError("axes are those of a surface: give one")
+            place = (None if g0 is None else str(g0), energy, _points(given))
+            chosen = (orbits, crossings, skip)
+            found = native.section(self._native, place, chosen, course, seed, threads)
+        else:
+            if g0 is not None:
+                raise TypeError("g0 is the section of a rolling body: leave out the surface")
+            drawn = orbits if orbits is not None else (0 if given else 12)
+            counts = (500 if crossings is None else crossings, skip or 0)
+            texts = (surface, _values.listed(axes))
+            launch = (energy, given + [None] * drawn)
+            found = native.surface(self._native, texts, launch, counts, course, seed, threads)
+        return Section.of(*found)
+
+    def chart(
+        self,
+        x: str | tuple[str, Any, Any],
+        y: str | tuple[str, Any, Any],
+        *,
+        size: tuple[int, int] = (64, 40),
+        time: float = 200,
+        start: Start = None,
+        g0: Any = None,
+        energy: Any = None,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> Chart:
+        """Classifies the motions of a plane, such as `x="c1=0..2"` or `x=("c1", 0, 2)`.
+
+        `start` is a point (l, L/G) of the section, or a whole state by names.
+        """
+        if not 0 < abs(time) < math.inf:
+            raise ValueError("time is a number that is not 0")
+        if min(size) < 1 or max(size) > 4000:
+            raise ValueError("size is a pair of numbers from 1 to 4000")
+
+        def axis(value: str | tuple[str, Any, Any]) -> str:
+            if isinstance(value, str):
+                return value
+            name, low, high = value
+            return f"{name}={_values.exact(low)}..{_values.exact(high)}"
+
+        given = _values.start(start)
+        state = given if isinstance(given, str) else None
+        points = _points([] if given is None or state is not None else [given])
+        place = (
+            None if g0 is None else str(g0),
+            None if energy is None else _values.exact(energy),
+            points,
+        )
+        found = native.chart(
+            self._native, (axis(x), axis(y)), list(size), float(time), place, state, seed, threads
+        )
+        return Chart.of(*found)
+
+    def exponents(
+        self,
+        starts: Any = None,
+        *,
+        time: float = 2000,
+        spectrum: bool = False,
+        both_ways: bool = True,
+        seed: int = 1,
+        index: int = 0,
+        threads: int | None = None,
+    ) -> Exponents | Spectra:
+        """Largest Lyapunov exponents, mean divergence and class of motions, or whole spectra."""
+        if not 0 < abs(time) < math.inf:
+            raise ValueError("time is a number that is not 0")
+        given = _values.starts(starts)
+        names = [one if isinstance(one, str) else _named(one) for one in given]
+        found = json.loads(
+            native.exponents(
+                self._native,
+                given,
+                names,
+                float(time),
+                (spectrum, both_ways),
+                (seed, index),
+                threads,
+            )
+        )
+        return Spectra(found) if spectrum else Exponents(found)
+
+    def to_sympy(self, formula: str | None = None, symbols: dict[str, Any] | None = None):
+        """A formula, or a claim by its name, as an expression of SymPy; the field without one."""
+        from .symbolic import to_sympy
+
+        return to_sympy(self, formula, symbols)
+
+
+def _points(starts: list[Any]) -> list[str | list[str]]:
+    if None in starts:
+        raise ValueError("a start on the section is a pair (l, L/G)")
+    return starts
+
+
+def _named(start: list[str] | None) -> str:
+    return "drawn" if start is None else "(" + ", ".join(start) + ")"
+
+
+def _number(text: str) -> float:
+    from fractions import Fraction
+
+    return float(Fraction(text))
+
+
+def _thousandth(time: str):
+    from fractions import Fraction
+
+    return abs(Fraction(time)) / 1000 or Fraction(1, 1000)

@@ -1,0 +1,63 @@
+"""Reading of cases, and what is done with them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _liouville as native
+from . import _values
+from .case import Case
+from .found import Search
+from .report import Report
+
+
+def restored(text: str, name: str, settings: dict[str, str], symbols) -> Case:
+    """A case that was pickled."""
+    return Case(native.Case(text, name, list(settings.items())), settings, symbols)
+
+
+def read(source: str | Path, /, **settings: Any) -> Case:
+    """Reads a case: a path, a case of the catalogue such as `plane/balanced-ball`, or its text.
+
+    Keywords give parameters values: `m="5/4"`, `I=[2, 2, 3]`. A text has a line break in it.
+    """
+    given = {name: _values.setting(value) for name, value in settings.items()}
+    return parse(source, given)
+
+
+def parse(
+    source: str | Path,
+    settings: Mapping[str, Any] | None = None,
+    *,
+    name: str = "case",
+    symbols: dict[str, Any] | None = None,
+) -> Case:
+    """Reads a case as `read` does; settings by a mapping may have any names."""
+    given = {key: _values.setting(value) for key, value in (settings or {}).items()}
+    pairs = list(given.items())
+    if _values.is_text(source):
+        return Case(native.Case(str(source), name, pairs), given, symbols)
+    return Case(native.Case.open(Path(source), pairs), given, symbols)
+
+
+def check(case: Case | str | Path, **options: Any) -> Report:
+    """Judges all claims of a case; see `Case.check`."""
+    return _case(case).check(**options)
+
+
+def search(case: Case | str | Path, **options: Any) -> Search:
+    """Searches a case for invariants; see `Case.search`."""
+    return _case(case).search(**options)
+
+
+def _case(case: Case | str | Path) -> Case:
+    return case if isinstance(case, Case) else read(case)
+
+
+def catalogue(pattern: str = "*") -> list[str]:
+    """Names of the cases inside the package, such as `plane/balanced-ball`, for `read`."""
+    from fnmatch import fnmatchcase
+
+    return [name for name in native.catalogue() if fnmatchcase(name, pattern)]
