@@ -50,6 +50,7 @@ mod start;
 mod stepper;
 mod surface;
 mod swarm;
+mod track;
 mod validated;
 mod variational;
 
@@ -81,6 +82,7 @@ pub use separatrix::{Separatrices, separatrices};
 pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
+pub use track::{Rolling, Track, track};
 pub use validated::{
     Data, Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove, replay,
 };

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
 use crate::report::names;
+use clap::Args;
 
 use super::Answer;
 use super::eval::open;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use crate::report::motion_certificate::{FORMAT, verify};
+use clap::Args;
 
 use super::eval::read_settings;
 use super::{Answer, Limits, Sampling};

@@ -1,8 +1,10 @@
-//! Report of `chart`: counts of motions in each class over a plane, and the picture.
+//! Report of `chart`: counts of motions in each class over a plane, and the plot.
 
 use serde_json::{Value, json};
 
-use super::picture::{Map, Scale, Swatch};
+use liouville_draw::{
+    Axis as Scale, Bar, Entry, Layer, Mark, Paint, Plot, Sign, gradient, math, plain,
+};
 use liouville_flow::{Axis, Character, Exponents, FlowError};
 
 /// A plane of motions with its request.
@@ -27,16 +29,27 @@ enum Cell {
     Broken,
 }
 
-/// All kinds of points, with colours that differ in light and dark, and in grey.
-const CELLS: [(Cell, [u8; 3]); 7] = [
-    (Cell::Motion(Character::Regular), [0x9c, 0xc3, 0xe6]),
-    (Cell::Motion(Character::ConservativeChaos), [0xc9, 0x3b, 0x4f]),
-    (Cell::Motion(Character::DissipativeChaos), [0xe6, 0xa1, 0x2d]),
-    (Cell::Motion(Character::StrangeRepeller), [0x7a, 0x4f, 0xa8]),
-    (Cell::Motion(Character::StrangeAttractor), [0x23, 0x7a, 0x57]),
-    (Cell::NoState, [0xc4, 0xc4, 0xc4]),
-    (Cell::Broken, [0x55, 0x55, 0x55]),
+/// All kinds of points, with colours that the colour-blind tell apart, and that differ in grey.
+const CELLS: [(Cell, Paint); 7] = [
+    (Cell::Motion(Character::Regular), Paint::Same([0xc6, 0xdf, 0xf2])),
+    (Cell::Motion(Character::ConservativeChaos), Paint::Same([0xd5, 0x5e, 0x00])),
+    (Cell::Motion(Character::DissipativeChaos), Paint::Same([0xf0, 0xc4, 0x3f])),
+    (Cell::Motion(Character::StrangeRepeller), Paint::Same([0xa2, 0x4b, 0x84])),
+    (Cell::Motion(Character::StrangeAttractor), Paint::Same([0x0b, 0x4f, 0x8a])),
+    (Cell::NoState, Paint::Same([0xd4, 0xd4, 0xd4])),
+    (Cell::Broken, Paint::Same([0x4d, 0x4d, 0x4d])),
 ];
+
+/// Meaning of the colours of a chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// Class of the motion.
+    Class,
+    /// Largest Lyapunov exponent.
+    Exponent,
+    /// Mean divergence.
+    Divergence,
+}
 
 impl Cell {
     fn of(found: &Result<Exponents, FlowError>) -> Self {
@@ -125,32 +138,81 @@ impl ChartReport<'_> {
         }))
     }
 
-    /// Draws the picture; its legend lists only the kinds that occur.
-    pub fn map(&self, width: u32) -> Map {
-        let counts = self.counts();
-        let occurs: Vec<usize> = (0..CELLS.len()).filter(|place| counts[*place] > 0).collect();
-        let swatch = |place: &usize| {
-            let (cell, colour) = CELLS[*place];
-            Swatch { colour, name: format!("{} {}", cell.name(), counts[*place]) }
-        };
-        let index = |found: &Result<Exponents, FlowError>| {
-            let place = Cell::of(found).place();
-            occurs.iter().position(|other| *other == place).unwrap_or(0)
-        };
-        let scale = |index: usize| {
-            let (axis, name): (&Axis, &str) = (&self.axes[index], self.names[index]);
-            let (from, to) = (axis.from.to_f64().0, axis.to.to_f64().0);
-            let is_turn = name == "l" && from == 0.0 && (to - std::f64::consts::TAU).abs() < 1e-9;
-            if is_turn { Scale::longitude() } else { Scale::new(name, from, to) }
-        };
+    /// Draws the plane; its legend lists only the kinds that occur. The values of the case itself are
+    /// marked where they are known and within the axes.
+    pub fn plot(&self, colours: Colours, own: [Option<f64>; 2]) -> Plot {
+        let mut plot = Plot::new(self.scale(0), self.scale(1));
         let columns = self.axes[0].count.max(1);
-        Map {
-            title: self.title.to_string(),
-            across: scale(0),
-            up: scale(1),
-            swatches: occurs.iter().map(swatch).collect(),
-            rows: self.cells.chunks(columns).map(|row| row.iter().map(index).collect()).collect(),
-            width,
+        let kind = |found: &Result<Exponents, FlowError>| {
+            let place = Cell::of(found).place();
+            (CELLS[place].1, place)
+        };
+        let mut paints: Vec<Option<Paint>> = Vec::new();
+        let shown = |place: usize| match colours {
+            Colours::Class => true,
+            _ => !matches!(CELLS[place].0, Cell::Motion(_)),
+        };
+        let bar = self.bar(colours);
+        for row in self.cells.chunks(columns).rev() {
+            paints.extend(row.iter().map(|found| match (&bar, value(found, colours)) {
+                (Some(bar), Some(value)) => Some(gradient(bar.axis.share(value))),
+                _ => Some(kind(found).0),
+            }));
         }
+        plot.layers.push(Layer::Cells(columns, paints));
+        plot.bar = bar;
+        let counts = self.counts();
+        for (place, (cell, paint)) in CELLS.iter().enumerate() {
+            if counts[place] > 0 && shown(place) {
+                let share = 100.0 * counts[place] as f64 / self.cells.len() as f64;
+                let text = plain(&format!("{}, {share:.1} %", cell.name()));
+                plot.legend.push(Entry { mark: Mark::Box, paint: *paint, text });
+            }
+        }
+        if let [Some(x), Some(y)] = own
+            && [plot.across.share(x), plot.up.share(y)]
+                .iter()
+                .all(|share| (0.0..=1.0).contains(share))
+        {
+            let (mark, paint) = (Mark::Cross, Paint::Ink);
+            plot.marks.push(Sign { at: [x, y], mark, paint, label: None, has_rim: false });
+            plot.legend.push(Entry { mark, paint, text: plain("the case itself") });
+        }
+        plot
     }
+
+    fn scale(&self, index: usize) -> Scale {
+        let (axis, name): (&Axis, &str) = (&self.axes[index], self.names[index]);
+        let (from, to) = (axis.from.to_f64().0, axis.to.to_f64().0);
+        let is_turn = name == "l" && from == 0.0 && (to - std::f64::consts::TAU).abs() < 1e-9;
+        if is_turn { Scale::turn(math(name)) } else { Scale::new(math(name), from, to) }
+    }
+
+    /// Colour bar of the values that occur.
+    fn bar(&self, colours: Colours) -> Option<Bar> {
+        let values = || self.cells.iter().filter_map(|found| value(found, colours));
+        let (low, high) = values()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let words = match colours {
+            Colours::Class => return None,
+            Colours::Exponent => "largest exponent",
+            Colours::Divergence => "mean divergence",
+        };
+        let high = if high > low { high } else { low + 1e-3 };
+        low.is_finite().then(|| Bar {
+            axis: Scale::new(plain(words), low, high),
+            paints: (0..64).map(|k| gradient((f64::from(k) + 0.5) / 64.0)).collect(),
+        })
+    }
+}
+
+/// Value that a motion is coloured by.
+fn value(found: &Result<Exponents, FlowError>, colours: Colours) -> Option<f64> {
+    let found = found.as_ref().ok()?;
+    let value = match colours {
+        Colours::Class => return None,
+        Colours::Exponent => found.largest.mean,
+        Colours::Divergence => found.divergence.mean,
+    };
+    value.is_finite().then_some(value)
 }

@@ -1,49 +1,26 @@
-//! Work–precision diagram as SVG: error to the right, time upwards, both logarithmic; a shape for
-//! each method, a colour for each domain.
+//! Work–precision diagram: error to the right, time upwards, both logarithmic; a sign for each method,
+//! a colour for each domain.
 //!
-//! The layout depends on the rows alone. Up to six claims have a panel each, with a label at every
+//! The layout depends on the rows alone. Up to six claims have a plot each, with a label at every
 //! point that has room for one; more are drawn together.
 
-mod axes;
-mod labels;
-
-pub(super) use super::typeset::mathml::escaped as escape;
-
-use std::fmt::Write;
-
-use self::axes::Axes;
-use self::labels::Labels;
+use liouville_draw::{
+    Axis, CATEGORIES, Entry, Figure, Mark, Paint, Plot, Sign, Size, plain, power_of_ten,
+    svg as drawn,
+};
 use liouville_lab::bench::{Measured, Method, Row};
 
-/// Number of claims above which all share one panel.
-const MOST_PANELS: usize = 6;
-const WIDTH: f64 = 860.0;
-const LEFT: f64 = 70.0;
-const RIGHT: f64 = 24.0;
-const PANEL: f64 = 330.0;
-/// Heights of the title above a panel and of the axis below.
-const ABOVE: f64 = 34.0;
-const BELOW: f64 = 46.0;
-const LEGEND_LINE: f64 = 22.0;
-
-/// Colours of the domains in the order of the rows, for a light and for a dark background.
-const COLOURS: [(&str, &str); 8] = [
-    ("#0067a5", "#5db8f5"),
-    ("#c2500a", "#ff9a4d"),
-    ("#00765a", "#3fcfa4"),
-    ("#8a6d00", "#e3c13c"),
-    ("#6b3fa0", "#b89af0"),
-    ("#a8326e", "#f08abb"),
-    ("#5a5a5a", "#b5b5b5"),
-    ("#8c2f2f", "#f08a8a"),
-];
+/// Number of claims above which all share one plot.
+const MOST_PLOTS: usize = 6;
+/// Decade at which smaller errors are drawn: exact results have no place on a logarithmic axis.
+const LEAST_ERROR: f64 = -90.0;
 
 /// Draws the diagram of some claims.
 pub fn svg(measured: &[Measured]) -> String {
-    let domains = domains(measured);
     // A residual that is nowhere defined has no error, and no place in the diagram.
     let shown = |m: &&Row| m.max_error.is_some();
-    let panels: Vec<(String, Vec<&Row>)> = if measured.len() <= MOST_PANELS {
+    let are_apart = measured.len() <= MOST_PLOTS;
+    let plots: Vec<(String, Vec<&Row>)> = if are_apart {
         let title = |m: &Measured| match m.item == m.claim {
             true => m.item.clone(),
             false => format!("{}: {}", m.item, m.claim),
@@ -53,24 +30,17 @@ pub fn svg(measured: &[Measured]) -> String {
         let rows = measured.iter().flat_map(|m| &m.rows).filter(shown).collect();
         vec![(format!("{} claims", measured.len()), rows)]
     };
-    let mut legend = String::new();
-    let legend_height = legend_lines(&mut legend, &methods(measured), &domains);
-    let height = legend_height + panels.len() as f64 * (ABOVE + PANEL + BELOW) + 6.0;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
-         width=\"{WIDTH}\" height=\"{height}\" role=\"img\">\n\
-         <title>Run time against error</title>\n<style>\n{}</style>\n\
-         <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>\n",
-        style(domains.len())
-    );
-    out.push_str(&legend);
-    let axes = Axes::of(panels.iter().flat_map(|(_, rows)| rows.iter().copied()));
-    for (index, (title, rows)) in panels.iter().enumerate() {
-        let top = legend_height + index as f64 * (ABOVE + PANEL + BELOW) + ABOVE;
-        panel(&mut out, title, rows, &axes, top, &domains, panels.len() == measured.len());
+    let domains = domains(measured);
+    let axes = axes(plots.iter().flat_map(|(_, rows)| rows.iter().copied()));
+    let mut plots: Vec<Plot> =
+        plots.iter().map(|(title, rows)| plot(title, rows, &axes, &domains, are_apart)).collect();
+    if let Some(first) = plots.first_mut() {
+        first.legend = legend(&methods(measured), &domains);
     }
-    out.push_str("</svg>\n");
-    out
+    let size = Size { width: 200.0, height: None, dot: 0.2, opacity: 1.0 };
+    let title = "Run time against error".to_string();
+    let figure = Figure { title, caption: Vec::new(), plots, columns: 1, size };
+    drawn(&figure.scene())
 }
 
 fn domains(measured: &[Measured]) -> Vec<&'static str> {
@@ -89,123 +59,96 @@ fn methods(measured: &[Measured]) -> Vec<Method> {
     Method::ALL.into_iter().filter(|method| *method != Method::Floor && used(method)).collect()
 }
 
-fn style(domains: usize) -> String {
-    let mut light = String::from(
-        "text { font: 12px system-ui, sans-serif; fill: #222; }\n.paper { fill: #fff; }\n\
-         .title { font-size: 14px; font-weight: 600; }\n.small { font-size: 11px; }\n\
-         .grid { stroke: #e2e2e2; }\n.frame { stroke: #888; fill: none; }\n\
-         .lead { stroke: #999; stroke-width: 0.7; }\n.plain { fill: #555; }\n",
-    );
-    let mut dark = String::from(
-        "text { fill: #ddd; }\n.paper { fill: #14171c; }\n.grid { stroke: #2b3038; }\n\
-         .plain { fill: #aaa; }\n",
-    );
-    for index in 0..domains {
-        let (on_light, on_dark) = COLOURS[index % COLOURS.len()];
-        let _ = writeln!(light, ".d{index} {{ fill: {on_light}; }}");
-        let _ = writeln!(dark, ".d{index} {{ fill: {on_dark}; }}");
-    }
-    format!("{light}@media (prefers-color-scheme: dark) {{\n{dark}}}\n")
-}
-
-/// Draws shapes and colours with their names, in lines. Returns the height they take.
-fn legend_lines(out: &mut String, methods: &[Method], domains: &[&'static str]) -> f64 {
-    let mut y = 22.0;
-    let mut x = LEFT;
-    let mut entry = |mark: &dyn Fn(f64, f64) -> String, text: &str, x: &mut f64, y: &mut f64| {
-        let width = 24.0 + labels::width(text) + 14.0;
-        if *x + width > WIDTH - RIGHT {
-            (*x, *y) = (LEFT, *y + LEGEND_LINE);
-        }
-        out.push_str(&mark(*x + 6.0, *y));
-        let _ = writeln!(
-            out,
-            "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-            *x + 18.0,
-            *y + 4.0,
-            escape(text)
-        );
-        *x += width;
+fn legend(methods: &[Method], domains: &[&'static str]) -> Vec<Entry> {
+    let method = |method: &Method| Entry {
+        mark: mark(*method),
+        paint: Paint::Soft,
+        text: plain(method.name()),
     };
-    for method in methods {
-        entry(&|x, y| marker(*method, "plain", x, y), method.name(), &mut x, &mut y);
-    }
-    (x, y) = (LEFT, y + LEGEND_LINE);
-    for (index, domain) in domains.iter().enumerate() {
-        let class = format!("d{index}");
-        let swatch = |x: f64, y: f64| {
-            let (left, top) = (x - 6.0, y - 5.0);
-            format!(
-                "<rect class=\"{class}\" x=\"{left:.1}\" y=\"{top:.1}\" width=\"12\" height=\"10\"/>\n"
-            )
-        };
-        entry(&swatch, domain, &mut x, &mut y);
-    }
-    y + 14.0
+    let domain = |(place, name): (usize, &&str)| Entry {
+        mark: Mark::Box,
+        paint: CATEGORIES[place % CATEGORIES.len()],
+        text: plain(name),
+    };
+    methods.iter().map(method).chain(domains.iter().enumerate().map(domain)).collect()
 }
 
-fn panel(
-    out: &mut String,
+fn plot(
     title: &str,
     rows: &[&Row],
-    axes: &Axes,
-    top: f64,
+    [across, up]: &[Axis; 2],
     domains: &[&'static str],
-    labelled: bool,
-) {
-    let _ = writeln!(
-        out,
-        "<text class=\"title\" x=\"{LEFT}\" y=\"{:.1}\">{}</text>",
-        top - 12.0,
-        escape(&labels::shortened(title))
-    );
-    axes.draw(out, top);
-    let points: Vec<(f64, f64)> =
-        rows.iter().map(|row| axes.place(row.max_error, row.ns_per_state, top)).collect();
-    if !labelled {
-        out.push_str("<g fill-opacity=\"0.5\">\n");
-    }
-    for (row, (x, y)) in rows.iter().zip(&points) {
-        let class = domains.iter().position(|domain| *domain == row.domain).unwrap_or(0);
-        out.push_str(&marker(row.method, &format!("d{class}"), *x, *y));
-    }
-    if labelled {
-        // From the right: points there have the fewest places for a label.
-        let mut order: Vec<usize> = (0..rows.len()).collect();
-        order.sort_by(|a, b| points[*b].0.total_cmp(&points[*a].0));
-        let mut labels = Labels::new(axes.frame(top), &points);
-        for index in order {
-            let row = rows[index];
-            let text = match row.method {
-                Method::Tape | Method::MergedTape => {
-                    format!("{}, {}", row.method.name(), row.domain)
-                }
-                // The others run in one domain each.
-                method => method.name().to_string(),
-            };
-            labels.put(out, points[index], &text);
+    are_labelled: bool,
+) -> Plot {
+    let mut plot = Plot::new(across.clone(), up.clone());
+    plot.title = Some(plain(title));
+    (plot.aspect, plot.grid) = (0.42, true);
+    let sign = |row: &&Row| {
+        let place = domains.iter().position(|domain| *domain == row.domain).unwrap_or(0);
+        let label = match row.method {
+            Method::Tape | Method::MergedTape => format!("{}, {}", row.method.name(), row.domain),
+            // The others run in one domain each.
+            method => method.name().to_string(),
+        };
+        let error = row.max_error.filter(|error| *error > 0.0).map_or(f64::NEG_INFINITY, decade);
+        Sign {
+            // What is exact stands at the left border.
+            at: [error.max(across.from()), row.ns_per_state.max(1e-1).log10()],
+            mark: mark(row.method),
+            paint: CATEGORIES[place % CATEGORIES.len()],
+            label: are_labelled.then_some(label),
+            has_rim: false,
         }
-    }
-    if !labelled {
-        out.push_str("</g>\n");
-    }
+    };
+    plot.marks = rows.iter().map(sign).collect();
+    plot
 }
 
-/// Draws a marker with the shape of a method, about 10 pixels wide.
-fn marker(method: Method, class: &str, x: f64, y: f64) -> String {
-    let polygon = |corners: &[(f64, f64)]| {
-        let corners: Vec<String> =
-            corners.iter().map(|(dx, dy)| format!("{:.1},{:.1}", x + dx, y + dy)).collect();
-        format!("<polygon class=\"{class}\" points=\"{}\"/>\n", corners.join(" "))
+/// Axes to whole decades, with room for labels next to the outermost points.
+fn axes<'r>(rows: impl Iterator<Item = &'r Row>) -> [Axis; 2] {
+    let (mut errors, mut times) = ((-16.0f64, -10.0f64), (1.0f64, 2.0f64));
+    for row in rows {
+        let error = decade(row.max_error.filter(|error| *error > 0.0).unwrap_or(1e-16));
+        errors = (errors.0.min(error.floor()), errors.1.max(error.ceil()));
+        let time = row.ns_per_state.max(1e-1).log10();
+        times = (times.0.min((time - 0.1).floor()), times.1.max((time + 0.1).ceil()));
+    }
+    let room = (0.21 * (errors.1 - errors.0)).ceil().max(3.0);
+    let ends = [errors.0 - 3.0, errors.1 + room];
+    let every = ((ends[1] - ends[0]) / 16.0).ceil().max(1.0) as i64;
+    // Beyond 1 there is room for labels only.
+    let decades = (ends[0] as i64..=ends[1].min(0.0) as i64).filter(|e| e % every == 0);
+    let decades = decades.map(|e| (e as f64, power_of_ten(e))).collect();
+    let units = (times.0 as i64..=times.1 as i64).map(|e| (e as f64, time(e))).collect();
+    [
+        Axis::with_ticks(plain("largest error / scale"), ends, decades),
+        Axis::with_ticks(plain("time a state"), [times.0, times.1], units),
+    ]
+}
+
+fn decade(error: f64) -> f64 {
+    error.log10().max(LEAST_ERROR)
+}
+
+/// Formats a power of ten nanoseconds: 10 ns, 1 µs.
+fn time(exponent: i64) -> String {
+    let (unit, least) = match exponent {
+        ..3 => ("ns", 0),
+        3..6 => ("µs", 3),
+        6..9 => ("ms", 6),
+        _ => ("s", 9),
     };
+    let number = 10f64.powi((exponent - least) as i32);
+    format!("{number} {unit}")
+}
+
+fn mark(method: Method) -> Mark {
     match method {
-        Method::Tape | Method::Floor => {
-            format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>\n")
-        }
-        Method::MergedTape => polygon(&[(-6.0, -2.0), (6.0, -2.0), (6.0, 2.0), (-6.0, 2.0)]),
-        Method::NumDualByHand => polygon(&[(0.0, -6.0), (6.0, 0.0), (0.0, 6.0), (-6.0, 0.0)]),
-        Method::NumDualClosedForm => polygon(&[(0.0, -6.0), (3.0, 0.0), (0.0, 6.0), (-3.0, 0.0)]),
-        Method::ComplexStep => polygon(&[(0.0, -5.5), (5.5, 4.5), (-5.5, 4.5)]),
-        Method::CentralDifference => polygon(&[(0.0, 5.5), (5.5, -4.5), (-5.5, -4.5)]),
+        Method::Tape | Method::Floor => Mark::Disc,
+        Method::MergedTape => Mark::Bar,
+        Method::NumDualByHand => Mark::Diamond,
+        Method::NumDualClosedForm => Mark::Needle,
+        Method::ComplexStep => Mark::Up,
+        Method::CentralDifference => Mark::Down,
     }
 }

@@ -2,12 +2,11 @@
 
 use serde_json::{Map, Value, json};
 
-use super::picture::{Dot, Layer, Picture, Scale, Tint};
-use super::section::shade;
 use liouville::case::Case;
 use liouville::mechanics::Variable;
 use liouville::number::pair::Pair;
 use liouville::number::precise::Approximation;
+use liouville_draw::{Axis, CATEGORIES, Entry, Layer, Mark, Paint, Plot, Sign, Text, math, plain};
 use liouville_flow::{Contact, FlowError, Orbit, Precision, Role};
 
 /// Number of digits printed of a double-double.
@@ -195,35 +194,53 @@ pub fn json_of_several<'o>(
 
 /// Draws the columns of motions after the first over the first: one line each where the first is
 /// the time, and otherwise the second alone. `None` without two columns.
-pub fn picture(
-    title: &str,
-    columns: &[String],
-    orbits: &[&[Vec<Pair>]],
-    width: u32,
-) -> Option<Picture> {
+pub fn plot(columns: &[String], names: &[String], orbits: &[&[Vec<Pair>]]) -> Option<Plot> {
     let [first, others @ ..] = columns else { return None };
     let others = if first == "t" { others } else { &others[..others.len().min(1)] };
     let count = others.len();
     let last = others.last()?;
     let value = |row: &Vec<Pair>, place: usize| row.get(place).map_or(f64::NAN, |x| x.hi);
     let all = || orbits.iter().flat_map(|rows| rows.iter());
-    let mut layers = Vec::new();
-    for rows in orbits {
+    let name = if count == 1 { math(last) } else { Text::default() };
+    let heights = all().flat_map(|row| (1..=count).map(move |place| value(row, place)));
+    let across = Axis::over(math(first), all().map(|row| value(row, 0)));
+    let mut plot = Plot::new(across, Axis::over(name, heights));
+    for (index, rows) in orbits.iter().enumerate() {
         for place in 1..=count {
-            let dots = rows.iter().map(|row| Dot { x: value(row, 0), y: value(row, place) });
-            let tint = Tint::Shade(shade(layers.len()));
-            layers.push(Layer { tint, dots: dots.collect(), joined: true });
+            let points = rows.iter().map(|row| [value(row, 0), value(row, place)]).collect();
+            plot.layers.push(Layer::Line(points, CATEGORIES[plot.layers.len() % CATEGORIES.len()]));
+            let mut text = if count > 1 { math(&others[place - 1]) } else { Text::default() };
+            if orbits.len() > 1 {
+                let start = names.get(index).map_or("", String::as_str).replace('-', "−");
+                let comma = if text.is_empty() { "start " } else { ", start " };
+                text = text.then(plain(&format!("{comma}{start}")));
+            }
+            if !text.is_empty() && plot.layers.len() <= CATEGORIES.len() {
+                let paint = CATEGORIES[plot.layers.len() - 1];
+                plot.legend.push(Entry { mark: Mark::Line, paint, text });
+            }
         }
     }
-    let name = if count == 1 { last.as_str() } else { "" };
-    let heights = all().flat_map(|row| (1..=count).map(move |place| value(row, place)));
-    Some(Picture {
-        title: title.to_string(),
-        across: Scale::over(first, all().map(|row| value(row, 0))),
-        up: Scale::over(name, heights),
-        layers,
-        overlay: Vec::new(),
-        marks: Vec::new(),
-        width,
-    })
+    Some(plot)
+}
+
+/// Draws tracks on a plane with one scale, from marked starts.
+pub fn track_plot(tracks: &[Vec<[f64; 2]>]) -> Plot {
+    let all = |k: usize| tracks.iter().flatten().map(move |point| point[k]);
+    let mut plot =
+        Plot::new(Axis::over(math("X"), all(0)), Axis::over(math("Y"), all(1))).with_equal_scales();
+    for (index, track) in tracks.iter().enumerate() {
+        let paint = CATEGORIES[index % CATEGORIES.len()];
+        plot.layers.push(Layer::Line(track.clone(), paint));
+        let sign = |at: &[f64; 2]| Sign {
+            at: *at,
+            mark: Mark::Ring,
+            paint: Paint::Ink,
+            label: None,
+            has_rim: false,
+        };
+        plot.marks.extend(track.first().map(sign));
+    }
+    plot.legend.push(Entry { mark: Mark::Ring, paint: Paint::Ink, text: plain("start") });
+    plot
 }

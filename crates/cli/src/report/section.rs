@@ -1,10 +1,11 @@
-//! Report of `section`: the crossings as JSON, a summary as text, and the picture of both.
+//! Report of `section`: the crossings as JSON, a summary as text, and the plot.
+
+pub mod drawing;
 
 use serde_json::{Value, json};
 
-use super::picture::{Dot, Layer, Picture, Scale, Tint};
 use liouville::case::{Case, Direction};
-use liouville_flow::{AreaForm, Character, SectionOrbit, SectionRequest, Separatrices};
+use liouville_flow::{AreaForm, Character, SectionOrbit, SectionRequest};
 
 use super::exponents::{Row, classes};
 
@@ -128,87 +129,4 @@ fn area_entry(area: &AreaForm) -> Value {
         "deviation": area.deviation,
         "error": area.error,
     })
-}
-
-/// Draws the picture of a section. Colours follow `values`, one for each orbit, or else the order
-/// of the orbits.
-pub fn picture(
-    title: &str,
-    orbits: &[SectionOrbit],
-    values: Option<&[f64]>,
-    width: u32,
-) -> Picture {
-    let shades = match values {
-        Some(values) => ranks(values),
-        None => (0..orbits.len()).map(shade).collect(),
-    };
-    let dots = |orbit: &SectionOrbit| {
-        orbit.crossings.iter().map(|c| Dot { x: c.at[0], y: c.at[1] }).collect()
-    };
-    let layers = orbits.iter().zip(shades);
-    Picture {
-        title: title.to_string(),
-        across: Scale::longitude(),
-        up: Scale::height(),
-        layers: layers
-            .map(|(orbit, shade)| Layer {
-                tint: Tint::Shade(shade),
-                dots: dots(orbit),
-                joined: false,
-            })
-            .collect(),
-        overlay: Vec::new(),
-        marks: Vec::new(),
-        width,
-    }
-}
-
-/// Position on the colour scale of the orbit with this index: neighbours are far apart.
-pub(super) fn shade(index: usize) -> f64 {
-    (0.5 + index as f64 * 0.618_033_988_75).fract()
-}
-
-/// Adds the images of lines to a picture, each in a different colour.
-pub fn draw_lines(picture: &mut Picture, lines: &[Vec<SectionOrbit>]) {
-    for (index, orbits) in lines.iter().enumerate() {
-        let start = |orbit: &SectionOrbit| Dot { x: orbit.start[0], y: orbit.start[1] };
-        let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
-        let mut dots: Vec<Dot> = crossings.map(|c| Dot { x: c.at[0], y: c.at[1] }).collect();
-        dots.extend(orbits.iter().map(start));
-        let tint = Tint::Shade(index as f64 / 2.0);
-        picture.layers.push(Layer { tint, dots, joined: false });
-    }
-}
-
-/// Positions of red and blue on the colour scale.
-const UNSTABLE: f64 = 0.0;
-const STABLE: f64 = 0.7;
-
-/// Draws separatrices over a section, whose points become pale: unstable curves red, stable ones
-/// blue.
-pub fn draw_separatrices(picture: &mut Picture, all: &[Separatrices]) {
-    if all.is_empty() {
-        return;
-    }
-    picture.layers.iter_mut().for_each(|layer| layer.tint = Tint::Faint);
-    for found in all {
-        for (orbits, shade) in [(&found.stable, STABLE), (&found.unstable, UNSTABLE)] {
-            let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
-            let dots = crossings.map(|c| Dot { x: c.at[0], y: c.at[1] }).collect();
-            picture.layers.push(Layer { tint: Tint::Shade(shade), dots, joined: false });
-        }
-        picture.marks.push(Dot { x: found.point.at[0], y: found.point.at[1] });
-    }
-}
-
-/// Rank of each value, from 0 for the least to 1 for the largest.
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut ranks = vec![0.0; values.len()];
-    let last = values.len().saturating_sub(1).max(1) as f64;
-    for (rank, index) in order.into_iter().enumerate() {
-        ranks[index] = rank as f64 / last;
-    }
-    ranks
 }

@@ -4,6 +4,9 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use liouville_draw::{
+    Axis, Bar, Figure, Layer, Paint, Plot, Size, gradient, math, plain, power_of_ten, svg,
+};
 use liouville_lab::stress::{Loss, Tally};
 
 /// A sweep with its results at each power of ten.
@@ -95,70 +98,45 @@ impl StressReport {
     /// Draws the heat map: sweeps down, powers of ten across, one half of a cell for the field and
     /// one for the residuals.
     pub fn heat_map(&self) -> String {
-        const CELL: f64 = 17.0;
-        const LEFT: f64 = 270.0;
-        const TOP: f64 = 56.0;
         let all = || self.scenarios.iter().flat_map(|s| s.points.iter().map(|p| p.exponent));
         let (low, high) = (all().min().unwrap_or(0), all().max().unwrap_or(0));
-        let width = LEFT + CELL * f64::from(high - low + 1) + 30.0;
-        let height = TOP + CELL * self.scenarios.len() as f64 + 70.0;
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-             font-family=\"sans-serif\" font-size=\"11\">\n<style>.ink{{fill:#222}}.paper{{fill:#fff}}\
-             @media (prefers-color-scheme:dark){{.ink{{fill:#ddd}}.paper{{fill:#161616}}}}</style>\n\
-             <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n\
-             <text class=\"ink\" x=\"12\" y=\"24\" font-size=\"15\">Digits that f64 loses (upper half of \
-             a cell: field, lower half: residuals)</text>\n"
-        );
-        let across = |exponent: i32| LEFT + CELL * f64::from(exponent - low);
+        let columns = usize::try_from(high - low + 1).unwrap_or(1);
+        let rows = self.scenarios.len();
+        let mut paints = vec![None; columns * 2 * rows];
         for (row, sweep) in self.scenarios.iter().enumerate() {
-            let y = TOP + CELL * row as f64;
-            let _ = writeln!(
-                svg,
-                "<text class=\"ink\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                LEFT - 8.0,
-                y + 12.0,
-                sweep.name
-            );
             for point in &sweep.points {
-                let Some(loss) = point.loss else { continue };
-                for (half, digits) in [loss.field, loss.residual].into_iter().enumerate() {
-                    let _ = writeln!(
-                        svg,
-                        "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{}\"/>",
-                        across(point.exponent),
-                        y + half as f64 * (CELL - 1.0) / 2.0,
-                        CELL - 1.0,
-                        (CELL - 1.0) / 2.0,
-                        colour(digits)
-                    );
+                let column = usize::try_from(point.exponent - low).unwrap_or(0);
+                for (half, digits) in
+                    point.loss.iter().flat_map(|loss| [loss.field, loss.residual]).enumerate()
+                {
+                    paints[(2 * row + half) * columns + column] = Some(shade(digits));
                 }
             }
         }
-        let bottom = TOP + CELL * self.scenarios.len() as f64;
-        for exponent in (low..=high).filter(|exponent| exponent % 4 == 0) {
-            let _ = writeln!(
-                svg,
-                "<text class=\"ink\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">10\
-                 <tspan dy=\"-4\" font-size=\"8\">{exponent}</tspan></text>",
-                across(exponent) + CELL / 2.0,
-                bottom + 16.0
-            );
-        }
-        for digits in 0..=16 {
-            let x = LEFT + CELL * f64::from(digits);
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"{CELL}\" height=\"12\" fill=\"{}\"/>\
-                 <text class=\"ink\" x=\"{:.1}\" y=\"{:.1}\" font-size=\"8\" text-anchor=\"middle\">{digits}</text>",
-                bottom + 30.0,
-                colour(f64::from(digits)),
-                x + CELL / 2.0,
-                bottom + 52.0
-            );
-        }
-        svg.push_str("</svg>\n");
-        svg
+        let names = self.scenarios.iter().enumerate();
+        let names = names.map(|(row, s)| ((rows - row) as f64 - 0.5, s.name.to_string())).collect();
+        let powers = (low..=high).filter(|exponent| exponent % 4 == 0);
+        let powers = powers.map(|e| (f64::from(e), power_of_ten(i64::from(e)))).collect();
+        let ends = [f64::from(low) - 0.5, f64::from(high) + 0.5];
+        let mut plot = Plot::new(
+            Axis::with_ticks(math("x"), ends, powers),
+            Axis::with_ticks(plain(""), [0.0, rows as f64], names),
+        );
+        plot.aspect = 0.045 * rows as f64;
+        plot.layers.push(Layer::Cells(columns, paints));
+        let ticks = (0..=4).map(|k| (4.0 * f64::from(k), (4 * k).to_string())).collect();
+        plot.bar = Some(Bar {
+            axis: Axis::with_ticks(plain("digits lost"), [0.0, 16.0], ticks),
+            paints: (0..64).map(|k| shade((f64::from(k) + 0.5) / 4.0)).collect(),
+        });
+        let figure = Figure {
+            title: "Digits that f64 loses".to_string(),
+            caption: vec![plain("Upper half of a row: the field; lower half: the residuals.")],
+            plots: vec![plot],
+            columns: 1,
+            size: Size { width: 180.0, height: None, dot: 0.2, opacity: 1.0 },
+        };
+        svg(&figure.scene())
     }
 }
 
@@ -167,14 +145,7 @@ fn digit(lost: f64) -> char {
     char::from_digit((lost.round() as u32).min(16), 17).unwrap_or('?')
 }
 
-/// Colour of a loss: from green, no digits, over yellow to red, all digits.
-fn colour(lost: f64) -> String {
-    let share = (lost / 16.0).clamp(0.0, 1.0);
-    let stops = [(44.0, 140.0, 96.0), (236.0, 200.0, 70.0), (190.0, 40.0, 40.0)];
-    let (a, b, t) = match share < 0.5 {
-        true => (stops[0], stops[1], share * 2.0),
-        false => (stops[1], stops[2], share * 2.0 - 1.0),
-    };
-    let mix = |a: f64, b: f64| (a + (b - a) * t).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
+/// Colour of a loss: from yellow, no digits, to dark blue, all of them.
+fn shade(lost: f64) -> Paint {
+    gradient(1.0 - lost / 16.0)
 }

@@ -1,10 +1,10 @@
-//! Report of `section` by a surface: the crossings as JSON, a summary as text, and the picture.
+//! Report of `section` by a surface: the crossings as JSON, a summary as text, and the plot.
 
 use serde_json::{Value, json};
 
-use super::picture::{Dot, Layer, Picture, Scale, Tint};
-use super::section::shade;
+use super::section::drawing::shade;
 use liouville::case::{Case, Direction};
+use liouville_draw::{Axis, Density, Layer, Plot, gradient, math};
 use liouville_flow::{SurfaceOrbit, SurfaceRequest};
 
 /// Crossings of a surface with their request.
@@ -85,27 +85,28 @@ impl SurfaceReport<'_> {
     }
 }
 
-/// Draws the first two axes of crossings, a colour for each motion.
-pub fn picture(title: &str, axes: &[String], orbits: &[SurfaceOrbit], width: u32) -> Picture {
+/// Draws the first two axes of crossings, a colour for each motion, or their density in cells.
+pub fn plot(axes: &[String], orbits: &[SurfaceOrbit], cells: Option<[usize; 2]>) -> Plot {
     let value = |at: &[f64], place: usize| at.get(place).copied().unwrap_or(f64::NAN);
     let scale = |place: usize| {
         let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
         let name = axes.get(place).map_or("", String::as_str);
-        Scale::over(name, crossings.map(|met| value(&met.at, place)))
+        Axis::over(math(name), crossings.map(|met| value(&met.at, place)))
     };
-    let layer = |(index, orbit): (usize, &SurfaceOrbit)| {
-        let dots = orbit.crossings.iter();
-        let dots = dots.map(|met| Dot { x: value(&met.at, 0), y: value(&met.at, 1) });
-        let dots = dots.filter(|dot| dot.x.is_finite() && dot.y.is_finite());
-        Layer { tint: Tint::Shade(shade(index)), dots: dots.collect(), joined: false }
+    let dots = |orbit: &SurfaceOrbit| {
+        let dots = orbit.crossings.iter().map(|met| [value(&met.at, 0), value(&met.at, 1)]);
+        dots.filter(|dot| dot.iter().all(|x| x.is_finite())).collect::<Vec<_>>()
     };
-    Picture {
-        title: title.to_string(),
-        across: scale(0),
-        up: scale(1),
-        layers: orbits.iter().enumerate().map(layer).collect(),
-        overlay: Vec::new(),
-        marks: Vec::new(),
-        width,
+    let mut plot = Plot::new(scale(0), scale(1));
+    if let Some(cells) = cells {
+        let points = orbits.iter().flat_map(dots);
+        let density = Density::of(points, &plot.across, &plot.up, cells);
+        plot.bar = Some(density.bar());
+        plot.layers.push(Layer::Density(density));
+        return plot;
     }
+    let layers = orbits.iter().enumerate();
+    plot.layers
+        .extend(layers.map(|(index, orbit)| Layer::Dots(dots(orbit), gradient(shade(index)))));
+    plot
 }

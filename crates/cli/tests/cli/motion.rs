@@ -35,7 +35,7 @@ fn orbit_reports_drift_beside_a_decoy() {
 fn section_draws_the_same_bytes_with_any_threads() {
     let folder = folder("section", &[]);
     let case = figure("fig-3");
-    for ending in ["svg", "png"] {
+    for ending in ["svg", "pdf", "png"] {
         let draw = |name: &str, threads: &str| {
             let path = folder.join(format!("{name}.{ending}"));
             let out = path.to_str().expect("UTF-8");
@@ -74,7 +74,7 @@ fn charts_count_what_they_colour_and_draw_the_same_bytes() {
     let folder = folder("chart", &[]);
     let case = figure("fig-8");
     let plane = ["--x", "a_g=5..25", "--y", "c3=0..1", "--size", "6x4", "--time", "20"];
-    for ending in ["svg", "png"] {
+    for ending in ["svg", "pdf", "png"] {
         let draw = |name: &str, threads: &str| {
             let path = folder.join(format!("{name}.{ending}"));
             let out = path.to_str().expect("UTF-8");
@@ -113,7 +113,8 @@ fn sections_tell_classes_and_draw_separatrices() {
         .stdout(contains("class: regular (4 regular)"))
         .stdout(contains("kept; over one return"));
     let drawn = fs::read_to_string(&picture).expect("a picture");
-    assert!(drawn.contains("class=\"mark\""), "the saddle is marked");
+    assert!(drawn.contains(">hyperbolic point</text>"), "the saddle is marked");
+    assert!(drawn.contains(">unstable curves</text>"), "and what the colours mean is told");
     liouville(&["section", &figure("fig-3"), "--out", out, "--separatrices", "1.5,0.02"])
         .assert()
         .code(2)

@@ -83,7 +83,8 @@ fn samples_are_written_as_csv_npy_and_json() {
     let digits = String::from_utf8(digits).expect("UTF-8");
     assert!(digits.contains("1.3333333333333333333333333333"), "{digits}");
     let drawn = sampled("one.svg", &["--start", "1"]);
-    assert!(String::from_utf8(drawn).expect("UTF-8").contains("<path fill=\"none\""), "a line");
+    let drawn = String::from_utf8(drawn).expect("UTF-8");
+    assert!(drawn.contains("fill=\"none\" stroke=\"currentColor\""), "a line");
     let left: Vec<_> = fs::read_dir(&folder).expect("a folder").flatten().collect();
     assert!(
         left.iter().all(|entry| entry.path().extension().is_none_or(|ending| ending != "part")),
@@ -99,7 +100,7 @@ fn samples_that_cannot_be_written_say_why() {
         fails(&[&["motion", "orbit", &case, "--time", "1/2"], more].concat(), message);
     };
     let out = path(&folder, "x.csv");
-    orbit(&["--out", "x.xyz"], "is none of .svg, .png, .csv, .npy, .json");
+    orbit(&["--out", "x.xyz"], "is none of .svg, .pdf, .png, .csv, .npy, .json");
     orbit(&["--out", "no/such/x.csv"], "in a folder that exists");
     orbit(&["--start", "1", "--columns", "t, y", "--out", &out], "unknown name `y`");
     orbit(&["--start", "1", "--columns", "t,,x", "--out", &out], "a column is empty");

@@ -1,12 +1,16 @@
 //! The command `liouville motion chart`.
 
-use crate::report::chart::ChartReport;
-use clap::Args;
+use crate::report::chart::{ChartReport, Colours};
+use crate::report::facts;
+use clap::{Args, ValueEnum};
 use liouville::case::Case;
+use liouville::mechanics::Origin;
 use liouville::verdict;
-use liouville_flow::{Axis, Launch, PlaneRequest, SectionChoice};
+use liouville_draw::{Text, math, plain};
+use liouville_flow::{Axis, Coordinate, Launch, PlaneRequest, SectionChoice};
 
-use super::motion::{Ink, Plane, Subject, Threads, parse_start, wrong_choice};
+use super::ink::Ink;
+use super::motion::{Plane, Subject, Threads, parse_start, wrong_choice};
 use super::output::Ending;
 use super::progress::progress;
 use super::{Answer, write};
@@ -36,16 +40,41 @@ pub struct Chart {
     /// Start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
     pub state: Option<String>,
+    /// Colours of the picture: classes, or values with a colour bar
+    #[arg(long, value_enum, default_value_t = Colour::Class)]
+    pub colour: Colour,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
     pub threads: Threads,
 }
 
+/// Meaning of the colours of a chart.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Colour {
+    /// Class of the motion
+    Class,
+    /// Largest Lyapunov exponent
+    Exponent,
+    /// Mean divergence
+    Divergence,
+}
+
+impl Colour {
+    fn of(self) -> Colours {
+        match self {
+            Self::Class => Colours::Class,
+            Self::Exponent => Colours::Exponent,
+            Self::Divergence => Colours::Divergence,
+        }
+    }
+}
+
 /// Limit on the motions along an axis.
 const MAX_SIZE: usize = 4000;
 
-fn parse_size(text: &str) -> Result<[usize; 2], String> {
+/// Reads two numbers, across and up.
+pub fn parse_size(text: &str) -> Result<[usize; 2], String> {
     let both = text.split_once(['x', '×', ',']).unwrap_or((text, text));
     let read = |part: &str| part.trim().parse().ok().filter(|n| (1..=MAX_SIZE).contains(n));
     let size = read(both.0).zip(read(both.1)).map(|(across, up)| [across, up]);
@@ -80,13 +109,11 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
         cells: &cells,
     };
     if let Some(out) = &out {
-        let map = report.map(options.ink.width);
-        let bytes = match out.ending {
-            Ending::Png => {
-                map.png(options.ink.paper()).map_err(|error| format!("error: {error}"))?
-            }
-            _ => map.svg().into_bytes(),
-        };
+        let own = [own(&case, &request, 0), own(&case, &request, 1)];
+        let plot = report.plot(options.colour.of(), own);
+        let caption = caption(&case, &request, [&x_name, &y_name]);
+        let bytes =
+            options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?;
         write(&out.path, "--out", bytes)?;
     }
     let text = match subject.json {
@@ -98,6 +125,44 @@ pub fn run(options: &Chart) -> Result<Answer, String> {
         Some(problem) if cells.iter().all(Result::is_err) => Err(subject.told(problem)),
         _ => Ok(Answer { text, code: 0 }),
     }
+}
+
+/// Value of the case itself on an axis.
+fn own(case: &Case, request: &PlaneRequest, place: usize) -> Option<f64> {
+    match (&request.axes[place].coordinate, &request.launch) {
+        (Coordinate::Parameter { index, component }, _) => {
+            match &case.model.parameters.get(*index)?.origin {
+                Origin::Fixed(values) => values.get(*component).map(|value| value.to_f64().0),
+                _ => None,
+            }
+        }
+        (Coordinate::L, Launch::Section { at, .. }) => Some(at[0]),
+        (Coordinate::Z, Launch::Section { at, .. }) => Some(at[1]),
+        (Coordinate::Energy, Launch::Section { energy, .. }) => Some(energy.to_f64().0),
+        _ => None,
+    }
+}
+
+/// Words below the picture: the time, the start, and the parameters that do not vary.
+fn caption(case: &Case, request: &PlaneRequest, names: [&str; 2]) -> Text {
+    let mut found = vec![facts::equation("t", &request.time.to_string())];
+    if let Launch::Section { g0, energy, at } = &request.launch {
+        let varies = |name: &str| names.contains(&name);
+        found.push(facts::equation("g_0", &g0.to_string()));
+        if !varies("energy") {
+            found.push(facts::equation("h", &energy.to_string()));
+        }
+        if !varies("l") || !varies("L/G") {
+            let start = format!(" = ({}, {})", at[0], at[1]).replace('-', "−");
+            found.push(
+                plain("start\u{a0}")
+                    .then(math("(l,\u{a0}L/G)"))
+                    .then(plain(&facts::unbroken(&start))),
+            );
+        }
+    }
+    found.extend(facts::parameters(case, &names));
+    facts::listed(found)
 }
 
 /// Reads `NAME=a..b`.

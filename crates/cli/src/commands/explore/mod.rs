@@ -1,9 +1,11 @@
 //! Commands beyond the claims of a case: its further invariants, its motions, and benchmarks.
 
+mod andoyer;
 mod bench;
 mod chart;
 mod exponents;
 mod growth;
+mod ink;
 mod motion;
 mod orbit;
 mod output;
@@ -16,6 +18,7 @@ mod site;
 mod starts;
 mod stress;
 mod surface;
+mod track;
 
 use clap::Subcommand;
 
@@ -54,13 +57,17 @@ pub enum Motion {
     #[command(after_help = "\
 Examples:
   liouville motion orbit figures/fig-8 --time 1000
-  liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv")]
+  liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv
+  liouville motion orbit spin/rattleback-reversal --state 'ω=[1/50,1/50,1] γ=[0,0,1]' --time 20 --plot 't, (ω,γ)' --out spin.png
+  liouville motion orbit spin/rattleback-reversal --time 20 --track --out track.pdf")]
     Orbit(orbit::Orbit),
     /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
     /// surface
     #[command(after_help = "\
 Examples:
-  liouville motion section figures/fig-8 --out section.png
+  liouville motion section figures/fig-8 --out section.pdf --width 85 --point-size 0.15
+  liouville motion section figures/fig-8 --both-ways --opacity 0.4 --out attractor-and-repeller.png
+  liouville motion section figures/fig-A4-a figures/fig-A4-b figures/fig-A4-c --panels 3x1 --out panels.pdf
   liouville motion section plane/unbalanced-ball --section 'γ3 = 0' --axes 'γ1, ω3' --out points.csv")]
     Section(section::Section),
     /// Measure Lyapunov exponents and the mean divergence along motions
@@ -72,7 +79,7 @@ Examples:
     /// Draw a plane of motions, such as two parameters, each point coloured by its class
     #[command(after_help = "\
 Example:
-  liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --out chart.png")]
+  liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --colour exponent --out chart.pdf")]
     Chart(chart::Chart),
     /// Find closed orbits: periodic points of a section, with their multipliers and errors
     #[command(after_help = "\

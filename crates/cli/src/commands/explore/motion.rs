@@ -1,11 +1,10 @@
-//! Options shared by the commands about motions: case, section, threads, pictures, errors.
+//! Options shared by the commands about motions: case, section, threads, errors.
 
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::report::data::Data;
 use crate::report::diagnostic;
-use crate::report::picture::{self, Paper, Picture};
 use clap::Args;
 use liouville::case::{Angle, Case};
 use liouville::number::pair::Pair;
@@ -16,10 +15,10 @@ use super::Limits;
 use super::colour;
 use super::eval::open;
 use super::files::plain;
-use super::output::{Ending, Output};
+use super::output::Ending;
 
 /// Case whose motion is followed, and format of the output.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Subject {
     /// Case file
     pub case: PathBuf,
@@ -128,42 +127,6 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
     pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
-}
-
-/// File and style of a picture.
-#[derive(Debug, Args)]
-pub struct Ink {
-    /// Write to this file: a picture to .svg or .png; of `orbit` and `section` also data to .csv, .npy
-    /// or .json
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-    /// Width of the picture in pixels
-    #[arg(long, default_value_t = 900, value_parser = clap::value_parser!(u32).range(120..=8000))]
-    pub width: u32,
-    /// Draw a PNG on dark paper; an SVG is light or dark by its reader's setting
-    #[arg(long)]
-    dark: bool,
-}
-
-impl Ink {
-    /// Returns the file with its format, so that errors are found before any long computation.
-    pub fn output(&self, allowed: &[Ending], inputs: &[&Path]) -> Result<Option<Output>, String> {
-        self.out.as_deref().map(|path| Output::new(path, allowed, inputs)).transpose()
-    }
-
-    /// Draws a picture of dots and lines.
-    pub fn drawn(&self, picture: &Picture, ending: Ending) -> Result<Vec<u8>, String> {
-        match ending {
-            Ending::Png => {
-                picture::png(picture, self.paper()).map_err(|error| format!("error: {error}"))
-            }
-            _ => Ok(picture::svg(picture).into_bytes()),
-        }
-    }
-
-    pub fn paper(&self) -> Paper {
-        if self.dark { Paper::Dark } else { Paper::Light }
-    }
 }
 
 /// Renders data by the ending of their file.

@@ -1,20 +1,24 @@
 //! The command `liouville motion orbit`.
 
 use crate::report::data::Data;
+use crate::report::facts;
 use crate::report::orbit;
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville::verdict;
+use liouville_draw::Plot;
 use liouville_flow::{
     Begin, Columns, FlowError, Launches, Lexicon, Precision, SampledOrbit, Sampling, Start,
 };
 
 use super::eval::wrong_state;
-use super::motion::{Ink, Subject, Threads, rendered, wrong_formula};
+use super::ink::Ink;
+use super::motion::{Subject, Threads, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::starts::{Given, Named, Starts, misfit};
+use super::track;
 use super::{Answer, write};
 
 /// Number of intervals between samples where no interval is given.
@@ -46,8 +50,17 @@ pub struct Orbit {
     pub every: Option<Rational>,
     /// Columns of --out: t, formulas of the case, and names of its claims: --columns 't, x, energy, F2'.
     /// By default t and the state. A picture shows the others over the first, which may be t
-    #[arg(long, value_name = "FORMULAS", requires = "out", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        visible_alias = "plot",
+        value_name = "FORMULAS",
+        requires = "out",
+        allow_hyphen_values = true
+    )]
     pub columns: Option<String>,
+    /// Draw the track of the contact point on the plane, from the origin on; as data t, X, Y
+    #[arg(long, requires = "out", conflicts_with_all = ["columns", "precision"])]
+    pub track: bool,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
@@ -82,19 +95,48 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
     let inputs: Vec<_> =
         [subject.case.as_path()].into_iter().chain(options.starts.inputs()).collect();
     let out = options.ink.output(Ending::ALL, &inputs)?;
+    if options.track {
+        track::check(&case)?;
+    }
     let columns = columns(&case, options)?;
     let (names, starts): (Vec<_>, Vec<_>) = starts(&case, options)?.into_iter().unzip();
     let every = interval(options, starts.len(), columns.titles().len())?;
-    let sampling = Sampling { columns: &columns, every };
-    let sampling = out.is_some().then_some(&sampling);
     let precision = options.precision.precision();
     let bar = progress(starts.len() as u64, "orbits");
-    let followed = (&options.time, precision);
     let threads = options.threads.count();
-    let found = liouville_flow::orbits(&case, &starts, followed, sampling, threads, &|| bar.inc(1));
+    let (found, tracks): (Vec<SampledOrbit>, _) = match options.track {
+        true => {
+            let times = (&options.time, &every);
+            let followed = track::follow(&case, &starts, times, threads, &|| bar.inc(1))?;
+            let rows = followed.rows(&options.time, &every);
+            let points: Vec<Vec<[f64; 2]>> =
+                followed.tracks.into_iter().map(|track| track.points).collect();
+            let found = followed.found.into_iter().zip(rows);
+            let found = found.map(|(one, rows)| SampledOrbit { rows, ..one }).collect();
+            (found, Some(points))
+        }
+        false => {
+            let sampling = Sampling { columns: &columns, every };
+            let sampling = out.is_some().then_some(&sampling);
+            let followed = (&options.time, precision);
+            let progress = || bar.inc(1);
+            (liouville_flow::orbits(&case, &starts, followed, sampling, threads, &progress), None)
+        }
+    };
     bar.finish_and_clear();
+    let titles = match options.track {
+        true => ["t", "X", "Y"].map(str::to_string).to_vec(),
+        false => columns.titles().to_vec(),
+    };
     if let Some(out) = &out {
-        save(&case, options, out, &columns, &found)?;
+        let plot = match &tracks {
+            Some(tracks) => Some(orbit::track_plot(tracks)),
+            None => {
+                let rows: Vec<_> = found.iter().map(|one| &one.rows[..]).collect();
+                orbit::plot(&titles, &names, &rows)
+            }
+        };
+        save(&case, options, out, (&titles[..], plot), &found)?;
     }
     let ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
     // Single motions may end early; if all do, the command fails.
@@ -125,7 +167,7 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
         format!(
             "{}: {rows} rows of {}\n",
             out.path.display(),
-            titles(&columns, found.len()).join(", ")
+            numbered(&titles, found.len()).join(", ")
         )
     });
     Ok(Answer { text: text + &saved.unwrap_or_default(), code: 0 })
@@ -201,28 +243,26 @@ fn interval(options: &Orbit, starts: usize, columns: usize) -> Result<Rational, 
 }
 
 /// Titles of the columns; of several motions the first column is the number of the start.
-fn titles(columns: &Columns, count: usize) -> Vec<String> {
+fn numbered(titles: &[String], count: usize) -> Vec<String> {
     let start = (count > 1).then(|| "start".to_string());
-    start.into_iter().chain(columns.titles().iter().cloned()).collect()
+    start.into_iter().chain(titles.iter().cloned()).collect()
 }
 
 fn save(
     case: &Case,
     options: &Orbit,
     out: &Output,
-    columns: &Columns,
+    (titles, plot): (&[String], Option<Plot>),
     found: &[SampledOrbit],
 ) -> Result<(), String> {
     let bytes = match out.ending.is_picture() {
         true => {
-            let rows: Vec<_> = found.iter().map(|one| &one.rows[..]).collect();
-            let picture = orbit::picture(&case.title, columns.titles(), &rows, options.ink.width);
-            options.ink.drawn(
-                &picture.ok_or_else(|| {
-                    "error: a picture needs two columns\nhelp: write --columns 't, x'".to_string()
-                })?,
-                out.ending,
-            )?
+            let plot = plot.ok_or_else(|| {
+                "error: a picture needs two columns\nhelp: write --columns 't, x'".to_string()
+            })?;
+            let time = facts::equation("t", &format!("0 … {}", options.time));
+            let caption = facts::listed([time].into_iter().chain(facts::parameters(case, &[])));
+            options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?
         }
         false => {
             let rows = found.iter().enumerate().flat_map(|(index, one)| {
@@ -232,7 +272,7 @@ fn save(
                 })
             });
             let data = Data {
-                columns: titles(columns, found.len()),
+                columns: numbered(titles, found.len()),
                 whole: usize::from(found.len() > 1),
                 rows: rows.collect(),
                 precision: options.precision.precision(),

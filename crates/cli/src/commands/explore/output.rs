@@ -8,6 +8,7 @@ use super::out;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     Svg,
+    Pdf,
     Png,
     Csv,
     Npy,
@@ -16,13 +17,15 @@ pub enum Ending {
 
 impl Ending {
     /// Endings of pictures.
-    pub const PICTURES: &'static [Self] = &[Self::Svg, Self::Png];
+    pub const PICTURES: &'static [Self] = &[Self::Svg, Self::Pdf, Self::Png];
     /// Endings of pictures and of data.
-    pub const ALL: &'static [Self] = &[Self::Svg, Self::Png, Self::Csv, Self::Npy, Self::Json];
+    pub const ALL: &'static [Self] =
+        &[Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Npy, Self::Json];
 
     fn name(self) -> &'static str {
         match self {
             Self::Svg => ".svg",
+            Self::Pdf => ".pdf",
             Self::Png => ".png",
             Self::Csv => ".csv",
             Self::Npy => ".npy",

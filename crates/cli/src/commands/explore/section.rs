@@ -1,29 +1,29 @@
 //! The command `liouville motion section`.
 
+use std::path::PathBuf;
+
 use crate::report::data::Data;
-use crate::report::exponents;
-use crate::report::section::{SectionReport, draw_lines, draw_separatrices, picture};
 use clap::Args;
 use liouville::case::{Case, Direction, Line};
-use liouville::number::pair::Pair;
-use liouville_flow::{FlowError, Precision, SectionChoice, SectionOrbit, SectionRequest};
+use liouville_draw::{Plot, Text, plain};
 
-use super::motion::{
-    Ink, Plane, Subject, Threads, parse_count, parse_start, rendered, whole, wrong_choice,
-};
+use super::chart::parse_size;
+use super::ink::Ink;
+use super::motion::{Plane, Subject, Threads, parse_count, parse_start, rendered};
 use super::output::{Ending, Output};
-use super::progress::progress;
-use super::starts::{Given, Starts};
-use super::{Answer, surface, write};
-
-/// Number of points of a line whose images are drawn, and default number of images.
-const POINTS: usize = 800;
-const IMAGES: usize = 10;
+use super::starts::Starts;
+use super::{Answer, andoyer, surface, write};
 
 #[derive(Debug, Args)]
 pub struct Section {
     #[command(flatten)]
     pub subject: Subject,
+    /// Further cases: all are drawn as one picture, with letters
+    #[arg(value_name = "CASE")]
+    pub others: Vec<PathBuf>,
+    /// Plots across and down of a picture of several cases; as square as can be by default
+    #[arg(long, value_name = "NXxNY", value_parser = parse_size)]
+    pub panels: Option<[usize; 2]>,
     #[command(flatten)]
     pub plane: Plane,
     /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
@@ -51,9 +51,19 @@ pub struct Section {
     /// Follow the motion backwards in time
     #[arg(long)]
     pub backwards: bool,
-    /// Colour the orbits by the value of this claim's formula, instead of one by one
+    /// Colour the orbits by the value of this claim's formula, instead of one by one; `one` draws all
+    /// in one colour
     #[arg(long, value_name = "CLAIM")]
     pub colour: Option<String>,
+    /// Follow the motions forwards and backwards in time, in two colours: attractor and repeller
+    #[arg(long, conflicts_with_all = ["backwards", "colour"])]
+    pub both_ways: bool,
+    /// Shade the density of the crossings in place of single dots, for attractors
+    #[arg(long, conflicts_with_all = ["both_ways", "colour", "separatrices"])]
+    pub shade: bool,
+    /// Leave out the marks of the periodic points that the case claims
+    #[arg(long)]
+    pub no_marks: bool,
     /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and
     /// 3π/2)
     #[arg(long, value_delimiter = ',')]
@@ -86,181 +96,111 @@ fn parse_point(text: &str) -> Result<([f64; 2], usize), String> {
     }
 }
 
+/// Section of one case.
+pub struct Drawn {
+    pub title: String,
+    /// Words below its picture.
+    pub facts: Text,
+    /// Report for the terminal, or JSON.
+    pub text: String,
+    pub plot: Option<Plot>,
+    pub data: Option<Data>,
+}
+
+/// Wish of a section: the file's ending, and the number of plots side by side.
+#[derive(Clone, Copy)]
+pub struct Wish {
+    pub ending: Option<Ending>,
+    pub columns: usize,
+}
+
+impl Wish {
+    pub fn is_picture(self) -> bool {
+        self.ending.is_some_and(Ending::is_picture)
+    }
+
+    pub fn is_data(self) -> bool {
+        self.ending.is_some_and(|ending| !ending.is_picture())
+    }
+}
+
 pub fn run(options: &Section) -> Result<Answer, String> {
-    let subject = &options.subject;
-    let case = subject.open()?;
-    if options.section.is_some() {
-        return surface::run(&case, options);
+    let first = &options.subject;
+    let others = options.others.iter().map(|case| Subject { case: case.clone(), ..first.clone() });
+    let subjects: Vec<Subject> = [first.clone()].into_iter().chain(others).collect();
+    let count = subjects.len();
+    let square = (1..).find(|side| side * side >= count).unwrap_or(1);
+    let [columns, rows] = options.panels.unwrap_or([square, count.div_ceil(square)]);
+    if columns * rows < count {
+        return Err(format!(
+            "error: --panels has room for {} of {count} cases\nhelp: write --panels {square}x{}",
+            columns * rows,
+            count.div_ceil(square)
+        ));
     }
-    let told = |error: FlowError| subject.told(&error);
+    let cases: Vec<Case> = subjects.iter().map(Subject::open).collect::<Result<_, _>>()?;
     let out = options.output()?;
-    if !liouville_flow::has_andoyer_section(&case.model) {
-        return Err(told(FlowError::NoAndoyer));
+    let wish = Wish { ending: out.as_ref().map(|out| out.ending), columns };
+    if wish.is_data() && count > 1 {
+        return Err("error: several cases are one picture, and no data\n\
+                    help: end --out in .svg, .pdf or .png, or give one case"
+            .to_string());
     }
-    let request = request(&case, options)?;
-    let bar = progress(request.starts.len() as u64, "orbits");
-    let threads = options.threads.count();
-    let orbits = liouville_flow::section(&case, &request, threads, &|| bar.inc(1)).map_err(told)?;
-    bar.finish_and_clear();
-    let colour =
-        options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
-    let shades = match &colour {
-        None => None,
-        Some(name) => Some(liouville_flow::values_at_starts(&case, &request, name).map_err(told)?),
-    };
+    let mut drawn: Vec<Drawn> = cases
+        .iter()
+        .zip(&subjects)
+        .map(|(case, subject)| match options.section.is_some() {
+            true => surface::drawn(case, subject, options, wish),
+            false => andoyer::drawn(case, subject, options, wish),
+        })
+        .collect::<Result<_, _>>()?;
+    let mut saved = String::new();
     if let Some(out) = &out {
-        let bytes = match out.ending.is_picture() {
-            false => rendered(&data(&orbits), out.ending),
-            true => {
-                let mut drawn = picture(&case.title, &orbits, shades.as_deref(), options.ink.width);
-                draw_lines(&mut drawn, &images(&case, &request, options, threads).map_err(told)?);
-                let near = options.separatrices.iter();
-                let curves: Result<Vec<_>, FlowError> = near
-                    .map(|(near, period)| {
-                        liouville_flow::separatrices(&case, &request, *near, *period, threads)
-                    })
-                    .collect();
-                draw_separatrices(&mut drawn, &curves.map_err(told)?);
-                options.ink.drawn(&drawn, out.ending)?
+        let plots: Vec<Plot> = drawn.iter_mut().filter_map(|one| one.plot.take()).collect();
+        let bytes = match drawn.first().and_then(|one| one.data.as_ref()) {
+            Some(data) => {
+                if options.section.is_some() {
+                    let (rows, columns) = (data.rows.len(), data.columns.join(", "));
+                    saved = format!("{}: {rows} rows of {columns}\n", out.path.display());
+                }
+                rendered(data, out.ending)
             }
+            None => options.ink.drawn(words(&drawn), plots, columns, out.ending)?,
         };
         write(&out.path, "--out", bytes)?;
     }
-    let areas = liouville_flow::area_forms(&case, &request).map_err(told)?;
-    let classes = match options.classes {
-        None => None,
-        Some(time) => Some(classes(&case, &request, time, threads).map_err(told)?),
-    };
-    let report = SectionReport {
-        case: &case,
-        request: &request,
-        orbits: &orbits,
-        areas: &areas,
-        classes: classes.as_deref(),
-    };
-    let text = match subject.json {
-        true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
-        false => report.text(),
-    };
-    // A picture without any crossing is a failure; single orbits may fail.
-    let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
-    // Of several starts below the potential, the lowest potential shows how much energy is missing.
-    let missing = |problem: &&FlowError| match problem {
-        FlowError::BelowPotential { potential, .. } => *potential,
-        _ => f64::NEG_INFINITY,
-    };
-    let problems = orbits.iter().filter_map(|orbit| orbit.problem.as_ref());
-    match problems.min_by(|a, b| missing(a).total_cmp(&missing(b))) {
-        Some(problem) if empty => Err(subject.told(problem)),
-        _ => Ok(Answer { text, code: 0 }),
-    }
-}
-
-/// Classifies the orbits by their exponents, followed in both directions of time.
-fn classes(
-    case: &Case,
-    request: &SectionRequest,
-    time: f64,
-    threads: usize,
-) -> Result<Vec<exponents::Row>, FlowError> {
-    let starts = liouville_flow::section_starts(
-        case,
-        &request.g0,
-        &request.energy,
-        &request.starts,
-        request.seed,
-    )?;
-    let parameters = starts.iter().flatten().next().map(|start| start.parameters.clone());
-    let parameters = parameters.unwrap_or_default();
-    let motions = liouville_flow::Variational::all(&case.model, &parameters, &starts)?;
-    let time = if request.backwards { -time } else { time };
-    let bar = progress(2 * starts.len() as u64, "motions");
-    let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
-    let (forward, backward) = (follow(time), follow(-time));
-    bar.finish_and_clear();
-    let names = request.starts.iter().map(|[l, z]| format!("({l}, {z})")).collect();
-    Ok(exponents::rows(names, forward, Some(backward)))
-}
-
-/// Computes the images of the requested lines, forwards and backwards.
-fn images(
-    case: &Case,
-    request: &SectionRequest,
-    options: &Section,
-    threads: usize,
-) -> Result<Vec<Vec<SectionOrbit>>, FlowError> {
-    let plan = case.section.as_ref();
-    let lines = match &options.lines[..] {
-        [] => plan.map(|plan| plan.lines.clone()).unwrap_or_default(),
-        given => given.to_vec(),
-    };
-    let crossings = options.images.or(plan.map(|plan| plan.images)).unwrap_or(IMAGES);
-    let image = |line: &Line| {
-        let mut both = Vec::new();
-        for backwards in [false, true] {
-            let starts = line.points(POINTS);
-            let (skip, direction) = (0, Direction::Both);
-            let request =
-                SectionRequest { starts, crossings, skip, direction, backwards, ..request.clone() };
-            both.extend(liouville_flow::section(case, &request, threads, &|| ())?);
+    let text = match (options.subject.json, &drawn[..]) {
+        (true, [one]) => one.text.clone() + "\n",
+        (true, all) => {
+            let all = all.iter().map(|one| serde_json::from_str::<serde_json::Value>(&one.text));
+            let all =
+                all.collect::<Result<Vec<_>, _>>().map_err(|error| format!("error: {error}"))?;
+            serde_json::json!({ "sections": all }).to_string() + "\n"
         }
-        Ok(both)
-    };
-    lines.iter().map(image).collect()
-}
-
-/// Request of the command line, completed from the case.
-fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
-    let choice = SectionChoice {
-        direction: options.direction,
-        orbits: options.orbits,
-        crossings: options.crossings,
-        skip: options.skip,
-        starts: given(case, options)?,
-        backwards: options.backwards,
-        seed: options.subject.seed,
-        ..options.plane.choice()
-    };
-    choice.request(case).map_err(|error| wrong_choice(&error))
-}
-
-/// Points (l, L/G) of the options.
-fn given(case: &Case, options: &Section) -> Result<Vec<[f64; 2]>, String> {
-    let point = |(name, given): (String, Given)| match given {
-        Given::Values(values) if values.len() == 2 => {
-            Ok([values[0].to_f64().0, values[1].to_f64().0])
+        (false, all) => {
+            all.iter().map(|one| one.text.as_str()).collect::<Vec<_>>().join("\n") + &saved
         }
-        _ => Err(format!(
-            "error: `{name}` is no point of the section\n\
-             help: write l and L/G with a comma between, such as 1.2,-0.04, or give a surface by \
-             --section"
-        )),
     };
-    options.starts.read(case)?.into_iter().map(point).collect()
+    Ok(Answer { text, code: 0 })
 }
 
-/// Crossings as data.
-fn data(orbits: &[SectionOrbit]) -> Data {
-    let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
-        orbit.crossings.iter().map(move |crossing| {
-            let direction = if crossing.rising { 1.0 } else { -1.0 };
-            let numbers = [direction, crossing.time, crossing.at[0], crossing.at[1]];
-            [&[whole(index)], &numbers.map(Pair::from_f64)[..]].concat()
-        })
-    });
-    Data {
-        columns: ["start", "direction", "t", "l", "L/G"].map(str::to_string).to_vec(),
-        whole: 2,
-        rows: rows.collect(),
-        precision: Precision::Float,
+/// Title and caption: of several plots the titles, with their letters.
+fn words(drawn: &[Drawn]) -> (&str, Vec<Text>) {
+    match drawn {
+        [one] => (one.title.as_str(), vec![one.facts.clone()]),
+        all => {
+            let letters = all.iter().zip('a'..);
+            let named = letters.map(|(one, letter)| format!("({letter})\u{a0}{}", one.title));
+            ("", vec![plain(&named.collect::<Vec<_>>().join("; "))])
+        }
     }
 }
 
 impl Section {
     /// File to write.
     pub fn output(&self) -> Result<Option<Output>, String> {
-        let inputs: Vec<_> =
-            [self.subject.case.as_path()].into_iter().chain(self.starts.inputs()).collect();
+        let inputs = [self.subject.case.as_path()].into_iter().chain(self.starts.inputs());
+        let inputs: Vec<_> = inputs.chain(self.others.iter().map(PathBuf::as_path)).collect();
         self.ink.output(Ending::ALL, &inputs)
     }
 }

@@ -7,10 +7,10 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use crate::report::{Digest, Failure, VERSION, diagnostic, survey as written};
 use clap::Args;
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options};
-use crate::report::{Digest, Failure, VERSION, diagnostic, survey as written};
 use liouville_report::site::{Order, Outcome, Page, Standing, index, way_back};
 use liouville_search::survey;
 use rayon::prelude::*;

@@ -1,26 +1,32 @@
 //! The command `liouville motion section --section`: crossings of a surface by any system.
 
 use crate::report::data::Data;
-use crate::report::surface::{SurfaceReport, picture};
+use crate::report::facts;
+use crate::report::surface::{SurfaceReport, plot};
 use liouville::case::{Case, Direction};
 use liouville::number::pair::Pair;
+use liouville_draw::{math, plain};
 use liouville_flow::{
     Begin, Columns, FlowError, Launches, Launchpad, Lexicon, Precision, Surface, SurfaceOrbit,
     SurfaceRequest,
 };
 
-use super::motion::{rendered, whole, wrong_formula};
+use super::motion::{Subject, whole, wrong_formula};
 use super::progress::progress;
-use super::section::Section;
+use super::section::{Drawn, Section, Wish};
 use super::starts::{Given, Named, misfit};
-use super::{Answer, write};
 
 /// Default numbers of orbits and of crossings.
 const ORBITS: usize = 12;
 const CROSSINGS: usize = 500;
 
-pub fn run(case: &Case, options: &Section) -> Result<Answer, String> {
-    let subject = &options.subject;
+/// Section of one case by the surface of `--section`.
+pub fn drawn(
+    case: &Case,
+    subject: &Subject,
+    options: &Section,
+    wish: Wish,
+) -> Result<Drawn, String> {
     let told = |error: FlowError| subject.told(&error);
     if case.model.system.has_arbitrary_function() {
         return Err(told(FlowError::Arbitrary));
@@ -28,8 +34,7 @@ pub fn run(case: &Case, options: &Section) -> Result<Answer, String> {
     refuse_others(options)?;
     let surface = read_surface(case, options.section.as_deref().unwrap_or_default())?;
     let axes = read_axes(case, &surface, options.axes.as_deref())?;
-    let out = options.output()?;
-    if out.as_ref().is_some_and(|out| out.ending.is_picture()) && axes.titles().len() < 2 {
+    if wish.is_picture() && axes.titles().len() < 2 {
         return Err("error: a picture needs two axes\nhelp: write --axes 'y, z'".to_string());
     }
     let direction = options.direction.unwrap_or_default();
@@ -53,28 +58,19 @@ pub fn run(case: &Case, options: &Section) -> Result<Answer, String> {
     {
         return Err(told(problem.clone()));
     }
-    let mut saved = String::new();
-    if let Some(out) = &out {
-        let bytes = match out.ending.is_picture() {
-            true => {
-                let drawn = picture(&case.title, axes.titles(), &orbits, options.ink.width);
-                options.ink.drawn(&drawn, out.ending)?
-            }
-            false => {
-                let data = data(&axes, &orbits);
-                let (rows, columns) = (data.rows.len(), data.columns.join(", "));
-                saved = format!("{}: {rows} rows of {columns}\n", out.path.display());
-                rendered(&data, out.ending)
-            }
-        };
-        write(&out.path, "--out", bytes)?;
-    }
+    let cells = options.shade.then(|| options.ink.cells(wish.columns, 0.62));
     let report = SurfaceReport { case, request: &request, names: &names, orbits: &orbits };
-    let text = match subject.json {
-        true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
-        false => report.text() + &saved,
-    };
-    Ok(Answer { text, code: 0 })
+    let section = plain("section ").then(math(request.surface.text()));
+    Ok(Drawn {
+        title: case.title.clone(),
+        facts: facts::listed([section].into_iter().chain(facts::parameters(case, &[]))),
+        text: match options.subject.json {
+            true => report.json().map_err(|error| format!("error: {error}"))?,
+            false => report.text(),
+        },
+        plot: wish.is_picture().then(|| plot(axes.titles(), &orbits, cells)),
+        data: wish.is_data().then(|| data(&axes, &orbits)),
+    })
 }
 
 /// Refuses options of the Andoyer-like variables.
@@ -85,6 +81,7 @@ fn refuse_others(options: &Section) -> Result<(), String> {
         ("--images", options.images.is_some()),
         ("--separatrices", !options.separatrices.is_empty()),
         ("--classes", options.classes.is_some()),
+        ("--both-ways", options.both_ways),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((name, _)) => Err(format!(

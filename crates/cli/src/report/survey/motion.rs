@@ -1,11 +1,12 @@
 //! Poincaré section of a body's motion in a document.
 
-use crate::report::{picture as drawn, section as written};
+use crate::report::section::drawing;
+use liouville_draw::{Figure, Size, inline_svg};
 use liouville_flow::{FlowError, Portrait};
 use liouville_report::survey::{Block, Picture, Section};
 
-/// Width of the picture in pixels.
-const WIDTH: u32 = 640;
+/// Size of the picture.
+const SIZE: Size = Size { width: 150.0, height: None, dot: 0.3, opacity: 1.0 };
 
 /// Section of a document about the motion.
 pub fn section(motion: Result<&Portrait, &FlowError>) -> Section {
@@ -18,14 +19,24 @@ pub fn section(motion: Result<&Portrait, &FlowError>) -> Section {
 
 fn blocks(portrait: &Portrait) -> Vec<Block> {
     let (request, orbits) = (&portrait.request, &portrait.orbits);
-    let picture = written::picture("Poincaré section", orbits, None, WIDTH);
+    let mut plot = drawing::plane();
+    drawing::draw_orbits(&mut plot, orbits, drawing::Colouring::Orbits);
+    let figure = Figure {
+        title: String::new(),
+        caption: Vec::new(),
+        plots: vec![plot],
+        columns: 1,
+        size: SIZE,
+    };
+    let mut scene = figure.scene();
+    scene.title = "Poincaré section".to_string();
     let caption = format!(
         "Poincaré section g = {}, energy {}: points (l, L/G) of {} orbits, a colour each",
         request.g0,
         request.energy,
         orbits.len()
     );
-    let mut found = vec![Block::Picture(Picture { svg: drawn::inline_svg(&picture), caption })];
+    let mut found = vec![Block::Picture(Picture { svg: inline_svg(&scene), caption })];
     if portrait.is_drawn {
         let words =
             "Free parameters have the values of the first draw; others give other pictures.";

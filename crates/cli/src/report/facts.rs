@@ -1,0 +1,63 @@
+//! Captions of figures: what was drawn, and with which parameters.
+
+use liouville::case::Case;
+use liouville::formula::Type;
+use liouville::mechanics::Origin;
+use liouville::number::rational::Rational;
+use liouville_draw::{Text, math, plain};
+
+/// Largest number of components of a parameter that a caption shows.
+const MOST: usize = 9;
+
+/// Joins facts with commas.
+pub fn listed(facts: impl IntoIterator<Item = Text>) -> Text {
+    let mut all = facts.into_iter();
+    let first = all.next().unwrap_or_default();
+    all.fold(first, |text, fact| text.then(plain(", ")).then(fact))
+}
+
+/// Words that stay on one line.
+pub fn unbroken(words: &str) -> String {
+    words.replace(' ', "\u{a0}")
+}
+
+/// A name with its value.
+pub fn equation(name: &str, value: &str) -> Text {
+    math(name).then(plain(&unbroken(&format!(" = {}", value.replace('-', "−")))))
+}
+
+/// Parameters of a case that have fixed values, but those of some names.
+pub fn parameters(case: &Case, without: &[&str]) -> Vec<Text> {
+    let one = |parameter: &liouville::mechanics::Parameter| match &parameter.origin {
+        Origin::Fixed(values)
+            if values.len() <= MOST && !without.contains(&parameter.name.as_str()) =>
+        {
+            Some(equation(&parameter.name, &value(parameter.kind, values)))
+        }
+        _ => None,
+    };
+    case.model.parameters.iter().filter_map(one).collect()
+}
+
+fn value(kind: Type, values: &[Rational]) -> String {
+    let listed = |values: &[&Rational]| {
+        let words: Vec<String> = values.iter().map(ToString::to_string).collect();
+        format!("({})", words.join(", "))
+    };
+    let all: Vec<&Rational> = values.iter().collect();
+    match kind {
+        Type::Scalar => all.first().map_or(String::new(), ToString::to_string),
+        Type::Vector(_) => listed(&all),
+        Type::Matrix(_, columns) => {
+            let is_diagonal = |(place, x): (usize, &&Rational)| {
+                place % (columns + 1) == 0 || **x == Rational::from(0)
+            };
+            if all.iter().enumerate().all(is_diagonal) {
+                let entries = all.iter().step_by(columns + 1).copied().collect::<Vec<_>>();
+                return format!("diag{}", listed(&entries));
+            }
+            let rows: Vec<String> = all.chunks(columns.max(1)).map(listed).collect();
+            format!("({})", rows.join(", "))
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Signs of points, for marks in plots and entries of legends.
+
+use crate::palette::Paint;
+use crate::scene::{Item, Outline, Point};
+
+/// Shape of a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// Filled circle.
+    Disc,
+    /// Circle with an empty inside.
+    Ring,
+    /// Two crossed lines.
+    Cross,
+    /// Triangle that points up.
+    Up,
+    /// Triangle that points down.
+    Down,
+    /// Low bar.
+    Bar,
+    /// Square on its corner.
+    Diamond,
+    /// Narrow square on its corner.
+    Needle,
+    /// Filled box.
+    Box,
+    /// Piece of a line.
+    Line,
+    /// Dot of the size of a section's.
+    Dot,
+}
+
+impl Mark {
+    /// Items that draw the sign, about twice `size` across.
+    pub(crate) fn items(self, [x, y]: Point, size: f64, paint: Paint) -> Vec<Item> {
+        let filled = |corners: &[(f64, f64)]| {
+            let corners = corners.iter().map(|(dx, dy)| [x + dx * size, y + dy * size]).collect();
+            vec![Item::Shape {
+                outline: Outline::Polygon(corners),
+                fill: Some(paint),
+                stroke: None,
+                opacity: 1.0,
+            }]
+        };
+        let disc = |radius: f64| {
+            vec![Item::Shape {
+                outline: Outline::Circle([x, y], radius),
+                fill: Some(paint),
+                stroke: None,
+                opacity: 1.0,
+            }]
+        };
+        let lines = |lines: Vec<Vec<Point>>, paint, width| Item::Lines {
+            lines,
+            width,
+            paint,
+            opacity: 1.0,
+        };
+        match self {
+            Mark::Disc => disc(0.9 * size),
+            Mark::Dot => disc(0.35 * size),
+            Mark::Ring => vec![Item::Shape {
+                outline: Outline::Circle([x, y], 0.9 * size),
+                fill: Some(Paint::Paper),
+                stroke: Some((paint, 0.35 * size)),
+                opacity: 1.0,
+            }],
+            Mark::Cross => {
+                let d = 0.85 * size;
+                let both = vec![
+                    vec![[x - d, y - d], [x + d, y + d]],
+                    vec![[x - d, y + d], [x + d, y - d]],
+                ];
+                vec![lines(both.clone(), Paint::Paper, 0.9 * size), lines(both, paint, 0.4 * size)]
+            }
+            Mark::Up => filled(&[(0.0, -1.1), (1.1, 0.9), (-1.1, 0.9)]),
+            Mark::Down => filled(&[(0.0, 1.1), (1.1, -0.9), (-1.1, -0.9)]),
+            Mark::Bar => filled(&[(-1.2, -0.4), (1.2, -0.4), (1.2, 0.4), (-1.2, 0.4)]),
+            Mark::Diamond => filled(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
+            Mark::Needle => filled(&[(0.0, -1.2), (0.6, 0.0), (0.0, 1.2), (-0.6, 0.0)]),
+            Mark::Box => filled(&[(-1.2, -1.0), (1.2, -1.0), (1.2, 1.0), (-1.2, 1.0)]),
+            Mark::Line => {
+                vec![lines(
+                    vec![vec![[x - 1.5 * size, y], [x + 1.5 * size, y]]],
+                    paint,
+                    0.35 * size,
+                )]
+            }
+        }
+    }
+
+    /// A rim of paper around the sign, so that dots do not hide it.
+    pub(crate) fn halo(self, [x, y]: Point, size: f64) -> Option<Item> {
+        let circle = Item::Shape {
+            outline: Outline::Circle([x, y], 1.4 * size),
+            fill: Some(Paint::Paper),
+            stroke: None,
+            opacity: 0.85,
+        };
+        (!matches!(self, Mark::Dot | Mark::Line | Mark::Box)).then_some(circle)
+    }
+}
