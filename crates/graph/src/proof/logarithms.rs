@@ -135,6 +135,9 @@ pub struct Rules<'r> {
     pub digest: Digest,
 }
 
+/// Places with the multiples of their logarithms.
+type Terms = Vec<(usize, Rational)>;
+
 /// Rewritings with the bound on the probability that one of them is wrong.
 type Found = (Vec<Rewrite>, Option<Certificate>);
 
@@ -250,7 +253,7 @@ impl Rules<'_> {
 
     /// Lists values that seem to be products of powers of values before them, up to a number; and
     /// the exponentials and powers x^y among the others.
-    fn products(&self, places: &[usize]) -> Option<Vec<(usize, Vec<(usize, Rational)>)>> {
+    fn products(&self, places: &[usize]) -> Option<Vec<(usize, Terms)>> {
         let extended = self.algebraic.with_inputs(|inputs, at| {
             let values: Option<Vec<Expr>> =
                 places.iter().map(|place| at(self.algebraic.values[*place]?)).collect();
@@ -305,11 +308,7 @@ impl Rules<'_> {
     }
 
     /// Proves X^n = c Π X_j^n_j.
-    fn proved(
-        &self,
-        place: usize,
-        terms: Vec<(usize, Rational)>,
-    ) -> Option<(Logarithm, Option<Certificate>)> {
+    fn proved(&self, place: usize, terms: Terms) -> Option<(Logarithm, Option<Certificate>)> {
         if terms == [(place, Rational::from(1))] {
             return Some((Logarithm { numbers: Vec::new(), terms }, None));
         }

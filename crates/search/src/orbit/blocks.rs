@@ -1,6 +1,6 @@
 //! Closed subsystems: sets of variables whose rates, and whose equations of the level set, depend on
-//! the set only. A field is searched
-//! subsystem by subsystem first, as fewer monomials allow a higher degree.
+//! the set only. A field is searched subsystem by subsystem first, as fewer monomials allow a higher
+//! degree.
 
 use liouville::case::Case;
 use liouville::graph::Expr;
@@ -34,9 +34,11 @@ pub fn closed(case: &Case) -> Result<Vec<Vec<usize>>, SearchError> {
         let mut next = 0;
         while let Some(variable) = set.get(next).copied() {
             next += 1;
-            let new: Vec<usize> =
-                needed[variable].iter().copied().filter(|j| !set.contains(j)).collect();
-            set.extend(new);
+            for other in &needed[variable] {
+                if !set.contains(other) {
+                    set.push(*other);
+                }
+            }
         }
         set.sort_unstable();
         if !sets.contains(&set) {

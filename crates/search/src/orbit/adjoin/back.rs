@@ -187,7 +187,7 @@ fn raised(base: &str, power: u64, order: u64) -> String {
     let (power, order) = (power / common, order / common);
     let is_number = base.chars().all(|letter| letter.is_ascii_digit());
     let is_name = base.chars().all(|letter| letter.is_alphanumeric() && !"²³".contains(letter));
-    let is_tight = is_name || is_bracketed(base);
+    let is_tight = is_name || is_bracketed(base) || is_modulus(base);
     let bracketed = match is_tight && !(is_number && power > 1) {
         true => base.to_string(),
         false => format!("({base})"),
@@ -208,6 +208,12 @@ fn is_bracketed(text: &str) -> bool {
     let is_letter = |c: char| c.is_alphabetic() || c == '√';
     let start = text.find('(').filter(|start| text[..*start].chars().all(is_letter));
     start.is_some_and(|start| closes(&text[start..]))
+}
+
+/// Whether a text is a modulus as a whole.
+fn is_modulus(text: &str) -> bool {
+    let inner = text.strip_prefix('|').and_then(|text| text.strip_suffix('|'));
+    inner.is_some_and(|inner| !inner.contains('|'))
 }
 
 fn unbracketed(text: &str) -> &str {
