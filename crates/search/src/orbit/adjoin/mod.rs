@@ -178,7 +178,8 @@ fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, Sea
         .atoms
         .iter()
         .zip(&names.extended)
-        .filter_map(|(atom, name)| matches!(atom, Atom::Exponential(_)).then(|| name.clone()));
+        .filter(|(atom, _)| matches!(atom, Atom::Exponential(_)))
+        .map(|(_, name)| name.clone());
     Ok(Some(Extension {
         divergence,
         known,
