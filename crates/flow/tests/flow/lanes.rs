@@ -127,7 +127,9 @@ fn sections_do_not_show_the_lanes() {
                 let is_absent = orbit.problem == Some(FlowError::NoStart);
                 assert!(failed == fails || is_absent, "{}: {:?}", case.title, orbit.problem);
                 let met = orbit.crossings.len();
-                assert!(is_absent || failed || met == 25, "{}: {met} crossings", case.title);
+                // A double pendulum need not cross at all.
+                let is_full = met == 25 || surface.0 == "α = β";
+                assert!(is_absent || failed || is_full, "{}: {met} crossings", case.title);
                 bits(&orbit)
             })
             .collect();
