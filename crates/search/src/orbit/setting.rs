@@ -7,6 +7,7 @@ use liouville::mechanics::Draw;
 use liouville::number::Operation;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::coordinates;
