@@ -182,6 +182,16 @@ impl Part {
              complex coefficients, is an integral, constants aside; a polynomial of that degree is none either.",
             names.join(", ")
         );
+        // The same polynomials may have been excluded up to another degree.
+        let subject = format!(" in {} of degree at most ", names.join(", "));
+        let other = |own: &Excluded| {
+            let rest = own.theorem.split_once(&subject)?.1;
+            rest.split([' ', ',']).next()?.parse::<u32>().ok()
+        };
+        if report.excluded.iter().filter_map(other).any(|other| other >= degree) {
+            return Ok(());
+        }
+        report.excluded.retain(|own| other(own).is_none());
         let mut letters = statement.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string());
         report.excluded.push(Excluded {
