@@ -58,7 +58,7 @@ pub use fixed_point::FixedPoint;
 pub use form::Form;
 pub use hamiltonian::Hamiltonian;
 pub use identity::{Identity, Rate, Relation};
-pub use independence::Independent;
+pub use independence::{Independent, MOST as MOST_COMPARED};
 pub use integral::Integral;
 pub use jacobi_identity::JacobiIdentity;
 pub use lax::Lax;

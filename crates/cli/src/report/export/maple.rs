@@ -135,7 +135,8 @@ impl Target for Maple {
             if !locals.is_empty() {
                 text.push_str(&format!("  local {};\n", locals.join(", ")));
             }
-            let line = |list: &str, at: usize, own: &str| format!("  {own} := {list}[{}];\n", at + 1);
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} := {list}[{}];\n", at + 1);
             text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} := {value};\n"));

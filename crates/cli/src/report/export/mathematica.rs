@@ -89,7 +89,8 @@ impl Target for Mathematica {
                 body.name,
                 locals.join(", ")
             ));
-            let line = |list: &str, at: usize, own: &str| format!("  {own} = {list}[[{}]];\n", at + 1);
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} = {list}[[{}]];\n", at + 1);
             text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} = {value};\n"));

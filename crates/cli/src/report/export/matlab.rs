@@ -142,7 +142,8 @@ impl Target for Matlab {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "% ", ""));
             text.push_str(&format!("function values = {}(state, parameters)\n", body.name));
-            let line = |list: &str, at: usize, own: &str| format!("  {own} = {list}({});\n", at + 1);
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} = {list}({});\n", at + 1);
             text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} = {value};\n"));

@@ -146,7 +146,8 @@ impl Target for Rust {
                 argument("state", true),
                 argument("parameters", false),
             ));
-            let line = |list: &str, at: usize, own: &str| format!("    let {own} = {list}[{at}];\n");
+            let line =
+                |list: &str, at: usize, own: &str| format!("    let {own} = {list}[{at}];\n");
             code.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 code.push_str(&format!("    let {name} = {value};\n"));
