@@ -18,6 +18,7 @@ mod feedback;
 mod field;
 mod foreign;
 mod formulas;
+mod frame;
 mod hamiltonian;
 mod homogeneous;
 mod kinds;

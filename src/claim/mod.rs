@@ -11,6 +11,7 @@ mod components;
 mod condition;
 mod criterion;
 mod density;
+mod divergence;
 mod entry;
 mod expect;
 mod fixed_point;
@@ -46,6 +47,7 @@ pub use components::Components;
 pub use condition::{Condition, Need};
 pub use criterion::{AnalyticDensity, PositionDensity};
 pub use density::Density;
+pub use divergence::Divergence;
 pub use entry::Entry;
 pub use expect::Expect;
 pub use fixed_point::FixedPoint;
@@ -159,6 +161,7 @@ macro_rules! kinds {
 kinds! {
     Integral,
     Density,
+    Divergence,
     AnalyticDensity,
     PositionDensity,
     Identity,
