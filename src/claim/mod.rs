@@ -29,6 +29,7 @@ mod place;
 mod point;
 mod reader;
 mod rest;
+mod rotation;
 mod statement;
 mod symmetry_field;
 mod transformation;
@@ -45,7 +46,7 @@ pub use commutator::Commutator;
 pub use compatible::Compatible;
 pub use components::Components;
 pub use condition::{Condition, Need};
-pub use criterion::{AnalyticDensity, PositionDensity};
+pub use criterion::{AnalyticDensity, PositionDensity, SmoothDensity};
 pub use density::Density;
 pub use divergence::Divergence;
 pub use entry::Entry;
@@ -163,6 +164,7 @@ kinds! {
     Density,
     Divergence,
     AnalyticDensity,
+    SmoothDensity,
     PositionDensity,
     Identity,
     Rate,

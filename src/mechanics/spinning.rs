@@ -249,6 +249,10 @@ impl Dynamics for Spinning {
         true
     }
 
+    fn turning_moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        self.moment.is_none().then(|| self.torque(phase).into())
+    }
+
     fn conserves_level(&self) -> bool {
         self.is_homogeneous()
     }

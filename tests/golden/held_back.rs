@@ -67,5 +67,5 @@ fn formulas_held_back_have_the_same_digits_and_verdicts() {
             judged[usize::from(is_proved)] += 1;
         }
     }
-    assert_eq!((systems, compared, judged), (12, 0, [0, 0]), "nothing was left out");
+    assert_eq!((systems, compared, judged), (12, 703, [36, 38]), "nothing was left out");
 }
