@@ -9,7 +9,7 @@ use super::error::{Mistake, Problem};
 use super::parameters::NO_NAME;
 use super::section::{Section, Text};
 use super::systems::Reading;
-use crate::formula::{Formula, Type, canonical_name};
+use crate::formula::{Formula, Type, canonical_name, is_function};
 use crate::mechanics::{Draw, Line, Meaning, Quantity, Range, Reach};
 
 impl Reading<'_, '_> {
@@ -63,6 +63,10 @@ impl Reading<'_, '_> {
         let name = self.mistakes().keep(name)?;
         if self.vocabulary.find(&name).is_some() {
             self.mistakes().add(refused("it is taken already"));
+            return None;
+        }
+        if is_function(&name) {
+            self.mistakes().add(refused("it is a function"));
             return None;
         }
         let size = if kind == Type::MATRIX { 1 } else { 2 };

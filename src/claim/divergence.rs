@@ -49,6 +49,10 @@ impl Statement for Divergence {
         })
     }
 
+    fn divisors(&self) -> Vec<&Formula> {
+        self.volume.iter().collect()
+    }
+
     fn about(&self, divergence: Formula) -> Option<Self> {
         Some(Self { divergence, ..self.clone() })
     }

@@ -206,6 +206,11 @@ impl Kind {
         of_each!(self, statement => statement.formulas())
     }
 
+    /// Returns the densities by which the claim divides.
+    pub fn divisors(&self) -> Vec<&Formula> {
+        of_each!(self, statement => statement.divisors())
+    }
+
     /// Computes the gradients of F, or of ln ρ.
     pub fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
         of_each!(self, statement => statement.slopes(jet))

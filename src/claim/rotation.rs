@@ -157,9 +157,11 @@ pub(super) fn without_density(model: &Model, among: Among) -> Option<Steady> {
 impl std::fmt::Display for Steady {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [a, b, c] = self.normal;
-        match self.speed == 0.0 {
-            true => write!(f, "rest")?,
-            false => write!(f, "permanent rotation ω = {}γ", self.speed)?,
+        match self.speed {
+            0.0 => write!(f, "rest")?,
+            1.0 => write!(f, "permanent rotation ω = γ")?,
+            -1.0 => write!(f, "permanent rotation ω = −γ")?,
+            speed => write!(f, "permanent rotation ω = {speed}γ")?,
         }
         let (value, error) = self.along;
         write!(f, " at γ ≈ [{a:.6}, {b:.6}, {c:.6}] of the body of state {}", self.body)?;

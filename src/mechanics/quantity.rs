@@ -90,7 +90,7 @@ impl Quantity {
             Potential => "potential",
             Energy => "energy",
             AngularAcceleration => "angular acceleration",
-            DivergenceCovector => "divergence of the motion, div v = (χ,ω) − (ln D_T)'",
+            DivergenceCovector => "covector of the divergence, div v = (χ,ω) − (ln D_T)'",
             AngularVelocity => "angular velocity",
             NormalRate => "rate of γ",
             Multiplier => "multiplier of (ω,γ) = 0",
