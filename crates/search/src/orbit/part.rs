@@ -204,6 +204,7 @@ impl Part {
             known: 0,
             error_log2: None,
             theorem: statement(degree),
+            holds_on_all_branches: setting.origin.is_some(),
         });
         Ok(())
     }
