@@ -6,6 +6,8 @@
 mod common;
 #[path = "golden/formulas.rs"]
 mod formulas;
+#[path = "golden/held_back.rs"]
+mod held_back;
 #[path = "golden/spin.rs"]
 mod spin;
 

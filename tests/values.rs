@@ -134,6 +134,56 @@ fn a_body_is_the_same_from_values_and_from_a_file() {
     assert_eq!(reports(&by_values), reports(&by_file), "the same reports, with all evidence");
 }
 
+#[test]
+fn a_body_that_may_spin_is_the_same_by_values() {
+    let text = r#"
+        title = "ellipsoid"
+        system = "rolling-sphere"
+        [parameters]
+        m = "0.5..2"
+        k = "0.1..0.3"
+        B = "diag(1..3)"
+        I = "full(0.5..5)"
+        S = "vector(-1..1)"
+        [body]
+        support = "√(γ,B*γ)"
+        gyrostat = "S"
+        [[claim]]
+        divergence = "(χ,ω)"
+        volume = "D_T"
+        [[claim]]
+        divergence = "(χ,ω)"
+        expect = "fails"
+        [[claim]]
+        smooth-density = "exists"
+        expect = "open"
+    "#;
+    let file = Case::parse(text, &[]).expect("a case");
+    let built = Model::rolling_sphere()
+        .title("ellipsoid")
+        .parameter("m", "0.5..2")
+        .parameter("k", "0.1..0.3")
+        .parameter("B", "diag(1..3)")
+        .parameter("I", "full(0.5..5)")
+        .parameter("S", "vector(-1..1)")
+        .support("√(γ,B*γ)")
+        .gyrostat("S")
+        .build()
+        .expect("a case");
+    assert_eq!(parts(&built), parts(&file));
+    let formula = |text: &str| built.formula(text).expect("a formula");
+    let claims = [
+        Claim::divergence_relative_to(formula("D_T"), formula("(χ,ω)")),
+        Claim::divergence(formula("(χ,ω)")).expected(Expect::Fails),
+        Claim::smooth_density().expected(Expect::Open),
+    ];
+    let options = Options::default();
+    let by_values = built.judge(&claims, &options).expect("judged");
+    let by_file = judge(&file, &options).expect("judged");
+    assert_eq!(reports(&by_values), reports(&by_file), "the same reports, with all evidence");
+    assert!(by_values.claims.iter().all(|claim| claim.agrees), "D_T belongs to the volume");
+}
+
 fn oscillator() -> Case {
     let built = Model::field().state("x", "-2..2", "v").state("v", "-2..2", "-x");
     built.build().expect("a case")

@@ -1,5 +1,9 @@
 //! Details of verdicts besides true and false: place, novelty, sign, and reasons for silence.
 
+mod common;
+#[path = "verdicts/steady.rs"]
+mod steady;
+
 use liouville::case::Case;
 use liouville::verdict::{
     ClaimReport, Independence, JudgeError, Options, Sign, Trust, Verdict, judge,

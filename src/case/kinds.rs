@@ -79,12 +79,13 @@ impl Reading<'_, '_> {
         let own = [("ω", Type::VECTOR), ("γ", Type::VECTOR)];
         let quantities = if way.spins { of_spinning(features) } else { of_rubber(features) };
         self.declare(&own, &[], quantities, name);
+        let added = self.fixed_frame(&section);
         self.further_state();
         self.settle(Stage::State);
         let (names, arbitrary) = (&self.vocabulary, self.arbitrary);
         let system = body::rolling(&section, way, &arbitrary, names, &mut self.parameters);
         section.finish();
-        self.further_rates(own.len());
+        self.further_rates(own.len() + added);
         let system = system?;
         self.mistakes().keep(feedback::none(self, &section, &system))?;
         self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];

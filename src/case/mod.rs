@@ -19,6 +19,7 @@ mod feedback;
 mod field;
 mod foreign;
 mod formulas;
+mod frame;
 mod hamiltonian;
 mod homogeneous;
 mod kinds;

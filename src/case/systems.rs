@@ -258,7 +258,7 @@ impl<'r, 's> Reading<'r, 's> {
             && further.iter().any(|variable| variable.name != TIME);
         if !is_told {
             let rates = field::rates(&section, further, &self.vocabulary);
-            self.extension = rates.unwrap_or_default();
+            self.extension.extend(rates.unwrap_or_default());
         }
     }
 

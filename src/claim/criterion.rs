@@ -8,6 +8,7 @@
 
 use num_traits::One;
 
+use super::rotation::{self, Among};
 use super::{Context, Objection, Reader, Statement, rest};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::Jet;
@@ -18,6 +19,10 @@ use crate::scalar::Scalar;
 /// The claim that a density exists that is positive and analytic near ω = 0.
 #[derive(Clone, Debug)]
 pub struct AnalyticDensity;
+
+/// The claim that a density exists that is positive and C¹ at all states.
+#[derive(Clone, Debug)]
+pub struct SmoothDensity;
 
 /// The claim that a density of the configuration alone, ρ(γ) or ρ(r₁,r₂), exists.
 #[derive(Clone, Debug)]
@@ -48,19 +53,11 @@ impl Statement for AnalyticDensity {
     decided_by_criterion!();
 
     fn objection(&self, model: &Model) -> Option<Objection> {
-        objection(model, Self::NAME).or_else(|| {
-            (!model.extension.is_empty()).then(|| Objection {
-                message: format!(
-                    "the criterion that decides `{}` does not cover variables added by [state]",
-                    Self::NAME
-                ),
-                remedy: "state it in a case without them, or state a density instead: density = \"ρ\"",
-            })
-        })
+        objection(model, Self::NAME).or_else(|| objection_to_variables(model, Self::NAME))
     }
 
     fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
-        let is_excluded = model.system.is_free() || rest::without_density(model).is_some();
+        let is_excluded = model.system.is_free() || rest_without_density(model).is_some();
         (!is_excluded).then_some(
             "the criterion is not zero, which excludes every density of the configuration alone; with \
              a potential, a moment or a gyrostat one that depends on ω as well stays open",
@@ -71,11 +68,61 @@ impl Statement for AnalyticDensity {
         if model.system.is_free() {
             return None;
         }
-        let rest = rest::without_density(model)?;
-        Some(format!(
-            "this excludes densities that are positive and C¹ near the equilibrium {rest}, where C₁ is not 0"
-        ))
+        rest_without_density(model)
     }
+}
+
+impl Statement for SmoothDensity {
+    const NAME: &'static str = "smooth-density";
+    decided_by_criterion!();
+
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        objection(model, Self::NAME).or_else(|| objection_to_variables(model, Self::NAME))
+    }
+
+    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        let is_excluded = model.system.is_free() || place_without_density(model).is_some();
+        (!is_excluded).then_some(
+            "the criterion is not zero, which excludes every density of the configuration alone; no \
+             rest or permanent rotation is known that excludes one that depends on ω as well",
+        )
+    }
+
+    fn remark_on_refutation(&self, model: &Model) -> Option<String> {
+        if model.system.is_free() {
+            return None;
+        }
+        place_without_density(model)
+    }
+}
+
+/// Describes a rest that excludes positive C¹ densities.
+fn rest_without_density(model: &Model) -> Option<String> {
+    if let Some(rest) = rest::without_density(model) {
+        return Some(format!(
+            "this excludes densities that are positive and C¹ near the equilibrium {rest}, where C₁ is not 0"
+        ));
+    }
+    let rest = rotation::without_density(model, Among::Rests)?;
+    Some(format!("this excludes densities that are positive and C¹ near the {rest}"))
+}
+
+/// Describes a rest or a permanent rotation that excludes positive C¹ densities.
+fn place_without_density(model: &Model) -> Option<String> {
+    rest_without_density(model).or_else(|| {
+        let found = rotation::without_density(model, Among::RestsAndRotations)?;
+        Some(format!("this excludes densities that are positive and C¹ near the {found}"))
+    })
+}
+
+/// Returns the objection to variables that a case adds.
+fn objection_to_variables(model: &Model, name: &str) -> Option<Objection> {
+    (!model.extension.is_empty()).then(|| Objection {
+        message: format!(
+            "the criterion that decides `{name}` does not cover variables added by [state]"
+        ),
+        remedy: "state it in a case without them, or state a density instead: density = \"ρ\"",
+    })
 }
 
 impl Statement for PositionDensity {

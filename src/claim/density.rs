@@ -31,6 +31,10 @@ impl Statement for Density {
         vec![&self.0]
     }
 
+    fn divisors(&self) -> Vec<&Formula> {
+        vec![&self.0]
+    }
+
     fn about(&self, formula: Formula) -> Option<Self> {
         Some(Self(formula))
     }

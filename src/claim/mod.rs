@@ -13,6 +13,7 @@ mod condition;
 mod criterion;
 mod density;
 mod density_in_variables;
+mod divergence;
 mod entry;
 mod expect;
 mod fixed_point;
@@ -32,6 +33,7 @@ mod place;
 mod point;
 mod reader;
 mod rest;
+mod rotation;
 mod statement;
 mod symmetry_field;
 mod transformation;
@@ -49,9 +51,10 @@ pub use commutator::Commutator;
 pub use compatible::Compatible;
 pub use components::Components;
 pub use condition::{Condition, Need};
-pub use criterion::{AnalyticDensity, PositionDensity};
+pub use criterion::{AnalyticDensity, PositionDensity, SmoothDensity};
 pub use density::Density;
 pub use density_in_variables::DensityInVariables;
+pub use divergence::Divergence;
 pub use entry::Entry;
 pub use expect::Expect;
 pub use fixed_point::FixedPoint;
@@ -166,7 +169,9 @@ macro_rules! kinds {
 kinds! {
     Integral,
     Density,
+    Divergence,
     AnalyticDensity,
+    SmoothDensity,
     PositionDensity,
     Identity,
     Rate,
@@ -206,6 +211,11 @@ impl Kind {
     /// Returns all formulas in the names of the case.
     pub fn formulas(&self) -> Vec<&Formula> {
         of_each!(self, statement => statement.formulas())
+    }
+
+    /// Returns the densities by which the claim divides.
+    pub fn divisors(&self) -> Vec<&Formula> {
+        of_each!(self, statement => statement.divisors())
     }
 
     /// Computes the gradients of F, or of ln ρ.

@@ -102,6 +102,11 @@ pub trait Statement: Clone {
         Novelty::default()
     }
 
+    /// Returns the formulas, of densities, that must not be 0 for the claim to have a meaning.
+    fn divisors(&self) -> Vec<&Formula> {
+        Vec::new()
+    }
+
     /// Computes the gradients by which an integral or a density is new.
     fn slopes(&self, _: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
         Vec::new()

@@ -3,9 +3,9 @@
 
 use super::entry::Entry;
 use super::{
-    AnalyticDensity, Casimir, Density, DensityInVariables, Expect, Form, Hamiltonian, Identity,
-    Independent, Integral, JacobiIdentity, Lyapunov, PositionDensity, Rate, Relation, Reversor,
-    Statement, Symmetry, SymmetryField,
+    AnalyticDensity, Casimir, Density, DensityInVariables, Divergence, Expect, Form, Hamiltonian,
+    Identity, Independent, Integral, JacobiIdentity, Lyapunov, PositionDensity, Rate, Relation,
+    Reversor, SmoothDensity, Statement, Symmetry, SymmetryField,
 };
 use crate::formula::Formula;
 
@@ -94,6 +94,21 @@ impl Claim {
     /// Claims that there is an analytic invariant density.
     pub fn analytic_density() -> Self {
         Self::of(AnalyticDensity::NAME, "exists")
+    }
+
+    /// Claims that there is an invariant density that is positive and C¹ at all states.
+    pub fn smooth_density() -> Self {
+        Self::of(SmoothDensity::NAME, "exists")
+    }
+
+    /// Claims that the divergence of the field is F.
+    pub fn divergence(divergence: impl Into<Entry>) -> Self {
+        Self::of(Divergence::NAME, divergence)
+    }
+
+    /// Claims that the divergence of the field relative to the volume ρ dx is F.
+    pub fn divergence_relative_to(volume: impl Into<Entry>, divergence: impl Into<Entry>) -> Self {
+        Self::of(Divergence::NAME, divergence).with("volume", volume)
     }
 
     /// Claims that there is an invariant density of the configuration.

@@ -15,10 +15,12 @@
 mod analysis;
 mod equation;
 mod look;
+mod newton;
 mod quadric;
 mod solution;
 mod steps;
 
 pub use analysis::solve;
+pub use newton::Newton;
 pub use solution::{Solution, Solved};
 pub use steps::Pivot;

@@ -139,6 +139,12 @@ pub(super) trait Dynamics {
         false
     }
 
+    /// Computes K with Ĩω' = K of a body that may spin, if no moment acts on it besides those of a
+    /// potential and a rotor; K is orthogonal to γ where ω is parallel to γ.
+    fn turning_moment<T: Scalar>(&self, _: &Phase<'_, T>) -> Option<[T; 3]> {
+        None
+    }
+
     /// Whether the level functions are integrals in all of phase space by construction.
     fn conserves_level(&self) -> bool {
         false

@@ -32,6 +32,8 @@ pub enum Quantity {
     Energy,
     /// `ω'`: the angular acceleration.
     AngularAcceleration,
+    /// `χ`: the covector of the divergence of a body that may spin, div v = (χ,ω) - (ln D_T)'.
+    DivergenceCovector,
     /// `ω`: the angular velocity, where it is not a state variable.
     AngularVelocity,
     /// `γ'`: the rate of the normal.
@@ -88,6 +90,7 @@ impl Quantity {
             Potential => "potential",
             Energy => "energy",
             AngularAcceleration => "angular acceleration",
+            DivergenceCovector => "covector of the divergence, div v = (χ,ω) − (ln D_T)'",
             AngularVelocity => "angular velocity",
             NormalRate => "rate of γ",
             Multiplier => "multiplier of (ω,γ) = 0",
@@ -143,13 +146,20 @@ pub struct Features {
 
 /// Lists the quantities of a rubber body: name, quantity, type, dependence.
 pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
-    let mut all = of_spinning(features);
+    let mut all = of_body(features);
     all.push(("λ0", Quantity::Multiplier, Type::Scalar, Reach::Phase));
     all
 }
 
 /// Lists the quantities of a body that may spin.
 pub fn of_spinning(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+    let mut all = of_body(features);
+    all.push(("χ", Quantity::DivergenceCovector, Type::VECTOR, Reach::Phase));
+    all
+}
+
+/// Lists the quantities of a body of any shape that rolls.
+fn of_body(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     use Reach::{Configuration, Parameters, Phase};
     use Type::Scalar;

@@ -34,7 +34,7 @@ use super::linear::{adjugate, determinant_with};
 use super::phase::Phase;
 use super::quantity::Quantity;
 use super::rigid::RigidBody;
-use super::rubber::{NORMAL, normal};
+use super::rubber::{NORMAL, angular_velocity, normal};
 use super::system::System;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
@@ -190,6 +190,21 @@ impl Dynamics for Spinning {
         Some(&mut self.0)
     }
 
+    /// Computes (χ,ω) - (ln D_T)', for a support function and moments of γ alone.
+    fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        if self.moment.is_some() || !self.is_homogeneous() {
+            return None;
+        }
+        let at = &phase.configuration;
+        let spread = self.pose(at).chi().dot(&angular_velocity(at));
+        if self.curvature.is_none() {
+            return Some(spread);
+        }
+        let rate = self.motion(phase).normal_rate;
+        let volume = self.gamma_determinant(&at.lift(NORMAL, Value::Vector(rate)));
+        Some(spread - volume.eps / volume.re)
+    }
+
     fn has_criterion(&self) -> bool {
         true
     }
@@ -234,6 +249,10 @@ impl Dynamics for Spinning {
         true
     }
 
+    fn turning_moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        self.moment.is_none().then(|| self.torque(phase).into())
+    }
+
     fn conserves_level(&self) -> bool {
         self.is_homogeneous()
     }
@@ -241,6 +260,7 @@ impl Dynamics for Spinning {
     fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         match quantity {
             Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase)),
+            Quantity::DivergenceCovector => Value::Vector(self.pose(&phase.configuration).chi()),
             _ => self.0.quantity(quantity, phase),
         }
     }

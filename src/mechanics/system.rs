@@ -215,6 +215,12 @@ impl System {
         for_each_kind!(self, one => one.rest_excludes_densities())
     }
 
+    /// Computes K with Ĩω' = K of a body that may spin, if no moment acts on it besides those of a
+    /// potential and a rotor; K is orthogonal to γ where ω is parallel to γ.
+    pub fn turning_moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
+        for_each_kind!(self, one => one.turning_moment(phase))
+    }
+
     pub(super) fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         for_each_kind!(self, one => one.quantity(quantity, phase))
     }

@@ -20,7 +20,6 @@ mod ground;
 mod judge;
 mod ladder;
 mod mutants;
-mod newton;
 mod novelty;
 mod pass;
 mod physics;

@@ -7,7 +7,7 @@ use num_dual::DualNum;
 use super::physics;
 use super::run::Values;
 use crate::case::{Expect, PlacedClaim};
-use crate::claim::{Condition, Context, Kind, Novelty, Place, quadrature_defects};
+use crate::claim::{Condition, Context, Novelty, Place, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::{Jet, rejection};
@@ -57,9 +57,9 @@ impl<'c> Recorded<'c> {
             requirement: {
                 let mut values = literal_values(&jet.phase, claim.kind.formulas());
                 // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
-                if let Kind::Density(density) = &claim.kind {
-                    let density = jet.phase.evaluate_literally(&density.0).components();
-                    values.extend(density.iter().map(|value| literally(|| value.recip())));
+                for divisor in claim.kind.divisors() {
+                    let divisor = jet.phase.evaluate_literally(divisor).components();
+                    values.extend(divisor.iter().map(|value| literally(|| value.recip())));
                 }
                 values
             },

@@ -160,3 +160,42 @@ fn the_work_items_take_few_operations() {
         assert!(after <= most && after < before, "{}: {before} to {after}", item.name);
     }
 }
+
+#[test]
+fn the_divergence_of_a_body_that_may_spin_is_its_closed_formula() {
+    let body = |system: &str, parameters: &str, body: &str| {
+        case(&format!(
+            "title = 'x'\nsystem = '{system}'\ncheck-weights = false\n[parameters]\nm = '0.5..2'\n\
+             I = 'full(0.5..5)'\nS = 'vector(-1..1)'\n{parameters}\n[body]\ngyrostat = 'S'\n{body}\n"
+        ))
+    };
+    for case in [
+        body("rolling-plane", "R = '1..3'\nc = 'vector(-0.5..0.5)'", "shape = 'ball'"),
+        body("rolling-plane", "", "support = 'arbitrary'\npotential = 'γ1*γ2²'"),
+        body("rolling-sphere", "B = 'diag(1..3)'\nk = '0.1..0.3'", "shape = 'ellipsoid'"),
+    ] {
+        let everywhere = Place::everywhere(&case.model);
+        let sampler = Sampler::new(&case, &everywhere, 1).expect("samples");
+        let free = case.model.free_components();
+        let (graph, difference) = record(free + case.model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            let jet = Jet::new(Phase::new(&case.model, parameters, state));
+            let own = case.model.system.divergence(&jet.phase).expect("known");
+            jet.divergence() - own
+        })
+        .expect("records");
+        let fixed = vec![None; sampler.recipes().len()];
+        let (graph, groups) = sampler
+            .compose_groups(&graph, &[Group::of(vec![difference])], &fixed)
+            .expect("composes");
+        let extents = sampler.extents();
+        let prover = Prover { sources: &[], extents: &extents, seed: 1 };
+        let outcomes = prover.prove(&graph, &groups).expect("proves");
+        assert!(matches!(outcomes.as_slice(), [Outcome::Zero(_)]), "{outcomes:?}");
+    }
+    let driven = body("rolling-plane", "R = 1", "shape = 'ball'\nmoment = '(ω,γ)*γ'");
+    let inputs = vec![0.5; driven.model.free_components() + driven.model.dimension()];
+    let (parameters, state) = inputs.split_at(driven.model.free_components());
+    let phase = Phase::new(&driven.model, parameters, state);
+    assert!(driven.model.system.divergence(&phase).is_none(), "a moment that depends on ω");
+}

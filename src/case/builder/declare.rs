@@ -120,13 +120,17 @@ impl ModelBuilder {
 
     pub(super) fn part(mut self, part: Part, source: impl Into<FormulaSource>) -> Self {
         if self.error.is_none() {
-            let is_body = matches!(self.build, Build::Rubber { .. });
+            let is_body = matches!(self.build, Build::Rolling { .. });
             let is_new = self.parts.iter().all(|(own, _)| *own != part);
             self.error = match (is_body, is_new) {
                 (true, true) => None,
                 (false, _) => {
                     let message = "a field has no body";
-                    Some(ClaimError::new("body", message, "begin with Model::rubber_plane()"))
+                    Some(ClaimError::new(
+                        "body",
+                        message,
+                        "begin with Model::rubber_plane() or Model::rolling_plane()",
+                    ))
                 }
                 (true, false) => {
                     let message = format!("the {part:?} is given twice").to_lowercase();

@@ -6,7 +6,7 @@ use super::{Build, ModelBuilder, Part};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
     Chart, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity, Reach,
-    RigidBody, Rubber, Shape, System, Variable, of_rubber,
+    RigidBody, Rubber, Shape, Spinning, System, Variable, of_rubber, of_spinning,
 };
 
 impl ModelBuilder {
@@ -20,7 +20,7 @@ impl ModelBuilder {
         }
         let system = match self.build {
             Build::Field => None,
-            Build::Rubber { curved } => Some(self.body(curved)?),
+            Build::Rolling { spins, curved } => Some(self.body(spins, curved)?),
         };
         let rates = self.read_rates()?;
         let (system, extension, chart) = match system {
@@ -32,7 +32,10 @@ impl ModelBuilder {
                 let chart = if self.level.is_empty() { Chart::Free } else { Chart::Equations };
                 (System::Field(rates), Vec::new(), chart)
             }
-            Some(system) => (system, rates, Chart::Rolling),
+            Some(system) => {
+                let chart = system.chart();
+                (system, rates, chart)
+            }
         };
         self.name_rates();
         let hidden = shadows::all(&self.vocabulary, Vec::new());
@@ -55,8 +58,10 @@ impl ModelBuilder {
             source: String::new(),
             system: match self.build {
                 Build::Field => "field",
-                Build::Rubber { curved: false } => "rubber-plane",
-                Build::Rubber { curved: true } => "rubber-sphere",
+                Build::Rolling { spins: false, curved: false } => "rubber-plane",
+                Build::Rolling { spins: false, curved: true } => "rubber-sphere",
+                Build::Rolling { spins: true, curved: false } => "rolling-plane",
+                Build::Rolling { spins: true, curved: true } => "rolling-sphere",
             }
             .to_string(),
             model,
@@ -131,7 +136,7 @@ impl ModelBuilder {
         self.read(name, source, Some(kind), Reach::Parameters)
     }
 
-    fn body(&mut self, curved: bool) -> Result<System, ClaimError> {
+    fn body(&mut self, spins: bool, curved: bool) -> Result<System, ClaimError> {
         let mass = self.constant(Part::Mass, "m", Type::Scalar)?;
         let inertia = self.constant(Part::Inertia, "I", Type::MATRIX)?;
         let curvature =
@@ -151,7 +156,7 @@ impl ModelBuilder {
             potential: self.source(Part::Potential).is_some(),
             profile: false,
         };
-        let quantities = of_rubber(features);
+        let quantities = if spins { of_spinning(features) } else { of_rubber(features) };
         // the potential may use h, and not itself
         let is_potential = |quantity: &Quantity| *quantity == Quantity::Potential;
         let (own, others): (Vec<_>, Vec<_>) =
@@ -162,19 +167,13 @@ impl ModelBuilder {
             .map(|given| self.read("U", given, Some(Type::Scalar), Reach::Configuration))
             .transpose()?;
         self.name_quantities(own);
-        self.level = vec![
-            LevelEquation {
-                text: "|γ| = 1".to_string(),
-                function: LevelFunction::UnitNormal,
-                root: None,
-            },
-            LevelEquation {
-                text: "(ω,γ) = 0".to_string(),
-                function: LevelFunction::NoSpin,
-                root: None,
-            },
-        ];
-        Ok(System::Rubber(Box::new(Rubber(RigidBody {
+        let equation =
+            |text: &str, function| LevelEquation { text: text.to_string(), function, root: None };
+        self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
+        if !spins {
+            self.level.push(equation("(ω,γ) = 0", LevelFunction::NoSpin));
+        }
+        let body = RigidBody {
             mass,
             inertia,
             shape,
@@ -182,7 +181,11 @@ impl ModelBuilder {
             gyrostat,
             potential: potential.map(Potential::Formula),
             moment: None,
-        }))))
+        };
+        Ok(match spins {
+            true => System::Spinning(Box::new(Spinning(body))),
+            false => System::Rubber(Box::new(Rubber(body))),
+        })
     }
 
     fn name_quantities(&mut self, quantities: Vec<(&'static str, Quantity, Type, Reach)>) {

@@ -13,7 +13,7 @@ use crate::mechanics::{LevelEquation, Model, Parameter, Reach, Vocabulary};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Build {
     Field,
-    Rubber { curved: bool },
+    Rolling { spins: bool, curved: bool },
 }
 
 /// A part of a body.
@@ -73,12 +73,22 @@ impl Model {
 
     /// Begins a body that rolls on a plane without slipping and spinning, in the variables ω and γ.
     pub fn rubber_plane() -> ModelBuilder {
-        ModelBuilder::new(Build::Rubber { curved: false }, "body on a plane")
+        ModelBuilder::new(Build::Rolling { spins: false, curved: false }, "body on a plane")
     }
 
     /// Begins a body that rolls on a sphere without slipping and spinning, in the variables ω and γ.
     pub fn rubber_sphere() -> ModelBuilder {
-        ModelBuilder::new(Build::Rubber { curved: true }, "body on a sphere")
+        ModelBuilder::new(Build::Rolling { spins: false, curved: true }, "body on a sphere")
+    }
+
+    /// Begins a body that rolls on a plane without slipping and may spin, in the variables ω and γ.
+    pub fn rolling_plane() -> ModelBuilder {
+        ModelBuilder::new(Build::Rolling { spins: true, curved: false }, "body on a plane")
+    }
+
+    /// Begins a body that rolls on a sphere without slipping and may spin, in the variables ω and γ.
+    pub fn rolling_sphere() -> ModelBuilder {
+        ModelBuilder::new(Build::Rolling { spins: true, curved: true }, "body on a sphere")
     }
 }
 
@@ -99,7 +109,7 @@ impl ModelBuilder {
             parts: Vec::new(),
             error: None,
         };
-        if let Build::Rubber { .. } = build {
+        if let Build::Rolling { .. } = build {
             for (name, reach) in [("ω", Reach::Phase), ("γ", Reach::Configuration)] {
                 let (names, kind) = (&mut builder.vocabulary, Type::VECTOR);
                 builder.state.add(name, kind, Vec::new(), names, reach);

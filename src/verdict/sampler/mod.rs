@@ -16,13 +16,12 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::claim::Place;
 use crate::graph::{Expr, Fault, Graph, Step, Tape, literally, record};
-use crate::level::{self, Pivot, Solution};
+use crate::level::{self, Newton, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, Draws};
 use crate::number::Function;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, Source};
 
-use super::newton::Newton;
 use super::{JudgeError, coverage};
 
 use ranges::{guarded, ranges};

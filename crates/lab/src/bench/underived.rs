@@ -69,14 +69,16 @@ impl Underived {
                 "the level changes next to itself, and its cofactor takes second derivatives",
             ));
         }
-        let is_criterion =
-            matches!(claim.kind, Kind::AnalyticDensity(_) | Kind::PositionDensity(_));
+        let is_criterion = matches!(
+            claim.kind,
+            Kind::AnalyticDensity(_) | Kind::SmoothDensity(_) | Kind::PositionDensity(_)
+        );
         if is_criterion && matches!(model.system, System::Spinning(_)) {
             return Ok(Err("C₁ is not the derivative of one function"));
         }
         let formula = match &claim.kind {
             Kind::Integral(Integral(formula)) | Kind::Density(Density(formula)) => Some(formula),
-            Kind::AnalyticDensity(_) | Kind::PositionDensity(_) => None,
+            Kind::AnalyticDensity(_) | Kind::SmoothDensity(_) | Kind::PositionDensity(_) => None,
             _ => return Ok(Err("this kind of claim is not one derivative of one function")),
         };
         if formula.is_some_and(|formula| formula.value_type() != Type::Scalar) {

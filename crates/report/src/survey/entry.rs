@@ -88,6 +88,9 @@ fn remarks(finding: &Finding) -> Vec<String> {
         }
     }
     remarks.extend(finding.remark.clone());
+    if finding.claim.verdict == Verdict::Refuted {
+        remarks.extend(evidence.remark.clone());
+    }
     if finding.claim.verdict == Verdict::Undecided {
         remarks.extend(evidence.reason.clone());
     }

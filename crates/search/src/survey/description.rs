@@ -80,6 +80,7 @@ impl Description {
             }
             System::Field(rates) | System::Map(rates) => own.rates(case, rates),
         }
+        own.further_rates(case);
         let level = case.model.level.iter().map(|equation| format!("level: {}", equation.text));
         own.equations.extend(level);
         own
@@ -146,6 +147,18 @@ impl Description {
         ));
     }
 
+    /// Adds the rates of the variables that the case adds to a system.
+    fn further_rates(&mut self, case: &Case) {
+        let rates = &case.model.extension;
+        let further = &case.model.state[case.model.own_variables()..];
+        if rates.len() == further.len() {
+            let pairs = further.iter().zip(rates);
+            self.equations.extend(
+                pairs.map(|(variable, rate)| format!("{}' = {}", variable.name, rate.text())),
+            );
+        }
+    }
+
     fn rates(&mut self, case: &Case, rates: &[Formula]) {
         // the formulas are components one after another; a family has one for each component
         if rates.len() == case.model.state.len() {
@@ -192,6 +205,11 @@ mod tests {
         assert!(own.parameters.contains(&"I in inertia(0.5..5)".to_string()), "{own:?}");
         assert_eq!(own.equations[0], "Ĩω' = Ĩω×ω − m r×(ω×r') + M_P + λγ");
         assert!(own.equations.contains(&"level: |γ| = 1".to_string()), "{own:?}");
+        let text = text.replace("shape = 'ball'", "shape = 'ball'\nframe = 'Q'\ntrack = 'X'");
+        let full = Description::of(&Case::parse(&text, &[]).expect("a case"));
+        for rate in ["Q' = hat(ω)ᵀ*Q", "X' = Qᵀ*r'"] {
+            assert!(full.equations.iter().any(|one| one == rate), "{rate}: {full:?}");
+        }
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["x' = y", "y' = −x"]);

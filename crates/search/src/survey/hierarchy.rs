@@ -13,6 +13,8 @@ pub enum Measure {
     ByQuadrature,
     /// Proved not to exist, if positive and C¹ near ω = 0.
     Excluded,
+    /// Proved not to exist, if continuous and positive near a permanent rotation.
+    ExcludedAtRotation,
     /// Proved not to exist as a function of the configuration alone; otherwise unknown.
     ExcludedForConfiguration,
     /// Found with zeros or poles; no positive density is known.
@@ -91,8 +93,8 @@ impl Standing {
         let class = match (measure, has_integral) {
             (Measure::ClosedForm | Measure::ByQuadrature, true) => Class::IntegralAndMeasure,
             (Measure::ClosedForm | Measure::ByQuadrature, false) => Class::MeasureOnly,
-            (Measure::Excluded, true) => Class::IntegralOnly,
-            (Measure::Excluded, false) => Class::Neither,
+            (Measure::Excluded | Measure::ExcludedAtRotation, true) => Class::IntegralOnly,
+            (Measure::Excluded | Measure::ExcludedAtRotation, false) => Class::Neither,
             (Measure::ExcludedForConfiguration | Measure::Singular | Measure::NotKnown, _) => {
                 Class::NotKnown
             }
@@ -120,6 +122,10 @@ fn grounds_of(measure: Measure) -> &'static str {
         Measure::Excluded => {
             "no measure: the criterion is not 0, so that no density is positive and C¹ near ω = 0; one \
              with singularities there is not excluded"
+        }
+        Measure::ExcludedAtRotation => {
+            "no measure: near a permanent rotation no density is continuous and positive; one with \
+             singularities there is not excluded"
         }
         Measure::ExcludedForConfiguration => {
             "a measure: not known; no density of the configuration alone exists, one that depends on \

@@ -176,7 +176,9 @@ pub fn survey(
     };
     let sphere = match measure {
         Measure::ClosedForm | Measure::ByQuadrature => sphere::density(case, options)?,
-        Measure::Excluded | Measure::ExcludedForConfiguration => sphere::criterion(case, options)?,
+        Measure::Excluded | Measure::ExcludedAtRotation | Measure::ExcludedForConfiguration => {
+            sphere::criterion(case, options)?
+        }
         Measure::Singular | Measure::NotKnown => None,
     };
     let mut hierarchy = Standing::of(measure, standing, reversors.len());
@@ -270,7 +272,7 @@ impl Sorted {
             }
             told.push(statement);
             let place = match finding.claim.kind {
-                "position-density" | "analytic-density" => &mut sorted.criterion,
+                "position-density" | "analytic-density" | "smooth-density" => &mut sorted.criterion,
                 // Questions of the case are reported with the case's claims.
                 _ if !finding.is_of_family() && !finding.holds() => continue,
                 "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
@@ -285,6 +287,12 @@ impl Sorted {
                 _ => continue,
             };
             place.push(finding);
+        }
+        // A smooth density is of interest where an analytic one is not decided.
+        let is_open = |one: &Finding| one.claim.verdict == Verdict::Undecided;
+        let is_decided = |one: &Finding| one.is("analytic-density") && !is_open(one);
+        if sorted.criterion.iter().any(is_decided) {
+            sorted.criterion.retain(|one| !one.is("smooth-density"));
         }
         // Simple formulas first, and those of the case after those of the families.
         sorted.integrals.sort_by_key(|one| {
@@ -309,6 +317,7 @@ fn measure(sorted: &Sorted) -> Measure {
     match (verdict("position-density"), verdict("analytic-density")) {
         (Verdict::Proved, _) => Measure::ByQuadrature,
         (_, Verdict::Refuted) => Measure::Excluded,
+        _ if verdict("smooth-density") == Verdict::Refuted => Measure::ExcludedAtRotation,
         (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
         _ if sorted.densities.iter().any(Finding::is_measure) => Measure::ByQuadrature,
         _ if !sorted.densities.is_empty() => Measure::Singular,

@@ -6,8 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::sampler::LANES;
-use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::mechanics::calculus::Jet;
 use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::ball::{Ball, Balls};
@@ -41,21 +40,37 @@ impl Newton {
             .filter(|(_, kept)| **kept)
             .map(|(equation, _)| &equation.function)
             .collect();
-        let (graph, outputs) = record(parameters + dimension, |inputs| {
+        let (graph, (values, slopes)) = record(parameters + dimension, |inputs| {
             let (parameters, state) = inputs.split_at(parameters);
             let jet = Jet::new(Phase::new(model, parameters, state));
-            let values = functions.iter().map(|f| jet.phase.level_function(f));
+            let values: Vec<Expr> = functions.iter().map(|f| jet.phase.level_function(f)).collect();
             let slopes = functions.iter().flat_map(|f| jet.gradient(|at| at.level_function(f)));
-            values.chain(slopes).collect::<Vec<_>>()
+            (values, slopes.collect::<Vec<Expr>>())
         })?;
-        let tape = Tape::new(&graph, &outputs);
-        Ok(Self { tape, parameters, dimension, equations: functions.len() })
+        Ok(Self::of(&graph, &values, &slopes, parameters))
+    }
+
+    /// Prepares equations by their values and, row by row, their slopes along the coordinates; the
+    /// inputs of the graph are parameters, then coordinates.
+    pub fn of(graph: &Graph, values: &[Expr], slopes: &[Expr], parameters: usize) -> Self {
+        let tape = Tape::new(graph, &[values, slopes].concat());
+        let equations = values.len();
+        let dimension = slopes.len().checked_div(equations).unwrap_or_default();
+        Self { tape, parameters, dimension, equations }
+    }
+
+    /// Encloses a point of the level near `start`, in a box.
+    pub fn enclose(&self, parameters: &[Balls<1>], start: &[f64]) -> Option<Vec<Balls<1>>> {
+        let middles = parameters.iter().map(|one| one.mid[0]);
+        let state = self.solve(&middles.chain(start.iter().copied()).collect::<Vec<_>>())?;
+        let radii = self.box_about(parameters, &state)?;
+        Some(state.iter().zip(radii).map(|(x, r)| Balls::new([*x], [r])).collect())
     }
 
     /// Moves the states in `values` (after the parameters) to the level; lanes where that fails
     /// become undefined.
-    pub fn project(&self, values: &mut [Balls<LANES>]) {
-        for lane in 0..LANES {
+    pub fn project<const N: usize>(&self, values: &mut [Balls<N>]) {
+        for lane in 0..N {
             let column: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
             let found = self.solve(&column);
             let parameters: Vec<Balls<1>> = values[..self.parameters]
