@@ -9,6 +9,7 @@ mod body;
 mod build;
 mod builder;
 mod charts;
+mod claim_error;
 mod claims;
 mod complex;
 mod entries;
@@ -55,6 +56,7 @@ use crate::mechanics::{Chart, Draw, Model};
 
 pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
+pub use claim_error::ClaimError;
 pub use claims::claim_keys;
 pub use error::{CaseError, Mistake, Problem};
 pub use kinds::SYSTEM_NAMES;
@@ -64,7 +66,6 @@ pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
 pub use value::{FormulaSource, ValueSpec};
-pub use values::ClaimError;
 
 /// Name of the list of papers in a folder of cases, which is not a case itself.
 const PAPERS: &str = "papers.toml";

@@ -1,29 +1,11 @@
 //! Claims, names and variables that a case takes as values, with the checks of the file's reader.
 
+use super::claim_error::ClaimError;
 use super::field::both_sides;
 use super::{Case, PlacedClaim, TABLE_ROWS};
 use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS, jets};
 use crate::formula::{Formula, FormulaError, Type, canonical_name};
 use crate::mechanics::{Model, Reach, Vocabulary};
-
-/// The reason why a case rejects a value: a claim, a name or a bracket.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what}: {message}: {remedy}")]
-pub struct ClaimError {
-    /// Claim, name or bracket that is rejected.
-    pub what: String,
-    /// Description of the reason.
-    pub message: String,
-    /// Suggested alternative.
-    pub remedy: String,
-}
-
-impl ClaimError {
-    pub(super) fn new(what: &str, message: impl Into<String>, remedy: &str) -> Self {
-        let (what, message) = (what.to_string(), message.into());
-        Self { what, message, remedy: remedy.to_string() }
-    }
-}
 
 impl Case {
     /// Reads a formula in the names of the case.

@@ -22,7 +22,7 @@ struct Term<T> {
     beside: Beside<T>,
 }
 
-/// What the derivative in a [`Term`] is multiplied or divided by.
+/// Partner of the derivative in a [`Term`]: a factor, a divisor, or none.
 enum Beside<T> {
     Nothing,
     Factor(T),
@@ -43,15 +43,15 @@ impl<T: Scalar> Term<T> {
 
 /// Returns `(ln f)'` of the arena's last node, along the direction in the dual parts of `lookup`.
 ///
-/// Zero if the formula is not a scalar.
+/// Undefined if the formula is not a scalar.
 pub(super) fn logarithmic_derivative<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
 ) -> T {
     let values = values(arena, lookup);
-    let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(|| Dual::from(0.0));
-    let terms = terms(arena, |node| scalar(node).re).into_iter();
-    let terms = terms.map(|term| term.at(scalar(term.node).eps));
+    let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(Dual::undefined);
+    let Some(terms) = terms(arena, |node| scalar(node).re) else { return T::undefined() };
+    let terms = terms.into_iter().map(|term| term.at(scalar(term.node).eps));
     terms.reduce(|sum, term| sum + term).unwrap_or_else(T::zero)
 }
 
@@ -66,8 +66,8 @@ pub(super) fn logarithmic_gradient<T: Scalar>(
     gradients: Gradients<'_, T>,
 ) -> Option<Vec<(usize, T)>> {
     let values = values(arena, lookup);
-    let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(|| T::from(0.0));
-    let terms = terms(arena, scalar);
+    let scalar = |node: NodeId| values[node].scalar().unwrap_or_else(T::undefined);
+    let terms = terms(arena, scalar)?;
     let nodes: Vec<T> = terms.iter().map(|term| scalar(term.node)).collect();
     let mut row: BTreeMap<usize, T> = BTreeMap::new();
     for (term, slopes) in terms.iter().zip(gradients(&nodes)?) {
@@ -79,12 +79,12 @@ pub(super) fn logarithmic_gradient<T: Scalar>(
     Some(row.into_iter().collect())
 }
 
-/// Lists the terms of `(ln f)'` for the arena's last node; none if it is not a scalar.
-fn terms<T: Scalar>(arena: &Arena, scalar: impl Fn(NodeId) -> T) -> Vec<Term<T>> {
+/// Lists the terms of `(ln f)'` for the arena's last node; `None` if it is not a scalar.
+fn terms<T: Scalar>(arena: &Arena, scalar: impl Fn(NodeId) -> T) -> Option<Vec<Term<T>>> {
     let root = arena.nodes.len() - 1;
     let mut terms = Vec::new();
     if arena.nodes[root].value_type != Type::Scalar {
-        return terms;
+        return None;
     }
     // scalar factors form a tree: each is reached once
     let mut factors = vec![(root, T::one())];
@@ -118,5 +118,5 @@ fn terms<T: Scalar>(arena: &Arena, scalar: impl Fn(NodeId) -> T) -> Vec<Term<T>>
             }
         }
     }
-    terms
+    Some(terms)
 }

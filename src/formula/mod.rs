@@ -169,8 +169,8 @@ impl Formula {
 
     /// Derivative of `ln|f|` along the direction in the dual parts of the symbols' values.
     ///
-    /// Taken factor by factor, so that roots, powers and exponentials of factors drop out. Zero if
-    /// the formula is not a scalar.
+    /// Taken factor by factor, so that roots, powers and exponentials of factors drop out.
+    /// Undefined if the formula is not a scalar.
     ///
     /// # Panics
     /// As [`evaluate`](Formula::evaluate).
@@ -182,7 +182,8 @@ impl Formula {
     }
 
     /// Partial derivatives of `ln|f|` that are not 0, each with the place of its variable, from
-    /// those that `gradients` finds for the factors; `None` where it finds none.
+    /// those that `gradients` finds for the factors; `None` where it finds none, or where the formula
+    /// is not a scalar.
     ///
     /// # Panics
     /// As [`evaluate`](Formula::evaluate).

@@ -132,7 +132,7 @@ fn listed(names: Vec<String>) -> Option<String> {
     }
 }
 
-/// How names are added.
+/// Sentence on adding names.
 const OWN: &str = "others are declared in [parameters] or [let]";
 
 /// Greek letter whose English name is misspelled at the start of a name, with what follows it.

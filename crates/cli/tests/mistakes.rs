@@ -86,7 +86,7 @@ fn group(name: &str) -> Vec<Input> {
     found
 }
 
-/// What the program prints on an input, with its exit code.
+/// Output of the program on an input, with its exit code.
 fn printed(input: &Input, folder: &Path) -> String {
     let mut command = Command::cargo_bin("liouville").expect("the binary is built");
     command.current_dir(folder).env("NO_COLOR", "1").env("COLUMNS", "100");

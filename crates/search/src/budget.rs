@@ -1,6 +1,6 @@
 //! Limit on the work of an elimination, counted while it is done.
 //!
-//! How long an elimination takes depends on how sparse its rows stay: the bound by the cube of the
+//! The time of an elimination depends on the sparsity of its rows: the bound by the cube of the
 //! unknowns is hundreds to thousands of times too high for a chain of oscillators. So the steps that
 //! are really taken are counted, which gives the same answer on every machine, however busy.
 

@@ -42,7 +42,7 @@ pub struct Work {
     pub limits: Limits,
 }
 
-/// What is known of a file so far.
+/// State of a file: its path, and its case until that is judged.
 struct Slot {
     path: PathBuf,
     heading: Heading,

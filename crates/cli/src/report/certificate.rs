@@ -168,7 +168,7 @@ fn step(graph: &Graph, place: usize, places: &[usize]) -> Value {
     }
 }
 
-/// What the checker derives again; `None` if it would refuse.
+/// Evidence that the checker derives again; `None` if it would refuse.
 fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
     let digest = hex(&canonical(statement));
     let is_small = |(degree, height): &(f64, f64)| *degree < MOST && *height < MOST;

@@ -34,7 +34,7 @@ fn kind(kind: Option<CycleKind>) -> &'static str {
     kind.map_or("undecided", CycleKind::name)
 }
 
-/// What the errors allow to say of the stability, in words.
+/// Stability in words, as far as the errors allow.
 fn verdict(cycle: &Cycle) -> String {
     match cycle.kind {
         Some(CycleKind::Elliptic) => "elliptic: the moduli are 1 within their errors".to_string(),

@@ -14,6 +14,7 @@ use super::domain::Region;
 use super::fact::Fact;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
+use super::next::{Next, for_both, silent};
 use super::rewrite::Rewrite;
 use super::roots::{RootFinder, Search};
 use super::tower::{Standing, Tower};
@@ -25,25 +26,6 @@ const MOST_CELLS: usize = 64;
 const MOST_ROUNDS: usize = 48;
 /// Largest number of dependent roots and moduli whose signs are tried in all combinations.
 const MOST_CHOICES: usize = 4;
-
-/// The next action on a cell.
-enum Next {
-    /// Rewrite the cell, at the cost of a certificate.
-    Rewrite(Vec<Rewrite>, Option<Certificate>),
-    /// Divide the cell by the sign of X, the argument of the modulus at a place.
-    Divide {
-        /// Place of |X|.
-        modulus: usize,
-        /// Place of X.
-        argument: usize,
-    },
-    /// Divide the cell by the value of a sign input.
-    DivideInput(usize),
-    /// Drop the cell: no real inputs lie in it, up to the bounded probability.
-    Empty(Option<Certificate>),
-    /// Keep the findings of the test.
-    Tested(Vec<Option<Finding>>),
-}
 
 /// The cells on which some groups are tested.
 #[derive(Default)]
@@ -133,19 +115,32 @@ impl Explorer<'_> {
         if region.is_empty_at_sight() {
             return Ok(Next::Empty(None));
         }
-        let algebraic = self.prover.lower(graph, &cell.values, self.sources, self.digest)?;
+        let (algebraic, related) =
+            self.prover.lower(graph, &cell.values, self.sources, self.digest)?;
+        Ok(self.on_lowered(cell, &algebraic, &region, &known)?.given(related))
+    }
+
+    /// Finds the next action on a cell from its algebraic computation.
+    fn on_lowered(
+        &self,
+        cell: &Cell,
+        algebraic: &Algebraic<'_>,
+        region: &Region<'_>,
+        known: &[(usize, Fact)],
+    ) -> Result<Next, Fault> {
+        let graph = &cell.graph;
         if !algebraic.has_few_signs() {
             let reason = "it contains too many roots";
             return Ok(Next::Tested(silent(self.question.groups.len(), reason)));
         }
-        let trial = Trial::new(&algebraic, self.digest);
-        let tower = Tower::of(graph, &algebraic, &trial, self.digest);
+        let trial = Trial::new(algebraic, self.digest);
+        let tower = Tower::of(graph, algebraic, &trial, self.digest);
         let mut finder = RootFinder {
             graph,
-            algebraic: &algebraic,
+            algebraic,
             trial: &trial,
             tower: &tower,
-            region: &region,
+            region,
             digest: self.digest,
             samples: None,
         };
@@ -166,7 +161,7 @@ impl Explorer<'_> {
         }
         let mut open = Vec::new();
         for modulus in &algebraic.moduli {
-            if !tower.is_clean(&algebraic, modulus.argument) {
+            if !tower.is_clean(algebraic, modulus.argument) {
                 loose.push(modulus.sign);
                 continue;
             }
@@ -186,15 +181,15 @@ impl Explorer<'_> {
         }
         if rewrites.is_empty() {
             let (sources, digest) = (self.sources, self.digest);
-            let rules = Rules { graph, algebraic: &algebraic, sources, digest };
+            let rules = Rules { graph, algebraic, sources, digest };
             let found = rules.find(&cell.values);
             (rewrites, certificate) = (found.0, both(certificate, found.1));
         }
         if !rewrites.is_empty() {
             return Ok(Next::Rewrite(rewrites, certificate));
         }
-        self.divide(cell, &algebraic, &trial, &tower, open)
-            .map_or_else(|| self.test(cell, &algebraic, &trial, &tower, &loose, &known), Ok)
+        self.divide(cell, algebraic, &trial, &tower, open)
+            .map_or_else(|| self.test(cell, algebraic, &trial, &tower, &loose, known), Ok)
     }
 
     /// Tests whether a value with independent roots alone vanishes identically; returns the
@@ -376,19 +371,5 @@ impl Explorer<'_> {
             own
         };
         self.question.groups.iter().map(own).collect()
-    }
-}
-
-/// Makes a silent finding for all groups.
-fn silent(count: usize, reason: &str) -> Vec<Option<Finding>> {
-    vec![Some(Finding::Silent(reason.to_string())); count]
-}
-
-/// Combines the findings for two choices of signs.
-fn for_both(a: Finding, b: Finding) -> Finding {
-    match (a, b) {
-        (Finding::Zero(a), Finding::Zero(b)) => Finding::Zero(a.and(b)),
-        (Finding::Silent(reason), _) | (_, Finding::Silent(reason)) => Finding::Silent(reason),
-        _ => Finding::NonZero,
     }
 }

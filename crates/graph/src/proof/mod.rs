@@ -14,7 +14,7 @@
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
-//! | `explore`, `cells`, `rewrite` | the cells of signs, and proofs on each |
+//! | `explore`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
@@ -34,6 +34,7 @@ mod fact;
 mod logarithms;
 mod lower;
 mod nested;
+mod next;
 mod numbers;
 mod plain;
 mod polynomial;
@@ -265,23 +266,24 @@ impl Prover<'_> {
         sources
     }
 
-    /// Replaces non-rational operations in the steps that some outputs need.
+    /// Replaces non-rational operations in the steps that some outputs need; also returns the error
+    /// of the relations used between arguments.
     fn lower(
         &self,
         graph: &Graph,
         outputs: &[Expr],
         sources: &[Source],
         digest: Digest,
-    ) -> Result<Algebraic<'static>, Fault> {
+    ) -> Result<(Algebraic<'static>, Option<Certificate>), Fault> {
         let reached = graph.reached(outputs.iter().copied());
         let opaque = Symbols::opaque(graph, &reached);
         if !symbols::any(graph, &reached) {
-            return Algebraic::of(graph, &reached, sources, &opaque);
+            return Ok((Algebraic::of(graph, &reached, sources, &opaque)?, None));
         }
         let formal = Algebraic::formal(graph, &reached, sources, &opaque)?;
         let mut relations = Relations::new(graph, sources, formal, digest);
         let symbols = Symbols::by_basis(graph, &reached, &mut relations);
-        Algebraic::of(graph, &reached, sources, &symbols)
+        Ok((Algebraic::of(graph, &reached, sources, &symbols)?, relations.certificate))
     }
 }
 

@@ -14,7 +14,7 @@ use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
 use super::symbols::Symbols;
 use super::tower::Tower;
-use super::trial::{Certificate, Finding, LANES, Residues, Roots, Trial, points};
+use super::trial::{Certificate, Finding, LANES, Residues, Roots, Trial, both, points};
 
 /// Largest number of values to be related: the cost is cubic.
 pub const MOST: usize = 40;
@@ -39,6 +39,8 @@ pub struct Relations<'g> {
     sources: &'g [Source],
     algebraic: Algebraic<'static>,
     digest: Digest,
+    /// Error of the relations proved so far.
+    pub certificate: Option<Certificate>,
 }
 
 impl<'g> Relations<'g> {
@@ -49,7 +51,7 @@ impl<'g> Relations<'g> {
         algebraic: Algebraic<'static>,
         digest: Digest,
     ) -> Self {
-        Self { graph, sources, algebraic, digest }
+        Self { graph, sources, algebraic, digest, certificate: None }
     }
 
     /// Expresses each place's value in a basis chosen among them, together with the number 1 if
@@ -97,12 +99,11 @@ impl<'g> Relations<'g> {
                 Some(vec![if reciprocal { a * b - one } else { a - b }])
             }
         };
-        let holds = |reciprocal: &bool| self.vanish(&[a, b], &defect(*reciprocal));
-        [false, true].into_iter().find(holds)
+        [false, true].into_iter().find(|reciprocal| self.vanish(&[a, b], &defect(*reciprocal)))
     }
 
     /// Whether the values at the places are proved to be the combinations.
-    fn verify(&self, places: &[usize], basis: &[usize], combinations: &[Combination]) -> bool {
+    fn verify(&mut self, places: &[usize], basis: &[usize], combinations: &[Combination]) -> bool {
         self.vanish(places, &|values| {
             places
                 .iter()
@@ -118,10 +119,14 @@ impl<'g> Relations<'g> {
         })
     }
 
-    /// Whether some functions of the values at these places are proved to vanish.
-    fn vanish(&self, places: &[usize], defects: &Defects<'_>) -> bool {
+    /// Whether some functions of the values at these places are proved to vanish; the error of the
+    /// proof is added.
+    fn vanish(&mut self, places: &[usize], defects: &Defects<'_>) -> bool {
         let Self { graph, sources, digest, .. } = *self;
-        Defect { graph, sources, digest, is_related: false }.vanishing(places, defects).is_some()
+        let defect = Defect { graph, sources, digest, is_related: false };
+        let Some(own) = defect.vanishing(places, defects) else { return false };
+        self.certificate = both(self.certificate, Some(own));
+        true
     }
 }
 
@@ -195,13 +200,14 @@ impl Defect<'_> {
         let defects = defects?;
         let reached = graph.reached(defects.iter().copied());
         let opaque = Symbols::opaque(&graph, &reached);
-        let symbols = match self.is_related {
+        let (symbols, related) = match self.is_related {
             true => {
                 let formal = Algebraic::formal(&graph, &reached, sources, &opaque).ok()?;
                 let mut relations = Relations::new(&graph, sources, formal, digest);
-                Symbols::by_basis(&graph, &reached, &mut relations)
+                let symbols = Symbols::by_basis(&graph, &reached, &mut relations);
+                (symbols, relations.certificate)
             }
-            false => opaque,
+            false => (opaque, None),
         };
         let lowered = Algebraic::of(&graph, &reached, sources, &symbols).ok()?;
         let values: Option<Vec<Expr>> =
@@ -214,7 +220,7 @@ impl Defect<'_> {
             return None;
         }
         match trial.test(&[&values], Roots { nested: tower.nested, fixed: &[] }).pop() {
-            Some(Finding::Zero(certificate)) => Some(certificate),
+            Some(Finding::Zero(certificate)) => both(Some(certificate), related),
             _ => None,
         }
     }

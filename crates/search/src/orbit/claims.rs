@@ -118,6 +118,10 @@ pub fn other(
         .into_iter()
         .filter_map(|(what, own)| written(setting, own).map(|formula| (what, formula.to_string())));
     let with = with.collect();
+    let text = formula.to_string();
+    if report.found.iter().any(|own| own.kind == kind && own.formula == text) {
+        return Ok(true);
+    }
     let model = &judged_case(setting).model;
     let found = Found { with, ..Found::new(kind, &formula, None, found, model) };
     report.found.push(found);

@@ -102,37 +102,52 @@ pub fn search(
     let mut is_extended = false;
     let is_done =
         |report: &Report| report.functions("integral").count() + 1 >= case.model.dimension();
+    let before = report.orbits.len();
     // At last with half of each angle.
     for _ in 0..2 {
         let Some(extension) = adjoin::extended(case, effort, report, divided)? else { break };
         let Ok(setting) = Setting::extended(case, &extension, effort)? else { break };
         is_extended = true;
         report.without_points.clear();
-        let orbits = report.orbits.len();
-        along_orbits(&setting, report, progress)?;
-        report.orbits.truncate(orbits);
+        report.orbits.truncate(before);
+        along_orbits(&setting, false, report, progress)?;
         divided = extension.halves();
         if is_done(report) || divided.is_empty() {
             break;
         }
     }
-    if !is_field || is_done(report) && is_extended {
+    if is_done(report) && is_extended {
         return Ok(());
     }
-    match Setting::of(case, effort)? {
-        Ok(setting) => along_orbits(&setting, report, progress),
-        Err(reason) => {
-            if !is_extended {
-                report.remark(format!("no relations along orbits: {reason}"));
-            }
+    let plain = match is_field {
+        true => Setting::of(case, effort)?,
+        false => Err(String::new()),
+    };
+    match plain {
+        Ok(setting) => {
+            report.orbits.truncate(before);
+            along_orbits(&setting, true, report, progress)
+        }
+        Err(reason) if is_field && !is_extended => {
+            report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
+        Err(_) if is_extended && effort.halt.is_timed() => {
+            let Some(extension) = adjoin::extended(case, effort, report, Vec::new())? else {
+                return Ok(());
+            };
+            let Ok(setting) = Setting::extended(case, &extension, effort)? else { return Ok(()) };
+            report.orbits.truncate(before);
+            along_orbits(&setting, true, report, progress)
+        }
+        Err(_) => Ok(()),
     }
 }
 
-/// Searches the parts of a field, within growing limits.
+/// Searches the parts of a field; if `further` and there is a limit of time, within growing limits.
 fn along_orbits(
     setting: &Setting<'_>,
+    further: bool,
     report: &mut Report,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
@@ -155,7 +170,7 @@ fn along_orbits(
     };
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
     let outcome = run(limits, report).and_then(|()| {
-        for limits in FURTHER.iter().filter(|_| halt.is_timed()) {
+        for limits in FURTHER.iter().filter(|_| further && halt.is_timed()) {
             match run(*limits, report) {
                 // The time limit of the user is reached.
                 Err(SearchError::Stopped) => break,

@@ -12,6 +12,8 @@ use super::{Limits, OrbitReport, monomials, polynomials, relations};
 
 /// Largest degree of a Darboux polynomial.
 const DARBOUX: u32 = 12;
+/// Bound above the degrees of the relations.
+const MOST_DEGREE: u32 = 64;
 
 /// A set of variables, and how far it has been searched.
 pub struct Part {
@@ -177,19 +179,31 @@ impl Part {
                 "For generic values of the free parameters, and the given values of the fixed ones, "
             }
         };
-        let statement = format!(
-            "{generic}no fraction P/Q of polynomials in {} of degree at most {degree}{addition}, with any \
-             complex coefficients, is an integral, constants aside; a polynomial of that degree is none either.",
-            names.join(", ")
-        );
-        let mut letters = statement.chars();
-        let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+        let names = names.join(", ");
+        let statement = |degree: u32| {
+            let text = format!(
+                "{generic}no fraction P/Q of polynomials in {names} of degree at most {degree}{addition}, \
+                 with any complex coefficients, is an integral, constants aside; a polynomial of that \
+                 degree is none either."
+            );
+            let mut letters = text.chars();
+            let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+            first.unwrap_or_default() + letters.as_str()
+        };
+        // The same polynomials may have been excluded up to another degree.
+        let is_stated = |own: &Excluded, degrees: std::ops::Range<u32>| {
+            degrees.map(statement).any(|other| other == own.theorem)
+        };
+        if report.excluded.iter().any(|own| is_stated(own, degree..MOST_DEGREE)) {
+            return Ok(());
+        }
+        report.excluded.retain(|own| !is_stated(own, 1..degree));
         report.excluded.push(Excluded {
             ansatz: format!("fractions of polynomials of degree up to {degree}"),
             dimension: 0,
             known: 0,
             error_log2: None,
-            theorem: first.unwrap_or_default() + letters.as_str(),
+            theorem: statement(degree),
         });
         Ok(())
     }

@@ -5,7 +5,7 @@ use liouville::formula::Formula;
 use liouville::mechanics::{Block, Origin, Potential, Shape, Surface, System};
 use serde::Serialize;
 
-/// What a case says of its system.
+/// Contents of a case that describe its system.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Description {
     /// Functions and constants of the system, such as `h = R*|γ|`.

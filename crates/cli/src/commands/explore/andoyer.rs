@@ -116,7 +116,7 @@ pub fn drawn(
     Ok(Drawn { title: case.title.clone(), facts: caption(case, &request), text, plot, data })
 }
 
-/// What was drawn, and the parameters.
+/// Caption with the subject and the parameters.
 fn caption(case: &Case, request: &SectionRequest) -> Text {
     let first = [
         facts::equation("g_0", &request.g0.to_string()),

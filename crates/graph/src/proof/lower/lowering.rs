@@ -158,7 +158,7 @@ impl Lowering<'_> {
             | Step::Binary(Operation::Pow, ..) => self.transcendental(graph, place, values),
             _ => return None,
         };
-        Some(made.unwrap_or_else(undefined))
+        Some(made.unwrap_or_else(Expr::undefined))
     }
 
     fn transcendental(
@@ -207,9 +207,4 @@ impl Lowering<'_> {
             }
         }
     }
-}
-
-/// Makes an undefined value.
-fn undefined() -> Expr {
-    Expr::rational(&Rational::from(0)).apply(Function::Recip)
 }

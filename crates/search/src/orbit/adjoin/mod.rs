@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! polynomial   sparse polynomials with rational coefficients
-//! ring         which functions are adjoined, and what is written in them; their rates
+//! ring         which functions are adjoined, and what is written in them
+//! rates        rates of the functions, and monomials that relations make superfluous
 //! read         recorded formulas as polynomials of the ring
 //! absence      the polynomials that a theorem of absence covers
 //! write        the extended field as a case, with the functions' relations as a level set
@@ -17,6 +18,7 @@
 pub mod absence;
 mod back;
 mod polynomial;
+mod rates;
 mod read;
 mod ring;
 mod write;
