@@ -7,9 +7,20 @@ use serde_json::Value;
 
 use super::{folder, json, liouville};
 
+/// Folders of the catalogue with the columns of a table.
+fn folders(number: &str) -> &'static [&'static str] {
+    match number {
+        "1" => &["plane"],
+        "2" => &["sphere", "flat-base"],
+        "3" => &["surface"],
+        _ => &["spin"],
+    }
+}
+
 /// Output of `table NUMBER --format FORMAT`.
 fn rendered(number: &str, format: &str) -> String {
-    let output = liouville(&["table", number, "--format", format]).output().expect("it runs");
+    let arguments = [&["table", number, "--format", format], folders(number)].concat();
+    let output = liouville(&arguments).output().expect("it runs");
     assert!(output.status.success(), "table {number} as {format}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
@@ -30,7 +41,8 @@ fn the_tables_come_out_of_the_catalogue() {
             }
         }
         assert!(table["caption"].is_string(), "table {number} has a caption");
-        liouville(&["table", number]).assert().code(0).stdout(contains("proved"));
+        let arguments = [&["table", number], folders(number)].concat();
+        liouville(&arguments).assert().code(0).stdout(contains("proved"));
     }
 }
 
@@ -67,7 +79,7 @@ fn cells_hold_the_formulas_of_the_papers() {
         ),
     ];
     for (number, columns) in expected {
-        let table = json(&["table", number, "--json"], 0);
+        let table = json(&[&["table", number, "--json"], folders(number)].concat(), 0);
         for (row, of) in [("measure", 0), ("integral", 1)] {
             let found = list(&table, "rows").iter().find(|found| found["row"] == row);
             let cells = list(found.expect("the row"), "cells");

@@ -10,7 +10,7 @@ const COLUMN: usize = 62;
 const NAMES: usize = 28;
 
 /// Widest part of a formula that is set in a cell, in letters; others stand under the table.
-const WIDEST: usize = 27;
+const WIDEST: usize = 22;
 
 /// Space between two columns in millimetres.
 const GAP: usize = 5;
