@@ -18,7 +18,9 @@ python3 -m venv "$home/fresh"
 step "tests"
 # Away from the sources, so that the installed package is the one that is tested.
 cp -r tests "$home/tests"
-LIOUVILLE_PYTHON=$PWD "$home/fresh/bin/python" -m pytest -q -p no:cacheprovider --rootdir "$home/tests" "$home/tests"
+export LIOUVILLE_PYTHON=$PWD
+cd "$home"
+"$home/fresh/bin/python" -m pytest -q -p no:cacheprovider --rootdir "$home/tests" "$home/tests"
 step "types"
 "$home/tools/bin/pip" install --quiet mypy
 "$home/tools/bin/mypy" --python-executable "$home/fresh/bin/python" --ignore-missing-imports -p liouville

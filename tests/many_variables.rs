@@ -10,6 +10,7 @@ use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::Jet;
 use liouville::number::float::Float;
 use liouville::scalar::Scalar;
+use liouville::verdict::{Options, Verdict, judge};
 
 /// Systems of 22 to 48 variables: Lagrangians with dense and sparse mass matrices, constraints,
 /// forces, multipliers and matrices of coordinates, a Hamiltonian with a level, and a field.
@@ -143,4 +144,27 @@ fn sweeps_compute_what_lifts_do() {
             assert!(gap <= most, "{}, value {k}: {} for {expected}", case.title, found[0]);
         }
     }
+}
+
+#[test]
+fn twenty_functions_are_compared() {
+    let text = |last: &str| {
+        let own: Vec<String> = (1..=19).map(|k| format!("\"x{k}² + {k}*p{k}²\"")).collect();
+        format!(
+            "title = \"Oscillators\"\n[state]\nx = \"vector(20, 1..2)\"\np = \"vector(20, 1..2)\"\n\
+             [field]\n\"x[i]'\" = \"i*p[i]\"\n\"p[i]'\" = \"−x[i]\"\n\
+             [[claim]]\nindependent = [{}, \"{last}\"]",
+            own.join(", ")
+        )
+    };
+    let verdict = |last: &str| {
+        let report = judge(&case(&text(last)), &Options::default()).expect("a report");
+        report.claims[0].verdict
+    };
+    assert_eq!(verdict("x20² + 20*p20²"), Verdict::Proved, "another oscillator");
+    assert_eq!(
+        verdict("x19² + 19*p19² − 3*(x1² + p1²)*(x2² + 2*p2²)"),
+        Verdict::Refuted,
+        "dependent"
+    );
 }

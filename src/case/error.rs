@@ -232,7 +232,13 @@ impl Mistake {
             | Problem::Sense { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
             Problem::Cycle(..) => Some("define one of them without the others".to_string()),
-            Problem::BadName { .. } => Some("give it another name".to_string()),
+            Problem::BadName { name, .. } => Some(match name.split_once('[') {
+                Some((whole, _)) if !whole.is_empty() => format!(
+                    "declare the whole vector, as {whole} = \"vector(5, -1..1)\"; its components are \
+                     {whole}[1], {whole}[2], …"
+                ),
+                _ => "give it another name".to_string(),
+            }),
             Problem::Formula(error) => error.help().map(str::to_string),
             Problem::Toml { help, .. } => help.clone(),
             Problem::Io(_) | Problem::NotAFile => {

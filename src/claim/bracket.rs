@@ -1,12 +1,9 @@
 //! Brackets of functions of the new variables: {F,G} = K in the bracket of `[poisson]`.
 
-use super::hamiltonian::{
-    CHOICE, ON_A_PART, bracket_of, defects, of, they_vary, turned, variables,
-};
-use super::{Condition, Reader, Statement, difference};
+use super::of_bracket::{CHOICE, OfBracket, bracket_of, turned, variables};
+use super::{Reader, difference};
 use crate::formula::{Formula, Type};
-use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::dot;
 use crate::mechanics::{Phase, Variables};
 use crate::scalar::Scalar;
 
@@ -43,29 +40,9 @@ fn slopes<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<Vec<T>> {
     (0..count).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
 }
 
-impl Bracket {
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(self.bracket, there);
-        let flows: Vec<Vec<T>> =
-            slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();
-        let found: Vec<T> = slopes(there, &self.first)
-            .iter()
-            .flat_map(|slope| flows.iter().map(|flow| dot(slope, flow)))
-            .collect();
-        let mut residual = match &self.value {
-            Some(value) => difference(found, there.evaluate(value).components()),
-            None => found,
-        };
-        residual.extend(variables.symmetric_part(&tensor));
-        residual
-    }
-}
-
-impl Statement for Bracket {
+impl OfBracket for Bracket {
     const NAME: &'static str = "bracket";
-    const OF_MAPS: bool = true;
     const COMPANIONS: &'static [&'static str] = &["equals", CHOICE];
-    const AT_IMAGES: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let bracket = bracket_of(from, Self::NAME)?;
@@ -92,24 +69,27 @@ impl Statement for Bracket {
         Some(format!("{{{first}, {second}}}{of} = {value}"))
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-        let variables = of(jet.phase.model());
-        self.at(variables, &variables.point(&jet.phase))
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(self.bracket, there);
+        let flows: Vec<Vec<T>> =
+            slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();
+        let found: Vec<T> = slopes(there, &self.first)
+            .iter()
+            .flat_map(|slope| flows.iter().map(|flow| dot(slope, flow)))
+            .collect();
+        let mut residual = match &self.value {
+            Some(value) => difference(found, there.evaluate(value).components()),
+            None => found,
+        };
+        residual.extend(variables.symmetric_part(&tensor));
+        residual
     }
 
-    fn residual_of_values(
-        &self,
-        variables: &Variables,
-        there: &Phase<'_, Expr>,
-    ) -> Option<Vec<Expr>> {
-        Some(self.at(variables, there))
+    fn brackets(&self) -> Vec<usize> {
+        vec![self.bracket]
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        vec![they_vary(jet, ON_A_PART, true)]
-    }
-
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, &[self.bracket], [&self.first, &self.second].into_iter().chain(&self.value))
+    fn functions(&self) -> Vec<&Formula> {
+        [&self.first, &self.second].into_iter().chain(&self.value).collect()
     }
 }

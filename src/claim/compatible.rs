@@ -1,9 +1,7 @@
 //! Compatible brackets: every combination aP + bQ satisfies Jacobi's identity where P and Q do.
 
-use super::hamiltonian::{ON_A_PART, defects, named_bracket, of, tensor_slopes, they_vary};
-use super::{Condition, Reader, Statement};
-use crate::graph::Expr;
-use crate::mechanics::calculus::Jet;
+use super::Reader;
+use super::of_bracket::{OfBracket, named_bracket, tensor_slopes};
 use crate::mechanics::{Phase, Variables};
 use crate::scalar::Scalar;
 
@@ -15,32 +13,9 @@ pub struct Compatible {
     text: String,
 }
 
-impl Compatible {
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensors = self.brackets.map(|bracket| variables.tensor(bracket, there));
-        let slopes = self.brackets.map(|bracket| tensor_slopes(variables, bracket, there));
-        let n = there.model().dimension();
-        let term = |i: usize, j: usize, k: usize| -> T {
-            let along = |l: usize| {
-                tensors[0][i][l] * slopes[1][l][j][k] + tensors[1][i][l] * slopes[0][l][j][k]
-            };
-            (0..n).map(along).sum()
-        };
-        let mut residual: Vec<T> =
-            tensors.iter().flat_map(|tensor| variables.symmetric_part(tensor)).collect();
-        for i in 0..n {
-            for j in i + 1..n {
-                residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));
-            }
-        }
-        residual
-    }
-}
-
-impl Statement for Compatible {
+impl OfBracket for Compatible {
     const NAME: &'static str = "compatible";
-    const OF_MAPS: bool = true;
-    const AT_IMAGES: bool = true;
+    const COMPANIONS: &'static [&'static str] = &[];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let names = from.texts(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
@@ -61,24 +36,27 @@ impl Statement for Compatible {
         Some(self.text.clone())
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
-        let variables = of(jet.phase.model());
-        self.at(variables, &variables.point(&jet.phase))
+    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+        let tensors = self.brackets.map(|bracket| variables.tensor(bracket, there));
+        let slopes = self.brackets.map(|bracket| tensor_slopes(variables, bracket, there));
+        let n = there.model().dimension();
+        let term = |i: usize, j: usize, k: usize| -> T {
+            let along = |l: usize| {
+                tensors[0][i][l] * slopes[1][l][j][k] + tensors[1][i][l] * slopes[0][l][j][k]
+            };
+            (0..n).map(along).sum()
+        };
+        let mut residual: Vec<T> =
+            tensors.iter().flat_map(|tensor| variables.symmetric_part(tensor)).collect();
+        for i in 0..n {
+            for j in i + 1..n {
+                residual.extend((j + 1..n).map(|k| term(i, j, k) + term(j, k, i) + term(k, i, j)));
+            }
+        }
+        residual
     }
 
-    fn residual_of_values(
-        &self,
-        variables: &Variables,
-        there: &Phase<'_, Expr>,
-    ) -> Option<Vec<Expr>> {
-        Some(self.at(variables, there))
-    }
-
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        vec![they_vary(jet, ON_A_PART, true)]
-    }
-
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
-        defects(jet, &self.brackets, std::iter::empty())
+    fn brackets(&self) -> Vec<usize> {
+        self.brackets.to_vec()
     }
 }

@@ -18,8 +18,9 @@ impl Independent {
     }
 }
 
-/// Largest number of functions; the expansion of the Gram determinant doubles with each.
-const MOST: usize = 12;
+/// Largest number of functions, those of the level included; the work on the Gram determinant grows
+/// with its fourth power.
+pub const MOST: usize = 24;
 
 impl Statement for Independent {
     const NAME: &'static str = "independent";
@@ -29,9 +30,11 @@ impl Statement for Independent {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let formulas = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
-        if formulas.is_empty() || formulas.len() + from.model().level.len() > MOST {
+        let most = MOST.saturating_sub(from.model().level.len());
+        if formulas.is_empty() || formulas.len() > most {
             let message = format!("{} functions cannot be compared", formulas.len());
-            return Err(from.complaint(Self::NAME, message, "list between 1 and 10 functions"));
+            let remedy = format!("list between 1 and {most} functions");
+            return Err(from.complaint(Self::NAME, message, &remedy));
         }
         Ok(Self(formulas))
     }
@@ -58,8 +61,9 @@ impl Statement for Independent {
         let functions: usize = self.0.iter().map(|f| f.value_type().size()).sum();
         let level = model.dimension().checked_sub(model.level.len())?;
         let needed = level.checked_sub(2)?;
+        let noun = if functions == 1 { "function" } else { "functions" };
         Some(format!(
-            "{functions} independent functions on a level of dimension {level}; if they are integrals \
+            "{functions} independent {noun} on a level of dimension {level}; if they are integrals \
              and there is a density, the Euler–Jacobi theorem needs {needed}"
         ))
     }

@@ -2,12 +2,9 @@
 
 use super::{Effort, SearchError};
 use liouville::case::{Case, Expect};
-use liouville::claim::{Claim, Integral, Kind};
+use liouville::claim::{Claim, Integral, Kind, MOST_COMPARED};
 use liouville::formula::{Composed, Formula, FormulaError, Type};
 use liouville::verdict::{ClaimReport, Evidence, Verdict, judge};
-
-/// Largest number of functions of a claim of independence.
-const COMPARED: usize = 10;
 
 /// Judges claims about a case, and returns the reports.
 pub fn judged(
@@ -60,13 +57,18 @@ pub fn independent(
 ) -> Result<Option<Evidence>, SearchError> {
     let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
     let all: Vec<Formula> = all.collect();
-    // More functions cannot be compared by a claim.
-    if all.len() > COMPARED {
+    if !are_comparable(case, known) {
         return Ok(None);
     }
     let report = judged_alone(case, Claim::independent(all), effort)?;
     let proved = report.filter(|report| report.verdict == Verdict::Proved);
     Ok(proved.map(|report| report.evidence))
+}
+
+/// Whether another function can be compared with these, the energy and the level functions.
+pub fn are_comparable(case: &Case, known: &[Formula]) -> bool {
+    let others = case.model.level.len() + usize::from(energy(case).is_some());
+    known.len() + others < MOST_COMPARED
 }
 
 /// A component of an integral that a case claims.

@@ -10,16 +10,17 @@ use liouville::formula::Formula;
 use liouville::proof::Prover;
 use liouville::verdict::Sampler;
 
-/// Withdraws all theorems if the formulas of a case contain moduli, or roots that depend on each
-/// other: modulo a prime these have another sign at half of all points.
+/// Withdraws the theorems that depend on branches, if the formulas of a case contain moduli, or roots
+/// that depend on each other: modulo a prime these have another sign at half of all points.
 pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
     let counts = report.counts.len() + report.multipliers.len();
-    if counts + report.excluded.len() + report.conditions.len() == 0 || are_true(case, effort)? {
+    let excluded = report.excluded.iter().filter(|own| !own.holds_on_all_branches).count();
+    if counts + excluded + report.conditions.len() == 0 || are_true(case, effort)? {
         return Ok(());
     }
     report.counts.clear();
     report.multipliers.clear();
-    report.excluded.clear();
+    report.excluded.retain(|own| own.holds_on_all_branches);
     report.conditions.clear();
     report.remark(
         "nothing is counted or excluded: the formulas contain a modulus, or a root that depends on \

@@ -292,6 +292,7 @@ pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
         ),
+        holds_on_all_branches: false,
     });
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::ask::{holds, independent, judged};
+use super::ask::{are_comparable, holds, independent, judged};
 use super::library;
 use super::linear::Functions;
 use super::second_opinion::second_opinion;
@@ -48,6 +48,13 @@ pub fn tell(
     report: &mut Report,
 ) -> Result<(), SearchError> {
     let told: Vec<Formula> = report.functions("integral").cloned().collect();
+    if !are_comparable(case, &told) {
+        let count = told.len();
+        report.remark(format!(
+            "an integral that is not listed, as it cannot be compared with the {count} that are: {formula}"
+        ));
+        return Ok(());
+    }
     if independent(case, &told, formula, effort)?.is_none() {
         return Ok(());
     }

@@ -235,6 +235,9 @@ pub struct Excluded {
     pub error_log2: Option<f64>,
     /// Theorem with its hypotheses.
     pub theorem: String,
+    /// Whether it is proved for both signs of each root, and contains no modulus.
+    #[serde(skip)]
+    pub holds_on_all_branches: bool,
 }
 
 /// The outcome of a search.

@@ -166,5 +166,6 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}.{forces}"
         ),
+        holds_on_all_branches: false,
     }
 }

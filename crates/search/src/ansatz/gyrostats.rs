@@ -129,6 +129,7 @@ impl Rotors<'_> {
                 self.degree - 1,
                 self.below.iter().map(Formula::text).collect::<Vec<_>>().join(", ")
             ),
+            holds_on_all_branches: false,
         });
         Ok(())
     }

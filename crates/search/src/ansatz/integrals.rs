@@ -310,6 +310,7 @@ impl Search<'_> {
             known: dimension - open,
             error_log2: None,
             theorem,
+            holds_on_all_branches: false,
         });
     }
 }

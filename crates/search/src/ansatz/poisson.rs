@@ -321,6 +321,7 @@ impl<'a> Family<'a> {
             theorem: format!(
                 "There is no skew P with v = P ∂H, H = {name}, whose entries are polynomials of degree at most {degree} in the state with {coefficients}."
             ),
+            holds_on_all_branches: false,
         });
         Ok(())
     }

@@ -162,6 +162,7 @@ impl Family<'_> {
                 self.integral,
                 if told == dimension && told > 0 { ": those listed here" } else { "" }
             ),
+            holds_on_all_branches: false,
         });
         Ok(())
     }

@@ -153,15 +153,14 @@ impl Target for C {
                 body.name
             ));
             for (list, is_state) in [("parameters", false), ("state", true)] {
-                let used = export.used(body, is_state);
-                if used.is_empty() {
+                if export.used(body, is_state).is_empty() {
                     code.push_str(&format!("    (void){list};\n"));
                 }
-                for (index, place) in used {
-                    let own = &names.inputs[place];
-                    code.push_str(&format!("    const double {own} = {list}[{index}];\n"));
-                }
             }
+            let line = |list: &str, at: usize, own: &str| {
+                format!("    const double {own} = {list}[{at}];\n")
+            };
+            code.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 code.push_str(&format!("    const double {name} = {value};\n"));
             }

@@ -102,11 +102,6 @@ impl Target for Julia {
         }
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
-        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
-        Term::of(text, Rank::Power)
-    }
-
     fn reciprocal(&self, a: &Term) -> Term {
         Term::atom(format!("reciprocal({})", a.text))
     }
@@ -123,12 +118,9 @@ impl Target for Julia {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "# ", ""));
             text.push_str(&format!("function {}(state, parameters)\n", body.name));
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in export.used(body, is_state) {
-                    let own = &names.inputs[place];
-                    text.push_str(&format!("    {own} = {list}[{}]\n", index + 1));
-                }
-            }
+            let line =
+                |list: &str, at: usize, own: &str| format!("    {own} = {list}[{}]\n", at + 1);
+            text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("    {name} = {value}\n"));
             }

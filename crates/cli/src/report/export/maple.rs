@@ -5,10 +5,9 @@ use liouville::number::rational::Rational;
 
 use super::Export;
 use super::lines::Body;
-use super::mathematica::{exact, raised};
 use super::names::Names;
 use super::python::code_name;
-use super::target::{Rank, Target, Term, comments};
+use super::target::{Target, Term, comments, exact, raised};
 
 /// Maple.
 pub struct Maple;
@@ -124,11 +123,6 @@ impl Target for Maple {
         raised(base, exponent)
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
-        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
-        Term::of(text, Rank::Power)
-    }
-
     fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
         let mut text = comments(&export.heading(), "# ", "");
         text.push_str(&comments(&export.listed(names, 1), "# ", ""));
@@ -137,20 +131,13 @@ impl Target for Maple {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "# ", ""));
             text.push_str(&format!("{} := proc(state, parameters)\n", body.name));
-            let own = |is_state| export.used(body, is_state);
-            let used = own(false).into_iter().chain(own(true));
-            let used: Vec<&str> = used.map(|(_, place)| names.inputs[place].as_str()).collect();
-            let lines = body.lines.iter().map(|(name, _)| name.as_str());
-            let locals: Vec<&str> = used.into_iter().chain(lines).collect();
+            let locals = export.locals(body, names);
             if !locals.is_empty() {
                 text.push_str(&format!("  local {};\n", locals.join(", ")));
             }
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in own(is_state) {
-                    let own = &names.inputs[place];
-                    text.push_str(&format!("  {own} := {list}[{}];\n", index + 1));
-                }
-            }
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} := {list}[{}];\n", at + 1);
+            text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} := {value};\n"));
             }

@@ -7,7 +7,7 @@ use super::Export;
 use super::lines::Body;
 use super::names::Names;
 use super::python::code_name;
-use super::target::{Rank, Target, Term, comments};
+use super::target::{Target, Term, comments, exact, raised};
 
 /// Mathematica.
 pub struct Mathematica;
@@ -76,11 +76,6 @@ impl Target for Mathematica {
         raised(base, exponent)
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
-        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
-        Term::of(text, Rank::Power)
-    }
-
     fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
         let mut text = comments(&export.heading(), "(* ", " *)");
         text.push_str(&comments(&export.listed(names, 1), "(* ", " *)"));
@@ -88,22 +83,15 @@ impl Target for Mathematica {
         for body in bodies {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "(* ", " *)"));
-            let own = |is_state| export.used(body, is_state);
-            let used = own(false).into_iter().chain(own(true));
-            let used: Vec<&str> = used.map(|(_, place)| names.inputs[place].as_str()).collect();
-            let lines = body.lines.iter().map(|(name, _)| name.as_str());
-            let locals: Vec<&str> = used.into_iter().chain(lines).collect();
+            let locals = export.locals(body, names);
             text.push_str(&format!(
                 "{}[state_List, parameters_List] := Module[{{{}}},\n",
                 body.name,
                 locals.join(", ")
             ));
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in own(is_state) {
-                    let own = &names.inputs[place];
-                    text.push_str(&format!("  {own} = {list}[[{}]];\n", index + 1));
-                }
-            }
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} = {list}[[{}]];\n", at + 1);
+            text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} = {value};\n"));
             }
@@ -111,20 +99,4 @@ impl Target for Mathematica {
         }
         text
     }
-}
-
-/// An exact number: an integer or a quotient of integers.
-pub fn exact(value: &Rational) -> Term {
-    let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
-    let (above, below) = value.parts();
-    match below == 1.into() {
-        true => Term::of(above.to_string(), rank(Rank::Atom)),
-        false => Term::of(format!("{above}/{below}"), rank(Rank::Product)),
-    }
-}
-
-/// A power with an exact exponent, as x^q.
-pub fn raised(base: &Term, exponent: &Rational) -> Term {
-    let exponent = exact(exponent).at_least(Rank::Atom);
-    Term::of(format!("{}^{exponent}", base.at_least(Rank::Atom)), Rank::Power)
 }

@@ -142,12 +142,9 @@ impl Target for Matlab {
             text.push('\n');
             text.push_str(&comments(&export.subject(body.part), "% ", ""));
             text.push_str(&format!("function values = {}(state, parameters)\n", body.name));
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in export.used(body, is_state) {
-                    let own = &names.inputs[place];
-                    text.push_str(&format!("  {own} = {list}({});\n", index + 1));
-                }
-            }
+            let line =
+                |list: &str, at: usize, own: &str| format!("  {own} = {list}({});\n", at + 1);
+            text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("  {name} = {value};\n"));
             }

@@ -169,6 +169,29 @@ impl Export<'_> {
         own.filter(|(_, place)| body.inputs.contains(place)).collect()
     }
 
+    /// Lines that take the input components a function uses from its two lists: parameters, then
+    /// the state; `line` writes one from the name of the list, the place in it and the own name.
+    fn taken(
+        &self,
+        body: &Body,
+        names: &Names,
+        line: impl Fn(&str, usize, &str) -> String,
+    ) -> String {
+        let of_list = |(list, is_state)| {
+            let used = self.used(body, is_state).into_iter();
+            used.map(move |(index, place)| (list, index, place))
+        };
+        let all = [("parameters", false), ("state", true)].into_iter().flat_map(of_list);
+        all.map(|(list, index, place)| line(list, index, &names.inputs[place])).collect()
+    }
+
+    /// Names of the input components and the intermediate values of a function.
+    fn locals<'n>(&self, body: &'n Body, names: &'n Names) -> Vec<&'n str> {
+        let used = self.used(body, false).into_iter().chain(self.used(body, true));
+        let used = used.map(|(_, place)| names.inputs[place].as_str());
+        used.chain(body.lines.iter().map(|(name, _)| name.as_str())).collect()
+    }
+
     /// Lines on the order of the inputs: place in the list, name in the code, name in the case.
     fn listed(&self, names: &Names, first: usize) -> Vec<String> {
         let mut lines = Vec::new();

@@ -153,11 +153,8 @@ impl Target for Python {
             };
             text.push_str(&format!("\n\ndef {}({arguments}):\n", body.name));
             text.push_str(&comments(&export.subject(body.part), "    # ", ""));
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in export.used(body, is_state) {
-                    text.push_str(&format!("    {} = {list}[{index}]\n", names.inputs[place]));
-                }
-            }
+            let line = |list: &str, at: usize, own: &str| format!("    {own} = {list}[{at}]\n");
+            text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 text.push_str(&format!("    {name} = {value}\n"));
             }

@@ -146,11 +146,9 @@ impl Target for Rust {
                 argument("state", true),
                 argument("parameters", false),
             ));
-            for (list, is_state) in [("parameters", false), ("state", true)] {
-                for (index, place) in export.used(body, is_state) {
-                    code.push_str(&format!("    let {} = {list}[{index}];\n", names.inputs[place]));
-                }
-            }
+            let line =
+                |list: &str, at: usize, own: &str| format!("    let {own} = {list}[{at}];\n");
+            code.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {
                 code.push_str(&format!("    let {name} = {value};\n"));
             }

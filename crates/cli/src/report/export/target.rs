@@ -53,7 +53,8 @@ impl Term {
 
 /// A language to which a program is written.
 ///
-/// The defaults are those of most languages: infix operations, `f(x)`, quotients as `a/b`.
+/// The defaults are those of most languages: infix operations, `f(x)`, quotients as `a/b`, powers as
+/// `a^b`.
 pub trait Target {
     /// Whether numbers are exact rationals, not doubles.
     fn is_exact(&self) -> bool;
@@ -94,7 +95,10 @@ pub trait Target {
     fn power(&self, base: &Term, exponent: &Rational) -> Term;
 
     /// x^y.
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term;
+    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+        let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
+        Term::of(text, Rank::Power)
+    }
 
     /// −x
     fn negative(&self, a: &Term) -> Term {
@@ -153,6 +157,22 @@ pub fn double(value: &Rational, point: &str) -> Term {
         }
         _ => Term::of(format!("{nearest:?}"), rank(Rank::Atom)),
     }
+}
+
+/// An exact number: an integer or a quotient of integers.
+pub fn exact(value: &Rational) -> Term {
+    let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
+    let (above, below) = value.parts();
+    match below == 1.into() {
+        true => Term::of(above.to_string(), rank(Rank::Atom)),
+        false => Term::of(format!("{above}/{below}"), rank(Rank::Product)),
+    }
+}
+
+/// A power with an exact exponent, as x^q.
+pub fn raised(base: &Term, exponent: &Rational) -> Term {
+    let exponent = exact(exponent).at_least(Rank::Atom);
+    Term::of(format!("{}^{exponent}", base.at_least(Rank::Atom)), Rank::Power)
 }
 
 /// Name of a function as most languages have it.

@@ -6,11 +6,13 @@
 //! roots need radicands that are no squares, also in products.
 
 use liouville::mechanics::{Model, Origin, Recipe};
+use liouville::number::exact::square_root;
 use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
 
 use super::super::super::streams::Stream;
 use super::polynomial::{Polynomial, combination};
-use super::ring::{Atom, Ring};
+use super::ring::{Atom, Of, Ring};
 
 /// Number of points at which radicands are compared.
 const POINTS: u32 = 600;
@@ -44,7 +46,7 @@ impl Class {
             own.clone().all(|k| is_plain(&k)).then_some(())
         };
         let mut arguments = [Vec::new(), Vec::new()];
-        let mut radicands = Vec::new();
+        let mut radicands = constants(ring)?;
         let mut powers = Vec::new();
         let mut is_linear = false;
         for atom in &ring.atoms {
@@ -89,6 +91,27 @@ impl Class {
         };
         monomial.iter().zip(&self.powers).all(allowed)
     }
+}
+
+/// Radicands of the roots of parameters; `None` if a root of a number may be a number, or depend on
+/// another: its sign modulo a prime may then differ from that of the real root.
+fn constants(ring: &Ring) -> Option<Vec<&Polynomial>> {
+    let all = || {
+        ring.atoms.iter().filter_map(|atom| match atom {
+            Atom::Constant(Of::Root(base)) => Some(base),
+            _ => None,
+        })
+    };
+    let is_plain = |k: &usize| matches!(ring.atoms[*k], Atom::Parameter);
+    if !all().all(|base| base.variables().iter().all(is_plain)) {
+        return None;
+    }
+    let numbers: Vec<Rational> = all().filter_map(Polynomial::value).collect();
+    let is_irrational = |number: &Rational| square_root(number).is_none();
+    if numbers.len() > 1 || !numbers.iter().all(is_irrational) {
+        return None;
+    }
+    Some(all().filter(|base| base.value().is_none()).collect())
 }
 
 fn is_state(ring: &Ring, variable: usize) -> bool {
