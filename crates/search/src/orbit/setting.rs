@@ -216,7 +216,9 @@ impl<'c> Setting<'c> {
     /// Expands the orbit through the random point of a number.
     pub fn orbit(&self, at: &At, number: u64, orders: usize) -> Result<Option<Orbit>, SearchError> {
         for attempt in 0..TRIES {
-            let Some(point) = self.point(at, number.wrapping_add(attempt << 32)) else { return Ok(None) };
+            let Some(point) = self.point(at, number.wrapping_add(attempt << 32)) else {
+                return Ok(None);
+            };
             if let Some(orbit) = self.along(at, &point, orders)? {
                 return Ok(Some((point, orbit)));
             }
