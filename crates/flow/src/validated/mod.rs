@@ -13,6 +13,7 @@ mod enclosure;
 mod forward;
 mod functions;
 mod guess;
+mod horseshoe;
 mod krawczyk;
 mod laws;
 mod motion;
@@ -28,6 +29,7 @@ mod tail;
 mod tests;
 
 pub use enclosure::Enclosure;
+pub use horseshoe::{Horseshoe, Margin, prove as prove_horseshoe};
 pub use forward::{Reached, follow};
 pub use obstacle::Obstacle;
 pub use replay::{Data, replay};
