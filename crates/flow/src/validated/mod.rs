@@ -29,8 +29,8 @@ mod tail;
 mod tests;
 
 pub use enclosure::Enclosure;
-pub use horseshoe::{Horseshoe, Margin, prove as prove_horseshoe};
 pub use forward::{Reached, follow};
+pub use horseshoe::{Horseshoe, Margin, prove as prove_horseshoe};
 pub use obstacle::Obstacle;
 pub use replay::{Data, replay};
 pub use request::Request;

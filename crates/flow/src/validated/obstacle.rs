@@ -52,7 +52,9 @@ pub enum Obstacle {
     #[error("horseshoes are proved where all conserved functions leave 3 dimensions, not {0}")]
     Dimension(usize),
     /// The multipliers of the closed orbit are not real, or near 1.
-    #[error("the closed orbit near the start is no saddle with multipliers well off the unit circle")]
+    #[error(
+        "the closed orbit near the start is no saddle with multipliers well off the unit circle"
+    )]
     NoSaddle,
     /// No surface across the motion is known.
     #[error("no surface across the motion is known")]

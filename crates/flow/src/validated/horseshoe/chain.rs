@@ -221,8 +221,8 @@ impl Directions {
         Self { unstable, stable, stretch, squeeze }
     }
 
-    /// Corrections of the nodes that close the gaps of a chain, where the first node moves along the
-    /// stable direction by `first` and the last along the unstable one by `last`.
+    /// Corrections of the nodes that close the gaps of a chain, where the first node moves along
+    /// the stable direction by `first` and the last along the unstable one by `last`.
     pub fn closing(&self, links: &[Link], first: f64, last: f64) -> Vec<[f64; 2]> {
         let gaps: Vec<[f64; 2]> = links
             .iter()

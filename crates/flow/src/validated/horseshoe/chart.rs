@@ -50,8 +50,8 @@ const LEAST: f64 = 4e-16;
 
 impl Patch {
     /// Encloses the points of a chart with coordinates within `half` of `middle`. The centre is an
-    /// approximate point with the coordinates of the middle. `None` where it is not proved that each
-    /// pair of coordinates has one point.
+    /// approximate point with the coordinates of the middle. `None` where it is not proved that
+    /// each pair of coordinates has one point.
     ///
     /// The equations L (x - o) = z, (n, x - o) = 0, F(x) = c are solved by Krawczyk's operator, for
     /// all z of the rectangle at once.

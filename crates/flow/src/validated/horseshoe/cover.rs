@@ -68,8 +68,8 @@ impl Map {
         [0, 1].map(|k| (self.middle[k] - Enclosure::exact(point[k])).magnitude())
     }
 
-    /// Room of the covering relation between the rectangle with these half sides, over which the map
-    /// is known, and another. `None` where it is not proved.
+    /// Room of the covering relation between the rectangle with these half sides, over which the
+    /// map is known, and another. `None` where it is not proved.
     pub fn covers(&self, half: [f64; 2], other: &Rectangle) -> Option<Margin> {
         let off = self.off(other.middle);
         let reach = below(self.reach(half), off[0]);
@@ -88,8 +88,8 @@ pub fn product(a: &[[Enclosure; 2]; 2], b: &[[Enclosure; 2]; 2]) -> [[Enclosure;
 /// Whether any two motions that repeat a map with a derivative in this enclosure for ever, on one
 /// rectangle, approach each other.
 ///
-/// With |Δ₀| ≥ |Δ₁| differences grow for ever, by more than a factor above 1, and stay so. Otherwise
-/// |Δ₀| < |Δ₁| for ever, and |Δ₁| shrinks by a factor below 1.
+/// With |Δ₀| ≥ |Δ₁| differences grow for ever, by more than a factor above 1, and stay so.
+/// Otherwise |Δ₀| < |Δ₁| for ever, and |Δ₁| shrinks by a factor below 1.
 pub fn is_hyperbolic(slopes: &[[Enclosure; 2]; 2]) -> bool {
     let [[stretch, shear], [other, squeeze]] = slopes;
     if !slopes.iter().flatten().all(|x| x.is_finite()) {

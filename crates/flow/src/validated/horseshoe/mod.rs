@@ -245,8 +245,8 @@ impl Search<'_, '_> {
             map.covers(half, other).ok_or(Problem::Relation)
         };
 
-        // From the last node before the saddle's surface to the chart of the homoclinic orbit, on the
-        // same plane, within times that are among those of the leg to the saddle: so each motion
+        // From the last node before the saddle's surface to the chart of the homoclinic orbit, on
+        // the same plane, within times that are among those of the leg to the saddle: so each motion
         // meets the plane once, and coordinates decide to which of the two rectangles it goes.
         let (Some(last_map), Some(last_half)) = (maps.last(), halves.last()) else {
             return Err(Problem::Path);

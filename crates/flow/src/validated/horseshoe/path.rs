@@ -25,7 +25,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// Moves the nodes of an approximate path by Newton's method. `None` where it does not converge.
+    /// Moves the nodes of an approximate path by Newton's method. `None` if it diverges.
     pub fn new(shooting: &Shooting, saddle: &Saddle, mut chain: Chain) -> Option<Self> {
         let home = &saddle.home;
         let size = dot(&home.origin, &home.origin).sqrt();

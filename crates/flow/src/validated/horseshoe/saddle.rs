@@ -96,8 +96,8 @@ impl Saddle {
         all
     }
 
-    /// Approximate states along a motion that leaves the first node by `distance` along the unstable
-    /// direction, for one period, without the last.
+    /// Approximate states along a motion that leaves the first node by `distance` along the
+    /// unstable direction, for one period, without the last.
     pub fn leaving(&self, distance: f64) -> Vec<Vec<f64>> {
         let growth = Self::growth(&self.directions.stretch);
         let axes = self.directions.unstable.iter();

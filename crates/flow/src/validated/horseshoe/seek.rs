@@ -1,9 +1,11 @@
-//! Search for homoclinic orbits of a saddle, in f64: motions that leave along the unstable direction
-//! and come back on the stable curve.
+//! Search for homoclinic orbits of a saddle, in f64: motions that leave along the unstable
+//! direction and come back on the stable curve.
 //!
 //! Motions start along one fundamental domain of the unstable curve, on both sides, and their
 //! crossings of the saddle's surface near it are recorded. Where the unstable coordinate of a
 //! crossing changes its sign from one start to the next there is a homoclinic orbit between them.
+
+#![allow(clippy::needless_range_loop, reason = "lanes index several arrays at once")]
 
 use super::super::Obstacle;
 use super::super::shooting::Shooting;

@@ -85,7 +85,7 @@ impl<'s> Strand<'s> {
     }
 }
 
-/// Whether each leg ends at the states from which the next starts: `after` are those after the last.
+/// Whether each leg ends at the states from which the next starts; `after` are the last ones.
 pub fn are_linked(
     shooting: &Shooting,
     strand: &Strand<'_>,
@@ -114,8 +114,8 @@ pub fn speeds(shooting: &Shooting, chain: &Chain) -> Vec<f64> {
     chain.fields(shooting).iter().map(|field| norm(field)).collect()
 }
 
-/// Half sides that the maps of a chain are expected to need: stable ones from the first, unstable ones
-/// from the last. `bend` is the change of a slope with the sides.
+/// Half sides that the maps of a chain are expected to need: stable ones from the first,
+/// unstable ones from the last. `bend` is the change of a slope with the sides.
 pub fn guessed(directions: &Directions, stable: f64, unstable: f64, bend: f64) -> Vec<[f64; 2]> {
     let squeezed = Saddle::growth(&directions.squeeze);
     let stretched = Saddle::growth(&directions.stretch);
