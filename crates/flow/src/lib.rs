@@ -84,6 +84,7 @@ pub use start::{Start, fixed_parameters};
 pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
 pub use track::{Rolling, Track, track};
 pub use validated::{
-    Data, Enclosure, Obstacle, ProvedOrbit, Reached, Request, follow, prove, replay,
+    Data, Enclosure, Horseshoe, Margin, Obstacle, ProvedOrbit, Reached, Request, follow, prove,
+    prove_horseshoe, replay,
 };
 pub use variational::Variational;

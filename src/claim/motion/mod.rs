@@ -1,7 +1,7 @@
 //! Claims about motion: long orbits, periodic points and limits of orbits.
 //!
 //! They have no residual that could be proved to vanish, but are observed: confirmed or refuted by
-//! numbers with errors. Closed orbits are proved. Each kind is one file that defines the claim;
+//! numbers with errors. Closed orbits and horseshoes are proved. Each kind is one file that defines the claim;
 //! `observe` measures.
 
 mod beginning;
@@ -9,6 +9,7 @@ mod closed_orbit;
 mod confined;
 mod contacts;
 mod exponent;
+mod horseshoe;
 mod limit_cycle;
 mod limit_of_motion;
 mod mean_divergence;
@@ -24,6 +25,7 @@ pub use closed_orbit::{Change, ClosedOrbit};
 pub use confined::{Axis, Confined};
 pub use contacts::{Contacts, Touch};
 pub use exponent::{Exponent, Growth};
+pub use horseshoe::Horseshoe;
 pub use limit_cycle::LimitCycle;
 pub use limit_of_motion::LimitOfMotion;
 pub use mean_divergence::{MeanDivergence, Tendency};
@@ -105,6 +107,7 @@ kinds! {
     LimitOfMotion,
     Contacts,
     ClosedOrbit,
+    Horseshoe,
     Reaches,
 }
 

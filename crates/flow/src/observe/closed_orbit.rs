@@ -11,7 +11,7 @@ use liouville::verdict::Options;
 
 /// Distance from the start within which an orbit is the claimed one, relative to the state; the
 /// same for the period.
-const NEAR: f64 = 1e-2;
+pub(super) const NEAR: f64 = 1e-2;
 
 /// Proves the closed orbit of a claim.
 pub fn look(
@@ -30,7 +30,7 @@ pub fn by(
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
 ) -> Result<(Finding, Option<ProvedOrbit>), FlowError> {
     let mut finding = Finding::default();
-    let found = match Ground::of(claim, scene, options)? {
+    let found = match Ground::of(claim.into(), scene, options)? {
         Ok(ground) => ground.enclosed(proof),
         Err(reason) => Err(reason),
     };
@@ -145,7 +145,7 @@ fn compare_period(stated: &Stated, period: Enclosure, finding: &mut Finding) {
 }
 
 /// Prints a bound with one digit, rounded up.
-fn printed_bound(bound: f64) -> String {
+pub(super) fn printed_bound(bound: f64) -> String {
     if bound.is_nan() || bound <= 0.0 {
         return bound.to_string();
     }
@@ -158,7 +158,7 @@ fn printed_bound(bound: f64) -> String {
 }
 
 /// Prints an enclosure; the printed radius covers the digits left out.
-fn printed(x: Enclosure) -> String {
+pub(super) fn printed(x: Enclosure) -> String {
     let decimals = libm::ceil(-libm::log10(x.rad)).clamp(0.0, 16.0) as usize + 1;
     let left_out = 0.51 * libm::pow(10.0, -(decimals as f64));
     format!("{:.decimals$} ± {}", x.mid, printed_bound(x.rad + left_out))

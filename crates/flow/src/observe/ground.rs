@@ -7,11 +7,44 @@ use super::scene::Scene;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedOrbit, Request, Start};
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::claim::motion::{Beginning, ClosedOrbit, Neighbourhood};
+use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
 use liouville::formula::Formula;
 use liouville::mechanics::{Chart, Draw, LevelFunction, Line, Origin, Parameter, Recipe};
 use liouville::number::rational::Rational;
 use liouville::verdict::{self, Options, Trust, Verdict};
+
+/// Closed orbit that a claim is about.
+pub struct Asked<'g> {
+    beginning: &'g Beginning,
+    period: f64,
+    integrals: &'g [Formula],
+    parameters: &'g [Neighbourhood],
+    wants_multipliers: bool,
+}
+
+impl<'g> From<&'g ClosedOrbit> for Asked<'g> {
+    fn from(claim: &'g ClosedOrbit) -> Self {
+        Self {
+            beginning: &claim.beginning,
+            period: claim.period.value,
+            integrals: &claim.integrals,
+            parameters: &claim.parameters,
+            wants_multipliers: claim.stability.is_some(),
+        }
+    }
+}
+
+impl<'g> From<&'g Horseshoe> for Asked<'g> {
+    fn from(claim: &'g Horseshoe) -> Self {
+        Self {
+            beginning: &claim.beginning,
+            period: claim.period.value,
+            integrals: &claim.integrals,
+            parameters: &[],
+            wants_multipliers: false,
+        }
+    }
+}
 
 /// Case with all that a proof of a closed orbit rests on.
 pub struct Ground<'g> {
@@ -29,7 +62,7 @@ pub struct Ground<'g> {
 impl<'g> Ground<'g> {
     /// Grounds of a claim, or the reason why nothing is proved.
     pub fn of(
-        claim: &'g ClosedOrbit,
+        asked: Asked<'g>,
         scene: &'g Scene<'_>,
         options: &Options,
     ) -> Result<Result<Self, String>, FlowError> {
@@ -40,24 +73,24 @@ impl<'g> Ground<'g> {
         if let Some(reason) = objection(case) {
             return Ok(Err(reason.to_string()));
         }
-        let mut start = scene.start(&claim.beginning)?;
-        let energy = match claim.beginning {
+        let mut start = scene.start(asked.beginning)?;
+        let energy = match asked.beginning {
             Beginning::Section(_) => case.section.as_ref().map(|plan| &plan.energy),
             Beginning::State(_) => None,
         };
-        let Some((case, loose)) = freed(case, &claim.parameters) else {
+        let Some((case, loose)) = freed(case, asked.parameters) else {
             return Ok(Err("some parameters have no fixed value to vary about".to_string()));
         };
         start.parameters = centres(&case);
-        Ok(kept(&case, &claim.integrals, options).map(|keeps_energy| Self {
+        Ok(kept(&case, asked.integrals, options).map(|keeps_energy| Self {
             case,
             start,
-            period: claim.period.value,
+            period: asked.period,
             keeps_energy,
             energy,
-            integrals: &claim.integrals,
+            integrals: asked.integrals,
             loose,
-            wants_multipliers: claim.stability.is_some(),
+            wants_multipliers: asked.wants_multipliers,
         }))
     }
 
@@ -89,6 +122,32 @@ impl<'g> Ground<'g> {
         &self,
         proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
     ) -> Result<ProvedOrbit, String> {
+        let found = self.asked_of(proof)?;
+        self.checked(found.kept, &found.start)?;
+        Ok(found)
+    }
+
+    /// The same with the horseshoe at the orbit.
+    pub fn chaotic(&self) -> Result<crate::Horseshoe, String> {
+        let found = self.asked_of(crate::prove_horseshoe)?;
+        self.checked(found.kept, &found.start)?;
+        Ok(found)
+    }
+
+    /// Checks that a box of states lies where the integrals are proved.
+    fn checked(&self, kept: usize, start: &[Enclosure]) -> Result<(), String> {
+        if kept == 0 || is_inside(&self.case, start) {
+            return Ok(());
+        }
+        let reason = "the orbit starts outside the ranges of [state], where its integrals are \
+                      proved";
+        Err(reason.to_string())
+    }
+
+    fn asked_of<T>(
+        &self,
+        proof: impl FnOnce(&Request<'_>) -> Result<T, Obstacle>,
+    ) -> Result<T, String> {
         let integrals: Vec<&Formula> = self.integrals.iter().collect();
         let request = Request {
             model: &self.case.model,
@@ -100,16 +159,10 @@ impl<'g> Ground<'g> {
             loose: &self.loose,
             wants_multipliers: self.wants_multipliers,
         };
-        let found = proof(&request).map_err(|obstacle| match obstacle {
+        proof(&request).map_err(|obstacle| match obstacle {
             Obstacle::Motion(problem) => format!("{problem}: {}", problem.help()),
             other => other.to_string(),
-        })?;
-        if found.kept > 0 && !is_inside(&self.case, &found.start) {
-            let reason = "the orbit starts outside the ranges of [state], where its integrals are \
-                          proved";
-            return Err(reason.to_string());
-        }
-        Ok(found)
+        })
     }
 }
 

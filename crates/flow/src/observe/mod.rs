@@ -4,7 +4,7 @@
 //! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Closed orbits and states at a time of a motion are proved, by enclosures; all other claims are
+//! Closed orbits, horseshoes and states at a time of a motion are proved, by enclosures; all other claims are
 //! only observed. There a stated number agrees with a computed one if they differ by no more than
 //! the last stated digit and the estimated error of the computation: the spread of blocks, or the
 //! difference between f64 and double-double.
@@ -15,6 +15,7 @@ mod density;
 mod exponents;
 mod finding;
 mod ground;
+mod horseshoe;
 mod limit;
 mod periodic;
 mod reaches;
@@ -109,6 +110,7 @@ fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Fin
         Motion::LimitOfMotion(claim) => limit::look(claim, scene),
         Motion::Contacts(claim) => contacts::look(claim, scene),
         Motion::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
+        Motion::Horseshoe(claim) => horseshoe::look(claim, scene, options),
         Motion::Reaches(claim) => reaches::look(claim, scene),
     }
 }

@@ -77,6 +77,13 @@ impl Enclosure {
         Self::first(&out)
     }
 
+    /// Encloses the reciprocals; not finite where 0 is among the numbers.
+    pub fn recip(self) -> Self {
+        let mut out = Balls::new([0.0], [0.0]);
+        Ball::<1>.unary(Function::Recip, &self.block(), &mut out);
+        Self::first(&out)
+    }
+
     fn combined(self, operation: Operation, other: Self) -> Self {
         let mut out = Balls::new([0.0], [0.0]);
         Ball::<1>.binary(operation, &self.block(), &other.block(), &mut out);

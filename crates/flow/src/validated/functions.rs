@@ -196,13 +196,14 @@ pub fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn normalised(x: &[f64]) -> Vec<f64> {
+/// Unit vector along a vector.
+pub fn normalised(x: &[f64]) -> Vec<f64> {
     let length = norm(x);
     x.iter().map(|x| x / length).collect()
 }
 
 /// Component orthogonal to unit vectors; two passes are enough against rounding.
-fn across(vector: &[f64], units: &[Vec<f64>]) -> Vec<f64> {
+pub fn across(vector: &[f64], units: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = vector.to_vec();
     for unit in units.iter().chain(units) {
         let along: f64 = rest.iter().zip(unit).map(|(x, y)| x * y).sum();

@@ -13,6 +13,7 @@ mod enclosure;
 mod forward;
 mod functions;
 mod guess;
+mod horseshoe;
 mod krawczyk;
 mod laws;
 mod motion;
@@ -29,6 +30,7 @@ mod tests;
 
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
+pub use horseshoe::{Horseshoe, Margin, prove as prove_horseshoe};
 pub use obstacle::Obstacle;
 pub use replay::{Data, replay};
 pub use request::Request;

@@ -16,7 +16,7 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use num_dual::Dual;
 
-/// Order of the series.
+/// Order of the series, where it is not chosen.
 pub const ORDER: usize = 20;
 
 /// Box of states, an enclosure for each component.
@@ -37,6 +37,8 @@ pub struct Passage {
 /// Equations of a model, for steps that are proved.
 pub struct Motion {
     pub dimension: usize,
+    /// Order of the series.
+    pub order: usize,
     /// Number of loose parameters, each a function of a variable between -1 and 1.
     pub loose: usize,
     /// Plan with all parameters at their centres.
@@ -81,7 +83,7 @@ impl Motion {
             rates.extend(integrals.iter().flat_map(|formula| jet.rates(formula)));
             rates
         })?;
-        Ok(Self { dimension: n, loose, state, wide, full })
+        Ok(Self { dimension: n, order: ORDER, loose, state, wide, full })
     }
 
     /// Encloses how far the states after steps of `shares` of a period are from `targets`, in
@@ -98,8 +100,8 @@ impl Motion {
             .map(|state| state.iter().map(|x| Enclosure::exact(*x)).collect())
             .collect();
         let times = shares.iter().map(|share| Enclosure::exact(*share) * Enclosure::exact(period));
-        let rests = steps(&self.state, &boxed, &times.collect::<Vec<_>>());
-        let gaps = sharp::gaps(&self.state, ORDER, starts, shares, period, targets);
+        let rests = steps(&self.state, self.order, &boxed, &times.collect::<Vec<_>>());
+        let gaps = sharp::gaps(&self.state, self.order, starts, shares, period, targets);
         let widened = |(gap, end): (Boxed, Option<End>)| {
             let rest = end?.rest;
             let gap = gap.iter().zip(rest).map(|(x, rest)| *x + Enclosure::about(0.0, rest));
@@ -108,21 +110,47 @@ impl Motion {
         gaps.into_iter().zip(rests).map(widened).collect()
     }
 
-    /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
-    pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Passage>> {
+    /// Approximate ends of steps, with the derivatives of each component by the start.
+    pub fn approximate(&self, starts: &[Vec<f64>], h: &[f64]) -> Vec<(Vec<f64>, Vec<Vec<f64>>)> {
+        let n = self.dimension;
+        let mut coefficients = Coefficients::new(&self.full, self.order);
+        let exact = |x: &f64| Enclosure::exact(*x);
+        let starts: Vec<Boxed> =
+            starts.iter().map(|state| self.whole(state.iter().map(exact).collect())).collect();
+        let mut found = Vec::new();
+        for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
+            coefficients.expand(&blocks(group));
+            let h: Vec<Boxed> = h.iter().map(|h| vec![exact(h)]).collect();
+            let h = &blocks(&h)[0];
+            let end = |row: usize| coefficients.polynomial(row, h).mid;
+            let (rows, first) = (0..n, n + self.loose);
+            let ends: Vec<_> = rows.map(end).collect();
+            let slopes: Vec<_> = (0..n * n).map(|k| end(first + k)).collect();
+            found.extend((0..group.len()).map(|lane| {
+                let row = |row: usize| (0..n).map(|k| slopes[k * n + row][lane]).collect();
+                (ends.iter().map(|end| end[lane]).collect(), (0..n).map(row).collect())
+            }));
+        }
+        found
+    }
+
+    /// State with the loose parameters, unit vectors and zeros, as the full plan begins.
+    fn whole(&self, state: Boxed) -> Boxed {
         let (n, loose) = (self.dimension, self.loose);
         let count = n * (n + loose);
         let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
         let vectors =
             (0..n + loose).flat_map(|i| (0..n).map(move |j| Enclosure::exact(unit(i, j))));
         let others = self.full.dimension - n - loose - count;
-        let further: Vec<Enclosure> = self
-            .ranges()
-            .chain(vectors)
-            .chain(std::iter::repeat_n(Enclosure::ZERO, others))
-            .collect();
-        let starts: Vec<Boxed> =
-            starts.iter().map(|state| [state.as_slice(), &further].concat()).collect();
+        let zeros = std::iter::repeat_n(Enclosure::ZERO, others);
+        state.into_iter().chain(self.ranges()).chain(vectors).chain(zeros).collect()
+    }
+
+    /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
+    pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Passage>> {
+        let (n, loose) = (self.dimension, self.loose);
+        let count = n * (n + loose);
+        let starts: Vec<Boxed> = starts.iter().map(|state| self.whole(state.clone())).collect();
         let passage = |end: End| {
             let (mut end, radius) = (end.state, end.radius);
             let columns = end.split_off(n).split_off(loose);
@@ -131,7 +159,7 @@ impl Motion {
                 .collect();
             Passage { end, derivative, volume: columns[count], radius }
         };
-        steps(&self.full, &starts, h).into_iter().map(|end| end.map(passage)).collect()
+        steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
 
     /// Encloses the field at states, for all values of the loose parameters.
@@ -185,8 +213,8 @@ fn plan(
     Plan::new(&Program::exact(&graph, &rates)?)
 }
 
-fn steps(plan: &Plan, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
-    let mut coefficients = Coefficients::new(plan, ORDER);
+fn steps(plan: &Plan, order: usize, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
+    let mut coefficients = Coefficients::new(plan, order);
     let (mut ends, mut hope) = (Vec::new(), tail::FIRST);
     for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
         coefficients.expand(&blocks(group));

@@ -48,4 +48,21 @@ pub enum Obstacle {
     /// The gradients of the conserved functions are not proved independent.
     #[error("the gradients of the functions kept are not proved independent along the orbit")]
     Gradients,
+    /// The level of the conserved functions has another dimension than 3.
+    #[error("horseshoes are proved where all conserved functions leave 3 dimensions, not {0}")]
+    Dimension(usize),
+    /// The multipliers of the closed orbit are not real, or near 1.
+    #[error(
+        "the closed orbit near the start is no saddle with multipliers well off the unit circle"
+    )]
+    NoSaddle,
+    /// No surface across the motion is known.
+    #[error("no surface across the motion is known")]
+    Surface,
+    /// No homoclinic orbit is found.
+    #[error("no motion is found that leaves the saddle and comes back to it for ever")]
+    NoHomoclinic,
+    /// The covering relations are not proved.
+    #[error("the covering relations along a homoclinic orbit are not proved: {0}")]
+    NoCovering(&'static str),
 }

@@ -1,0 +1,62 @@
+//! Horseshoes, proved by covering relations, and the integrals that they exclude.
+
+use super::closed_orbit::NEAR;
+use super::finding::Finding;
+use super::ground::Ground;
+use super::scene::Scene;
+use crate::{FlowError, Horseshoe, Measured};
+use liouville::claim::motion::Horseshoe as Claim;
+use liouville::verdict::Options;
+
+/// Proves the horseshoe of a claim.
+pub fn look(claim: &Claim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {
+    let mut finding = Finding::default();
+    let found = match Ground::of(claim.into(), scene, options)? {
+        Ok(ground) => ground.chaotic(),
+        Err(reason) => Err(reason),
+    };
+    match found {
+        Ok(found) => judge(claim, &found, &mut finding),
+        Err(reason) => finding.leave_open(reason),
+    }
+    Ok(finding)
+}
+
+/// Compares a horseshoe with the claim.
+fn judge(claim: &Claim, found: &Horseshoe, finding: &mut Finding) {
+    let [short, _] = found.times;
+    let shift = (short.mid - claim.period.value).abs() / claim.period.value;
+    if !(found.moved <= NEAR && shift <= NEAR) {
+        finding.leave_open(format!(
+            "the saddle that is found has period {:.10}, and lies at a distance of {:.1e} of the \
+             state: start nearer to it",
+            short.mid, found.moved
+        ));
+        return;
+    }
+    finding.note("period", Measured { value: short.mid, error: short.rad }, Some(&claim.period));
+    finding.theorem = Some(theorem(found, claim.excludes_integral));
+}
+
+fn theorem(found: &Horseshoe, excludes_integral: bool) -> String {
+    let [short, long] = found.times.map(|time| time.mid);
+    // Printed bounds are rounded down.
+    let down = |x: f64, unit: f64| libm::floor(x * unit) / unit;
+    let horseshoe = format!(
+        "near the saddle of period {short:.6} two loops of covering relations, of times {short:.3} and \
+         {long:.3}, start from one rectangle of half sides {:.1e}, the second along a homoclinic orbit \
+         ({} relations, room {} and {}); so the flow has a horseshoe, of entropy ≥ {} per unit of time",
+        found.half[0],
+        found.relations,
+        down(found.margin.unstable, 100.0),
+        down(found.margin.stable, 100.0),
+        down(found.entropy, 1e4),
+    );
+    if !excludes_integral {
+        return horseshoe;
+    }
+    format!(
+        "{horseshoe}; so every real-analytic integral near its motions depends on the level, the energy \
+         and the integrals that are known, for these parameters and all near them"
+    )
+}

@@ -1,0 +1,227 @@
+//! Search for homoclinic orbits of a saddle, in f64: motions that leave along the unstable
+//! direction and come back on the stable curve.
+//!
+//! Motions start along one fundamental domain of the unstable curve, on both sides, and their
+//! crossings of the saddle's surface near it are recorded. Where the unstable coordinate of a
+//! crossing changes its sign from one start to the next there is a homoclinic orbit between them.
+
+#![allow(clippy::needless_range_loop, reason = "lanes index several arrays at once")]
+
+use super::super::Obstacle;
+use super::super::shooting::Shooting;
+use super::chain::{distance, settle};
+use super::saddle::Saddle;
+use super::vectors::plus;
+use crate::event::{Event, Sides};
+use crate::lanes::Lanes;
+use crate::motion::program;
+use crate::program::Program;
+use crate::start::Start;
+use crate::stepper::{Accuracy, Stepper};
+use crate::swarm::LANES;
+use liouville::graph::Expr;
+use liouville::mechanics::Model;
+use liouville::number::pair::Pair;
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+
+/// Distance of the first starts, and the largest distance of crossings, against the saddle's state.
+const BEGIN: f64 = 1e-3;
+const NEAR: f64 = 0.05;
+/// Number of starts on each side.
+const STARTS: usize = 200;
+/// Number of periods for which motions are followed.
+const PERIODS: f64 = 10.0;
+/// Share of a period by which crossings of neighbouring motions may differ in time.
+const ABREAST: f64 = 0.1;
+/// Share of a period between two crossings near the saddle beyond which a motion was away.
+const AWAY: f64 = 1.5;
+/// Number of rounds of refinement, by a factor of `LANES` + 1 each.
+const ROUNDS: usize = 14;
+
+/// Crossing of the saddle's surface near the saddle.
+#[derive(Clone, Debug)]
+struct Crossing {
+    time: f64,
+    at: [f64; 2],
+    /// Whether the motion was away before.
+    returned: bool,
+}
+
+/// Homoclinic orbit, approximately.
+#[derive(Clone, Copy, Debug)]
+pub struct Homoclinic {
+    /// Distance of its start along the unstable direction.
+    pub start: f64,
+    /// Time to its crossing near the saddle.
+    pub time: f64,
+    /// Distance of that crossing along the stable direction.
+    pub end: f64,
+}
+
+/// Motions from a saddle's surface.
+pub struct Seeker<'s> {
+    shooting: &'s Shooting,
+    saddle: &'s Saddle,
+    program: Program,
+    near: f64,
+}
+
+impl<'s> Seeker<'s> {
+    /// Compiles the field with the function that vanishes on the surface.
+    pub fn new(
+        model: &Model,
+        start: &Start,
+        shooting: &'s Shooting,
+        saddle: &'s Saddle,
+    ) -> Result<Self, Obstacle> {
+        let home = &saddle.home;
+        let number = |x: f64| Expr::rational(&Rational::from_f64(x).unwrap_or(Rational::from(0)));
+        let program = program(model, &start.parameters, |phase| {
+            let state = phase.state();
+            let zero = number(0.0);
+            let terms = state.iter().zip(&home.normal).zip(&home.origin);
+            vec![terms.fold(zero, |sum, ((x, n), o)| sum + number(*n) * (*x - number(*o)))]
+        })?;
+        let size = home.origin.iter().map(|x| x * x).sum::<f64>().sqrt();
+        Ok(Self { shooting, saddle, program, near: NEAR * size })
+    }
+
+    /// State at a distance along the unstable direction.
+    pub fn start(&self, along: f64) -> Vec<f64> {
+        let home = &self.saddle.home;
+        let mut state = plus(&home.origin, along, &home.axes[0]);
+        settle(self.shooting, &mut state);
+        state
+    }
+
+    /// Finds homoclinic orbits, the shortest first.
+    pub fn find(&self) -> Result<Vec<Homoclinic>, Obstacle> {
+        let begin = BEGIN / NEAR * self.near;
+        let growth = self.saddle.multipliers[0].abs();
+        let starts: Vec<f64> = [1.0, -1.0]
+            .iter()
+            .flat_map(|side| {
+                (0..=STARTS)
+                    .map(move |k| side * begin * libm::pow(growth, k as f64 / STARTS as f64))
+            })
+            .collect();
+        let found = self.crossings(&starts)?;
+        let mut all = Vec::new();
+        for (index, pair) in found.windows(2).enumerate() {
+            if index == STARTS {
+                continue;
+            }
+            for crossing in pair[0].iter().filter(|crossing| crossing.returned) {
+                let Some(other) = self.partner(crossing, &pair[1]) else { continue };
+                if other.at[0] * crossing.at[0] <= 0.0 {
+                    let ends = [starts[index], starts[index + 1]];
+                    all.extend(self.refined(ends, crossing.clone(), other.clone())?);
+                }
+            }
+        }
+        all.sort_by(|a, b| a.time.total_cmp(&b.time));
+        Ok(all)
+    }
+
+    /// Crossing of another motion at about the same time.
+    fn partner<'c>(&self, crossing: &Crossing, others: &'c [Crossing]) -> Option<&'c Crossing> {
+        let late = |other: &Crossing| (other.time - crossing.time).abs();
+        let nearest = others.iter().min_by(|a, b| late(a).total_cmp(&late(b)))?;
+        (nearest.returned && late(nearest) < ABREAST * self.saddle.period()).then_some(nearest)
+    }
+
+    /// Narrows the starts down to the zero of the unstable coordinate.
+    fn refined(
+        &self,
+        ends: [f64; 2],
+        mut left: Crossing,
+        mut right: Crossing,
+    ) -> Result<Option<Homoclinic>, Obstacle> {
+        let [mut from, mut to] = ends;
+        for _ in 0..ROUNDS {
+            let inner: Vec<f64> =
+                (1..=LANES).map(|k| from + (to - from) * k as f64 / (LANES + 1) as f64).collect();
+            let found = self.crossings(&inner)?;
+            for (start, crossings) in inner.iter().zip(&found) {
+                let Some(crossing) = self.partner(&left, crossings) else { return Ok(None) };
+                if (crossing.at[0] > 0.0) == (left.at[0] > 0.0) {
+                    (from, left) = (*start, crossing.clone());
+                } else {
+                    (to, right) = (*start, crossing.clone());
+                    break;
+                }
+            }
+        }
+        // Where the two motions end far from each other the coordinate jumps.
+        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * self.near;
+        let (start, time, end) = ((from + to) / 2.0, left.time, left.at[1]);
+        Ok(is_continuous.then_some(Homoclinic { start, time, end }))
+    }
+
+    /// Follows motions from distances along the unstable direction, and returns their crossings
+    /// near the saddle.
+    fn crossings(&self, starts: &[f64]) -> Result<Vec<Vec<Crossing>>, Obstacle> {
+        let until = PERIODS * self.saddle.period();
+        let mut stepper = Stepper::<Lanes<LANES>>::new(&self.program, Accuracy::FLOAT);
+        let mut found = Vec::new();
+        for group in starts.chunks(LANES) {
+            for lane in 0..LANES {
+                let state = self.start(group[lane.min(group.len() - 1)]);
+                let state: Vec<Pair> = state.into_iter().map(Pair::from_f64).collect();
+                stepper.start(lane, &state, Pair::from_f64(until));
+            }
+            let mut sides: Vec<Sides> = vec![Sides::default(); LANES];
+            let mut tracks: Vec<Vec<Crossing>> = vec![Vec::new(); LANES];
+            let mut lost = [false; LANES];
+            while (0..LANES).any(|lane| !lost[lane] && !stepper.is_done(lane)) {
+                stepper.expand();
+                let ends = stepper.ends(0);
+                for lane in 0..LANES {
+                    if lost[lane] || stepper.is_done(lane) {
+                        continue;
+                    }
+                    match stepper.check(lane) {
+                        Ok(()) => {}
+                        Err(stopped @ crate::FlowError::Stopped) => return Err(stopped.into()),
+                        // A motion that meets a singularity has no further crossings.
+                        Err(_) => {
+                            lost[lane] = true;
+                            continue;
+                        }
+                    }
+                    if !sides[lane].pass(&ends, lane) {
+                        self.note(&stepper, lane, &mut sides[lane], &mut tracks[lane]);
+                    }
+                }
+                stepper.advance();
+            }
+            found.extend(tracks.into_iter().take(group.len()));
+        }
+        Ok(found)
+    }
+
+    /// Records the crossings of a step.
+    fn note(
+        &self,
+        stepper: &Stepper<Lanes<LANES>>,
+        lane: usize,
+        sides: &mut Sides,
+        track: &mut Vec<Crossing>,
+    ) {
+        let piece = stepper.piece(lane);
+        for event in sides.events(&piece.output(0), piece.length()) {
+            let Event::Crossing { after, rising: true } = event else { continue };
+            let state: Vec<f64> = piece.state(after).iter().map(|x| x.hi).collect();
+            if distance(&state, &self.saddle.home.origin) > self.near {
+                continue;
+            }
+            let time = piece.begin().hi + after;
+            let last = track.last();
+            let gap = time - last.map_or(0.0, |last| last.time);
+            let returned =
+                last.is_some_and(|last| last.returned) || gap > AWAY * self.saddle.period();
+            track.push(Crossing { time, at: self.saddle.home.coordinates(&state), returned });
+        }
+    }
+}

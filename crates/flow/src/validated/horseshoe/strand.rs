@@ -1,0 +1,145 @@
+//! Strands of legs along a chain, enclosed over rectangles that are large enough.
+
+use super::super::enclosure::Enclosure;
+use super::super::functions::norm;
+use super::super::shooting::Shooting;
+use super::Problem;
+use super::chain::{Chain, Directions, Link};
+use super::chart::{Chart, are_joined};
+use super::cover::{Map, Rectangle};
+use super::legs::{Crossed, Leg, crossed};
+use super::saddle::Saddle;
+use super::sets::fitted;
+
+/// Number of times that the rectangles are enlarged, by a factor above what they need.
+const ENLARGED: usize = 8;
+const GROWTH: f64 = 1.1;
+/// Expected error of the image of a node.
+const GAP: f64 = 1e-15;
+/// Room of the first rectangles against what the linear map needs.
+const FIRST: f64 = 1.15;
+
+/// Legs of a chain with rectangles over which they are enclosed.
+pub struct Strand<'s> {
+    pub charts: Vec<&'s Chart>,
+    pub centres: Vec<&'s [f64]>,
+    /// Coordinates of the first centre.
+    pub middle: [f64; 2],
+    pub times: &'s [f64],
+    pub late: Vec<[f64; 2]>,
+    pub speeds: Vec<f64>,
+    /// Chart after the last leg.
+    pub last: &'s Chart,
+}
+
+impl<'s> Strand<'s> {
+    fn legs(&self, known: &[[f64; 2]]) -> Vec<Leg<'s>> {
+        let next = |k: usize| self.charts.get(k + 1).copied().unwrap_or(self.last);
+        let leg = |(k, half): (usize, &[f64; 2])| Leg {
+            chart: self.charts[k],
+            centre: self.centres[k],
+            rectangle: Rectangle {
+                middle: if k == 0 { self.middle } else { [0.0, 0.0] },
+                half: *half,
+            },
+            time: self.times[k],
+            late: self.late[k],
+            speed: self.speeds[k],
+            next: next(k),
+        };
+        known.iter().enumerate().map(leg).collect()
+    }
+
+    /// Encloses all maps over rectangles that are large enough for the sizes that fit. The first
+    /// rectangle has at least the half sides `first`.
+    pub fn enclosed(
+        &self,
+        shooting: &Shooting,
+        guess: Vec<[f64; 2]>,
+        first: [f64; 2],
+        last: &Rectangle,
+    ) -> Result<(Vec<Crossed>, Vec<[f64; 2]>), Problem> {
+        let mut known = guess;
+        for _ in 0..ENLARGED {
+            known[0] = [known[0][0].max(first[0]), known[0][1].max(first[1])];
+            let found = crossed(shooting, &self.legs(&known)).map_err(Problem::Leg)?;
+            let maps: Vec<Map> = found.iter().map(|one| one.map).collect();
+            let halves = fitted(&maps, &known, first[1], last);
+            if !halves.iter().flatten().all(|x| x.is_finite() && *x > 0.0) {
+                return Err(Problem::Fit);
+            }
+            let mut fits = true;
+            for (known, half) in known.iter_mut().zip(&halves) {
+                for (known, half) in known.iter_mut().zip(half) {
+                    if half > known {
+                        fits = false;
+                        *known = GROWTH * half;
+                    }
+                }
+            }
+            if fits {
+                return Ok((found, halves));
+            }
+        }
+        Err(Problem::Fit)
+    }
+}
+
+/// Whether each leg ends at the states from which the next starts; `after` are the last ones.
+pub fn are_linked(
+    shooting: &Shooting,
+    strand: &Strand<'_>,
+    found: &[Crossed],
+    after: &[Enclosure],
+) -> bool {
+    let next = |k: usize| match found.get(k + 1) {
+        Some(next) => (strand.charts[k + 1], next.states.as_slice()),
+        None => (strand.last, after),
+    };
+    found.iter().enumerate().all(|(k, own)| {
+        let (chart, states) = next(k);
+        are_joined(shooting, chart, &own.ends, states)
+    })
+}
+
+/// Changes of the times of links with coordinates along the directions.
+pub fn late(links: &[Link], directions: &Directions) -> Vec<[f64; 2]> {
+    let along = |link: &Link, e: &[f64; 2]| link.late[0] * e[0] + link.late[1] * e[1];
+    let ends = directions.unstable.iter().zip(&directions.stable);
+    links.iter().zip(ends).map(|(link, (u, s))| [along(link, u), along(link, s)]).collect()
+}
+
+/// Speeds at the nodes.
+pub fn speeds(shooting: &Shooting, chain: &Chain) -> Vec<f64> {
+    chain.fields(shooting).iter().map(|field| norm(field)).collect()
+}
+
+/// Half sides that the maps of a chain are expected to need: stable ones from the first,
+/// unstable ones from the last. `bend` is the change of a slope with the sides.
+pub fn guessed(directions: &Directions, stable: f64, unstable: f64, bend: f64) -> Vec<[f64; 2]> {
+    let squeezed = Saddle::growth(&directions.squeeze);
+    let stretched = Saddle::growth(&directions.stretch);
+    let whole = stretched[stretched.len() - 1];
+    let mut halves: Vec<[f64; 2]> = (0..directions.stretch.len())
+        .map(|k| [unstable * stretched[k] / whole, stable * squeezed[k]])
+        .collect();
+    let (mut above, mut below) = (0.0, 0.0);
+    for (half, stretch) in halves.iter_mut().zip(&directions.stretch).rev() {
+        above = (above + bend * half[1] * half[1] + GAP) / stretch;
+        half[0] += above;
+    }
+    for (half, squeeze) in halves.iter_mut().zip(&directions.squeeze) {
+        half[1] += below;
+        below = below * squeeze + bend * half[0] * half[0] + GAP;
+    }
+    halves.iter().map(|half| half.map(|x| FIRST * x)).collect()
+}
+
+/// Largest change of a slope with the sides of the rectangles.
+pub fn bend(maps: &[Map], known: &[[f64; 2]]) -> f64 {
+    let of = |(map, half): (&Map, &[f64; 2])| {
+        let [[_, shear], [other, _]] = map.slopes;
+        shear.rad.max(other.rad) / (half[0] + half[1])
+    };
+    maps.iter().zip(known).map(of).fold(0.0, f64::max)
+}

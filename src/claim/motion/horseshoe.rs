@@ -1,0 +1,52 @@
+//! Horseshoes at a saddle, and the integrals that they exclude.
+
+use super::{Beginning, Motional, Stated, required_number, word};
+use crate::claim::Reader;
+use crate::formula::{Formula, Type};
+
+/// The claim that motions near a closed orbit of saddle kind, with this period, form a horseshoe.
+#[derive(Clone, Debug)]
+pub struct Horseshoe {
+    /// Period of the closed orbit.
+    pub period: Stated,
+    /// State near the closed orbit.
+    pub beginning: Beginning,
+    /// Whether the horseshoe is to exclude further analytic integrals.
+    pub excludes_integral: bool,
+    /// Known integrals besides the level functions and the energy.
+    pub integrals: Vec<Formula>,
+}
+
+impl Motional for Horseshoe {
+    const NAME: &'static str = "horseshoe";
+    const COMPANIONS: &'static [&'static str] = &["start", "state", "integral", "integrals"];
+
+    fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
+        let period = required_number(from, Self::NAME)?;
+        if period.value <= 0.0 || period.value.is_nan() {
+            let message = format!("a closed orbit does not have the period {}", period.text);
+            return Err(from.complaint(Self::NAME, message, "write that of the saddle, above 0"));
+        }
+        let integrals = from.list("integrals")?.unwrap_or_default();
+        if integrals.iter().any(|formula| formula.value_type() != Type::Scalar) {
+            let message = "an integral that holds an orbit is a scalar".to_string();
+            return Err(from.complaint("integrals", message, "list the components one by one"));
+        }
+        Ok(Self {
+            period,
+            beginning: Beginning::read(from)?,
+            excludes_integral: word(from, "integral", &[("none", ())])?.is_some(),
+            integrals,
+        })
+    }
+
+    fn beginning(&self) -> &Beginning {
+        &self.beginning
+    }
+
+    fn text(&self) -> String {
+        let integral = if self.excludes_integral { ", no further integral" } else { "" };
+        let (period, start) = (&self.period.text, self.beginning.text());
+        format!("horseshoe at the saddle of period {period} near {start}{integral}")
+    }
+}
