@@ -148,3 +148,77 @@ fn built_in_systems_agree_with_the_reference() {
     }
     assert!(compared > 100, "{compared} rates were compared");
 }
+
+#[test]
+fn parts_that_a_case_does_not_have_are_not_recorded() {
+    use liouville::mechanics::Part;
+    use liouville::verdict::{EquationsSize, equations_size};
+    let size = |system: &str, parameters: &str, body: &str| -> EquationsSize {
+        let text = format!(
+            "title = 'x'\nsystem = '{system}'\n[parameters]\nm = '1..2'\n{parameters}\n[body]\n{body}"
+        );
+        equations_size(&case(&text)).expect("it records")
+    };
+    let share = |size: &EquationsSize, part: Part| {
+        let found = size.parts.iter().find(|(own, _)| *own == part).expect("a possible part");
+        found.1
+    };
+    let parameters =
+        "R = '1..2'\nI = 'inertia(1..2)'\nS = 'vector(-1..1)'\na_g = '1..2'\nk = '-0.2..0.2'";
+    let ball = "shape = 'ball'\n";
+    for (plane, sphere) in [("rubber-plane", "rubber-sphere"), ("rolling-plane", "rolling-sphere")]
+    {
+        let bare = size(plane, parameters, ball);
+        assert!(bare.parts.iter().all(|(_, share)| share.is_none()), "{bare:?}");
+        let moment = "moment = '[γ2, γ3, 0]'";
+        for (part, with) in [
+            (Part::Rotor, size(plane, parameters, &format!("{ball}gyrostat = 'S'"))),
+            (Part::Potential, size(plane, parameters, &format!("{ball}potential = 'a_g*γ1*γ2'"))),
+            (Part::Moment, size(plane, parameters, &format!("{ball}{moment}"))),
+            (Part::Curvature, size(sphere, parameters, ball)),
+        ] {
+            let own = share(&with, part).expect("the part is there");
+            assert!(own > 0, "{part:?}");
+            assert_eq!(
+                with.operations - own,
+                bare.operations,
+                "{part:?}: the rest is the bare body"
+            );
+        }
+        let zero = size(plane, parameters, &format!("{ball}gyrostat = '0*S'\npotential = '0'"));
+        assert_eq!(zero.operations, bare.operations, "parts that are 0 cost nothing");
+        assert_eq!(share(&zero, Part::Rotor), Some(0));
+    }
+    let parameters = "R = '0.2..0.3'\nmu = '1..2'\nturn = '1..2'";
+    let surface = "surface = 'arbitrary'\n";
+    let bare = size("ball-on-surface", parameters, surface);
+    let forces = format!("{surface}potential = 'arbitrary'\nrotation = 'turn'");
+    let loaded = size("ball-on-surface", parameters, &forces);
+    let shares = [Part::Potential, Part::Rotation].map(|part| share(&loaded, part));
+    assert!(shares.iter().all(|share| share.is_some_and(|n| n > 0)), "{loaded:?}");
+    assert!(loaded.operations > bare.operations);
+}
+
+#[test]
+fn an_arbitrary_surface_takes_every_jet() {
+    let claims = "[[claim]]\nname = 'F'\nintegral = 'F'\n[[claim]]\nname = 'measure'\ndensity = '|n|'\n\
+                  [[claim]]\nname = 'sum'\nidentity = 'F = F + n[1]'\nexpect = 'fails'\n";
+    let text = |more: &str| {
+        format!(
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = '0.2..0.3'\nmu = '1..2'\n\
+             [body]\nsurface = 'arbitrary'\npotential = 'arbitrary'\n{claims}{more}"
+        )
+    };
+    let count = |text: &str, prefix: &str| {
+        let model = case(text).model;
+        model.parameters.iter().filter(|own| own.name.starts_with(prefix)).count()
+    };
+    // (n + 1)(n + 2)(n + 3)/6 monomials up to degree n.
+    assert_eq!(["F[", "U["].map(|prefix| count(&text(""), prefix)), [20, 10], "degrees 3 and 2");
+    let two = "[[claim]]\nname = 'reversal'\nreversor = { M = '−M' }\n";
+    assert_eq!(["F[", "U["].map(|prefix| count(&text(two), prefix)), [84, 35], "degrees 6 and 4");
+    let options = liouville::verdict::Options::default();
+    for claim in liouville::verdict::judge(&case(&text("")), &options).expect("verdicts").claims {
+        assert!(claim.agrees, "{}: {:?}", claim.name, claim.verdict);
+    }
+}

@@ -42,6 +42,7 @@ pub fn check(
         column: case.inner.column.clone(),
         notes: case.inner.notes.clone(),
         digest: Some(Digest::of(&case.text)),
+        ..Heading::default()
     };
     let path = case.name.clone();
     let outcome = Outcome { path, heading, result: Ok(report), unreached: Vec::new() };

@@ -1,13 +1,13 @@
 //! Arbitrary functions: polynomials with free coefficients, of a degree at which every jet that a
 //! residual can contain occurs.
 //!
-//! Formulas contain derivatives of h and p up to the second (∂r, r', ω'), of U up to the first
-//! (ω'). A claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
+//! Formulas contain derivatives of h, p and F up to the second (∂r, r', ω', γ'), of U up to the
+//! first (ω'). A claim differentiates them once; `density-in-variables` twice, in tr(dφ⁻¹ d(L_vφ)):
 //!
 //! ```text
-//! once                    h, p: order 3               U: order 2
-//! twice                   h, p: order 4               U: order 3
-//! at x and σ(x)           h, p: orders 3 and 2        U: orders 2 and 1
+//! once                    h, p, F: order 3            U: order 2
+//! twice                   h, p, F: order 4            U: order 3
+//! at x and σ(x)           h, p, F: orders 3 and 2     U: orders 2 and 1
 //! ```
 //!
 //! since dσ·v − v∘σ differentiates σ at x, and nothing at σ(x). Polynomials of degree k + l + 1 take
@@ -17,7 +17,7 @@ use super::error::Mistake;
 use super::parameters::{Setting, coefficients};
 use super::section::Section;
 use crate::claim::{Jets, STATEMENTS, jets};
-use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape};
+use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape, Surface};
 
 /// Source of the arbitrary functions of a case.
 #[derive(Clone, Copy)]
@@ -52,6 +52,14 @@ impl<'a> Arbitrary<'a> {
         Ok(Shape::ArbitraryProfile(polynomial))
     }
 
+    /// Arbitrary level surfaces F(r) = const.
+    pub fn level(&self, parameters: &mut Vec<Parameter>) -> Result<Surface, Mistake> {
+        let degree = self.degree([3, 4, 6]);
+        let polynomial = Polynomial::in_space(degree, parameters.len());
+        self.declare("F", &polynomial, parameters)?;
+        Ok(Surface::Arbitrary(polynomial))
+    }
+
     /// An arbitrary potential U(γ), or U(γ₃).
     pub fn potential(
         &self,
@@ -76,7 +84,7 @@ impl<'a> Arbitrary<'a> {
         }
     }
 
-    /// Declares small coefficients: the surface is convex by what `Shape` adds to the constant one.
+    /// Declares small coefficients: the surface is convex by what `Shape` and `Surface` add.
     fn declare(
         &self,
         prefix: &str,

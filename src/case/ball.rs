@@ -4,7 +4,7 @@ use super::arbitrary::Arbitrary;
 use super::body::{formula_or, potential};
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::section::Section;
+use super::section::{Section, Text};
 use crate::formula::Type;
 use crate::mechanics::{
     BallOnSurface, Meaning, NORMAL, Parameter, Reach, Shape, Surface, System, Vocabulary,
@@ -24,7 +24,7 @@ pub fn read(
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();
     of_centre.bind("r", centre);
-    let potential = section.keep(potential(section, arbitrary, &of_centre, parameters));
+    let potential = section.keep(potential(section, arbitrary, &of_centre, "r3", parameters));
     let rotation = section.keep(section.text("rotation").and_then(|text| {
         let read = |text| formula(&text, vocabulary, "Ω", Some(scalar), Reach::Parameters);
         text.map(read).transpose()
@@ -68,20 +68,25 @@ fn surface(
     let read = |text, what: &str| {
         formula(text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)
     };
-    match (section.text("surface")?, section.text("support")?) {
-        (Some(text), None) => Ok(Surface::Level(read(&text, "the surface")?)),
-        (None, Some(text)) if text.value == "arbitrary" => {
-            Ok(Surface::Support(arbitrary.support(parameters)?))
-        }
-        (None, Some(text)) => {
-            Ok(Surface::Support(Shape::Support(read(&text, "the support function")?)))
-        }
-        (surface, _) => {
-            let given = if surface.is_some() { "both" } else { "neither" };
-            Err(section.incomplete(
-                format!("the surface is given by a level or a support function, not by {given}"),
-                "give surface = \"F(r)\" or support = \"h(γ)\"",
-            ))
-        }
+    let is_any = |text: &Text| text.value == "arbitrary";
+    match (section.text("surface")?, section.text("support")?, section.text("profile")?) {
+        (Some(text), None, None) if is_any(&text) => arbitrary.level(parameters),
+        (Some(text), None, None) => Ok(Surface::Level(read(&text, "the surface")?)),
+        (None, Some(text), None) => Ok(Surface::Support(match is_any(&text) {
+            true => arbitrary.support(parameters)?,
+            false => Shape::Support(read(&text, "the support function")?),
+        })),
+        (None, None, Some(text)) => Ok(Surface::Support(match is_any(&text) {
+            true => arbitrary.profile(parameters)?,
+            false => Shape::Profile(read(&text, "the profile")?),
+        })),
+        (None, None, None) => Err(section.incomplete(
+            "the surface of the ball is missing".to_string(),
+            "give surface = \"F(r)\", support = \"h(γ)\" or profile = \"p(z)\"",
+        )),
+        _ => Err(section.incomplete(
+            "the surface of the ball is given more than once".to_string(),
+            "keep one of surface = \"F(r)\", support = \"h(γ)\" and profile = \"p(z)\"",
+        )),
     }
 }

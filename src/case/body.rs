@@ -80,7 +80,7 @@ pub(super) fn rolling(
     let inertia = constant("inertia", "I", Type::MATRIX);
     let gyrostat = section.keep(optional(section, "gyrostat", vocabulary, Type::VECTOR));
     let shape = section.keep(shape(section, arbitrary, vocabulary, parameters));
-    let potential = section.keep(potential(section, arbitrary, vocabulary, parameters));
+    let potential = section.keep(potential(section, arbitrary, vocabulary, "γ3", parameters));
     let moment = section.keep(section.text("moment").and_then(|text| {
         let kind = Some(Type::VECTOR);
         let read = |text| formula(&text, vocabulary, "`moment`", kind, Reach::Phase);
@@ -214,18 +214,21 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary, mistakes: &Mistakes) -> Res
     Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
 }
 
-/// Reads the potential U, given by a formula or arbitrary.
+/// Reads the potential U, given by a formula or arbitrary; `height` is the variable of an arbitrary
+/// function of one.
 pub(super) fn potential(
     section: &Section<'_>,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
+    height: &str,
     parameters: &mut Vec<Parameter>,
 ) -> Result<Option<Potential>, Mistake> {
     let Some(text) = section.text("potential")? else { return Ok(None) };
     let plain: String = text.value.chars().filter(|c| !c.is_whitespace()).collect();
-    let axial = match plain.as_str() {
-        "arbitrary" => false,
-        "arbitrary(γ3)" | "arbitrary(γ[3])" => true,
+    let of_height = plain.strip_prefix("arbitrary(").and_then(|rest| rest.strip_suffix(')'));
+    let axial = match (plain.as_str(), of_height) {
+        ("arbitrary", _) => false,
+        (_, Some(name)) if name.replace(['[', ']'], "") == height => true,
         _ => {
             let what = "the potential";
             let read = formula(&text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)?;

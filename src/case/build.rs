@@ -263,7 +263,7 @@ pub fn extend_support(model: &mut Model) {
     let surface = |system: &System| match system {
         System::Ball(ball) => match &ball.surface {
             Surface::Support(shape) => Some(shape.clone()),
-            Surface::Level(_) => None,
+            Surface::Level(_) | Surface::Arbitrary(_) => None,
         },
         _ => system.body().map(|body| body.shape.clone()),
     };
@@ -333,8 +333,10 @@ fn column(root: &Section<'_>) -> Result<Option<Column>, Mistake> {
             words.push((row.to_string(), text.value));
         }
     }
+    let caption = section.text("caption")?.map(|text| text.value);
+    let notes = section.texts("notes")?.into_iter().map(|text| text.value).collect();
     section.finish();
-    Ok(Some(Column { table, column, words }))
+    Ok(Some(Column { table, column, words, caption, notes }))
 }
 
 #[cfg(test)]

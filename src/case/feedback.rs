@@ -25,7 +25,7 @@ pub fn none(
     let shape = match system {
         System::Ball(ball) => match &ball.surface {
             Surface::Support(shape) => of_shape(shape),
-            Surface::Level(_) => None,
+            Surface::Level(_) | Surface::Arbitrary(_) => None,
         },
         _ => body.and_then(|body| of_shape(&body.shape)),
     };

@@ -8,8 +8,8 @@ use super::systems::Reading;
 use super::{ball, body, feedback, field, hamiltonian, lagrangian, map};
 use crate::formula::Type;
 use crate::mechanics::{
-    Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Quantity, Range, Reach, System,
-    of_ball, of_flat_base, of_lagrangian, of_rubber, of_spinning,
+    BallSurface, Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Quantity, Range, Reach,
+    System, of_ball, of_flat_base, of_lagrangian, of_rubber, of_spinning,
 };
 
 /// Equations of motion and the chart of their level; `None` where there is a mistake.
@@ -119,10 +119,19 @@ impl Reading<'_, '_> {
         let own = [("M", Type::VECTOR), (second, Type::VECTOR)];
         let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
         let draws = if by_support { Vec::new() } else { vec![near; 6] };
-        self.declare(&own, &draws, of_ball(by_support), name);
+        let surface = match (by_support, section.value("profile").is_some()) {
+            (false, _) => BallSurface::Level,
+            (true, false) => BallSurface::Support,
+            (true, true) => BallSurface::Profile,
+        };
+        self.declare(&own, &draws, of_ball(surface), name);
         if section.value("potential").is_some() {
-            let (meaning, reach) = (Meaning::Quantity(Quantity::Potential), Reach::Phase);
-            self.vocabulary.add("U", meaning, Type::Scalar, reach);
+            for (name, quantity, kind) in [
+                ("U", Quantity::Potential, Type::Scalar),
+                ("∂U", Quantity::PotentialGradient, Type::VECTOR),
+            ] {
+                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, Reach::Phase);
+            }
         }
         self.further_state();
         self.settle(Stage::State);

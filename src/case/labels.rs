@@ -57,7 +57,8 @@ mod tests {
 
     #[test]
     fn a_source_falls_into_its_labels() {
-        let column = Column { table: 1, column: 2, words: Vec::new() };
+        let column =
+            Column { table: 1, column: 2, words: Vec::new(), caption: None, notes: Vec::new() };
         let found = labels("BMB 2013, (3.8); Theorem 2.2", Some(&column), Some("measure"));
         let expected = [
             "BMB 2013",

@@ -126,10 +126,15 @@ pub struct Column {
     pub column: u32,
     /// Words of the paper in some rows: row and text.
     pub words: Vec<(String, String)>,
+    /// Caption of the table, which one of its columns gives.
+    pub caption: Option<String>,
+    /// Notes under the table.
+    pub notes: Vec<String>,
 }
 
-/// Rows of the papers' tables, and those of the table of rolling with and without spin.
-pub const TABLE_ROWS: [&str; 13] = [
+/// Rows of the papers' tables, and those of the table of rolling with and without spin; the last
+/// are the definitions under a table.
+pub const TABLE_ROWS: [&str; 14] = [
     "body",
     "inertia",
     "surface",
@@ -143,7 +148,11 @@ pub const TABLE_ROWS: [&str; 13] = [
     "rolling-plane",
     "rubber-sphere",
     "rolling-sphere",
+    DEFINITIONS,
 ];
+
+/// Row of the claims that define the letters of a table, under which they are printed.
+pub const DEFINITIONS: &str = "definition";
 
 /// A claim of a case: its statement at a place, with its expectation.
 #[derive(Clone, Debug)]

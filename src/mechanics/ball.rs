@@ -13,9 +13,9 @@
 //! Borisov, Mamaev, Nonholonomic dynamical systems, the ball on a surface; the sign of the moment
 //! is the one for which the energy is conserved.
 
-use nalgebra::{Matrix3, Vector3};
-use num_dual::Dual;
+use nalgebra::Vector3;
 
+use super::ball_surface::Surface;
 use super::body::{Shape, axis, scalar, vector};
 use super::chart::Chart;
 use super::configuration::Configuration;
@@ -45,15 +45,6 @@ pub struct BallOnSurface {
     pub rotation: Option<Formula>,
     /// Whether components are taken in the frame of the turning surface.
     pub rotating_frame: bool,
-}
-
-/// Definition of the surface of the centre.
-#[derive(Clone, Debug)]
-pub enum Surface {
-    /// Level surfaces of F(r); the state is (M, r).
-    Level(Formula),
-    /// A support function; the state is (M, γ).
-    Support(Shape),
 }
 
 /// Intermediate results of the equations of motion.
@@ -119,9 +110,9 @@ impl BallOnSurface {
             }
         };
         match &self.surface {
-            Surface::Level(f) => {
+            Surface::Level(_) | Surface::Arbitrary(_) => {
                 let centre = vector(at.variable(NORMAL));
-                let (slope, hessian) = second_order(at, f);
+                let (slope, hessian) = self.surface.second_order(at);
                 let length = slope.dot(&slope).sqrt();
                 let normal = slope.map(|x| x / length);
                 let omega = spin(&normal);
@@ -150,11 +141,7 @@ impl BallOnSurface {
 
 impl Dynamics for BallOnSurface {
     fn functions(&self) -> Vec<&Formula> {
-        let surface = match &self.surface {
-            Surface::Level(formula) => Some(formula),
-            Surface::Support(shape) => shape.formula(),
-        };
-        surface.into_iter().chain(self.dimensional()).collect()
+        self.surface.formula().into_iter().chain(self.dimensional()).collect()
     }
 
     fn dimensional(&self) -> Vec<&Formula> {
@@ -163,7 +150,7 @@ impl Dynamics for BallOnSurface {
 
     fn chart(&self) -> Chart {
         match self.surface {
-            Surface::Level(_) => Chart::Free,
+            Surface::Level(_) | Surface::Arbitrary(_) => Chart::Free,
             Surface::Support(_) => Chart::Sphere,
         }
     }
@@ -193,7 +180,7 @@ impl Dynamics for BallOnSurface {
             rate -= turn.cross(&momentum);
         }
         let second = match self.surface {
-            Surface::Level(_) => centre_rate,
+            Surface::Level(_) | Surface::Arbitrary(_) => centre_rate,
             Surface::Support(_) => normal_rate,
         };
         rate.iter().chain(second.iter()).copied().collect()
@@ -218,9 +205,7 @@ impl Dynamics for BallOnSurface {
     }
 
     fn has_arbitrary_function(&self) -> bool {
-        let is_open = |shape: &Shape| shape.formula().is_none();
-        let surface = matches!(&self.surface, Surface::Support(shape) if is_open(shape));
-        surface || matches!(self.potential, Some(Potential::Arbitrary(_)))
+        self.surface.formula().is_none() || matches!(self.potential, Some(Potential::Arbitrary(_)))
     }
 
     fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
@@ -238,8 +223,17 @@ impl Dynamics for BallOnSurface {
             (Quantity::NormalRate, _) => Value::Vector(self.motion(phase).normal_rate),
             (Quantity::Contact, _) => Value::Vector(self.motion(phase).centre),
             (Quantity::ContactRate, _) => Value::Vector(self.motion(phase).centre_rate),
-            (Quantity::SurfaceGradient, Surface::Level(f)) => Value::Vector(gradient(at, f)),
+            (Quantity::PotentialGradient, _) => {
+                let slope = self.slope_of_potential(at, &self.motion(phase).centre);
+                Value::Vector(slope.unwrap_or_else(|| Vector3::repeat(T::zero())))
+            }
+            (Quantity::SurfaceGradient, surface) => Value::Vector(surface.gradient(at)),
+            (Quantity::SurfaceHessian, surface) => Value::Matrix(surface.second_order(at).1),
             (Quantity::Slope, Surface::Support(shape)) => Value::Matrix(-shape.contact(at).1),
+            (
+                Quantity::Profile | Quantity::ProfileRate | Quantity::ProfileSecond,
+                Surface::Support(shape),
+            ) => Value::Scalar(profile(shape, at, quantity)),
             _ => self.configuration_quantity(quantity, at),
         }
     }
@@ -254,9 +248,22 @@ impl Dynamics for BallOnSurface {
                 let radius = self.value(at, &self.radius);
                 Value::Scalar(self.value(at, &self.mass) * radius * radius)
             }
-            (Quantity::Support, Surface::Support(shape)) => Value::Scalar(shape.support(at)),
+            (Quantity::Support | Quantity::SurfaceFunction, surface) => {
+                Value::Scalar(surface.value(at))
+            }
+            (Quantity::AxisCosine, _) => Value::Scalar(at.axis_cosine()),
             _ => Value::Scalar(T::undefined()),
         }
+    }
+}
+
+/// Computes p, p' or p'' at γ₃/|γ|.
+fn profile<T: Scalar>(shape: &Shape, at: &Configuration<'_, T>, quantity: Quantity) -> T {
+    let [p, first, second] = shape.profile_jet(at, at.axis_cosine());
+    match quantity {
+        Quantity::Profile => p,
+        Quantity::ProfileRate => first,
+        _ => second,
     }
 }
 
@@ -266,26 +273,4 @@ fn at_centre<'m, T: Scalar>(
     centre: &Vector3<T>,
 ) -> Configuration<'m, T> {
     at.moved(NORMAL, Value::Vector(*centre))
-}
-
-/// Gradient ∂f/∂r.
-fn gradient<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> Vector3<T> {
-    Vector3::from_fn(|i, _| scalar(at.lift(NORMAL, axis(i)).evaluate(f)).eps)
-}
-
-/// Gradient ∂f/∂r and Hessian ∂²f/∂r².
-fn second_order<T: Scalar>(at: &Configuration<'_, T>, f: &Formula) -> (Vector3<T>, Matrix3<T>) {
-    let zero = T::zero();
-    let (mut slope, mut hessian) = (Vector3::repeat(zero), Matrix3::repeat(zero));
-    for i in 0..3 {
-        let outer = at.lift(NORMAL, axis(i));
-        for j in i..3 {
-            let direction = axis::<T>(j).map(Dual::from_re);
-            let value = scalar(outer.lift(NORMAL, direction).evaluate(f));
-            hessian[(i, j)] = value.eps.eps;
-            hessian[(j, i)] = value.eps.eps;
-            slope[i] = value.re.eps;
-        }
-    }
-    (slope, hessian)
 }

@@ -2,6 +2,7 @@
 
 mod across;
 mod ball;
+mod ball_surface;
 mod body;
 pub mod calculus;
 mod chart;
@@ -15,6 +16,7 @@ mod lagrangian;
 mod linear;
 mod memo;
 mod model;
+mod parts;
 mod phase;
 mod quantity;
 mod recipe;
@@ -30,7 +32,8 @@ mod system;
 mod variables;
 mod vocabulary;
 
-pub use ball::{BallOnSurface, Surface};
+pub use ball::BallOnSurface;
+pub use ball_surface::Surface;
 pub use body::{Polynomial, Shape};
 pub use chart::{Chart, GivenChart};
 pub use configuration::Configuration;
@@ -41,10 +44,11 @@ pub use lagrangian::{Algebra, Lagrangian, Role};
 pub use model::{
     LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
 };
+pub use parts::Part;
 pub use phase::Phase;
 pub use quantity::{
-    Features, Quantity, of_ball, of_flat_base, of_hamiltonian, of_lagrangian, of_rubber,
-    of_spinning,
+    BallSurface, Features, Quantity, of_ball, of_flat_base, of_hamiltonian, of_lagrangian,
+    of_rubber, of_spinning,
 };
 pub use recipe::{Draw, Line, Range, Recipe};
 pub use rigid::RigidBody;

@@ -42,8 +42,14 @@ pub enum Quantity {
     Multiplier,
     /// `γ`: the normal, where it is not a state variable.
     Normal,
+    /// `F`: the function of the surface F(r) = const.
+    SurfaceFunction,
     /// `n`: ∇F of the surface F(r) = const.
     SurfaceGradient,
+    /// `∂n`: the matrix ∂²F/∂r² of the surface F(r) = const.
+    SurfaceHessian,
+    /// `∂U`: ∂U/∂r of a ball on a surface.
+    PotentialGradient,
     /// `D`: mR² of a rolling ball.
     RollingMoment,
     /// `μ1`, …: the reaction of a constraint, by its number.
@@ -56,6 +62,8 @@ pub enum Quantity {
     Profile,
     /// `p'`: dp/dz.
     ProfileRate,
+    /// `p''`: d²p/dz².
+    ProfileSecond,
     /// `f1`: r = (f1 γ₁, f1 γ₂, f2), f1 = z p' - p.
     ProfileF1,
     /// `f2`: -(z p + (1 - z²) p').
@@ -95,13 +103,17 @@ impl Quantity {
             NormalRate => "rate of γ",
             Multiplier => "multiplier of (ω,γ) = 0",
             Normal => "unit normal",
+            SurfaceFunction => "function of the surface",
             SurfaceGradient => "gradient of the surface's function",
+            SurfaceHessian => "matrix of second derivatives of the surface's function",
+            PotentialGradient => "∂U/∂r",
             RollingMoment => "mR²",
             Reaction(_) => "reaction of a constraint",
             Rate(_) => "rate of a state variable",
             AxisCosine => "γ₃/|γ|",
             Profile => "support function on the unit sphere, of z",
             ProfileRate => "dp/dz",
+            ProfileSecond => "d²p/dz²",
             ProfileF1 => "z p' − p",
             ProfileF2 => "−(z p + (1 − z²) p')",
             ProfileF1Rate => "z p''",
@@ -220,28 +232,49 @@ pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
     ]
 }
 
-/// Lists the quantities of a ball on a surface that is given by a support function, or as a level.
-pub fn of_ball(by_support: bool) -> Vec<(&'static str, Quantity, Type, Reach)> {
+/// The form in which a case gives the surface of a ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BallSurface {
+    /// A level F(r) = const.
+    Level,
+    /// A support function.
+    Support,
+    /// A support function of revolution, by its profile.
+    Profile,
+}
+
+/// Lists the quantities of a ball on a surface.
+pub fn of_ball(surface: BallSurface) -> Vec<(&'static str, Quantity, Type, Reach)> {
     use Quantity::*;
     let mut all = vec![
         ("ω", AngularVelocity, Type::VECTOR, Reach::Phase),
         ("D", RollingMoment, Type::Scalar, Reach::Parameters),
         ("energy", Energy, Type::Scalar, Reach::Phase),
     ];
-    all.extend(match by_support {
-        true => [
+    all.extend(match surface {
+        BallSurface::Support | BallSurface::Profile => vec![
             ("r", Contact, Type::VECTOR, Reach::Phase),
             ("r'", ContactRate, Type::VECTOR, Reach::Phase),
             ("∂r", Slope, Type::MATRIX, Reach::Phase),
             ("h", Support, Type::Scalar, Reach::Configuration),
         ],
-        false => [
+        BallSurface::Level => vec![
             ("γ", Normal, Type::VECTOR, Reach::Phase),
             ("γ'", NormalRate, Type::VECTOR, Reach::Phase),
+            ("F", SurfaceFunction, Type::Scalar, Reach::Configuration),
             ("n", SurfaceGradient, Type::VECTOR, Reach::Phase),
+            ("∂n", SurfaceHessian, Type::MATRIX, Reach::Phase),
             ("r'", ContactRate, Type::VECTOR, Reach::Phase),
         ],
     });
+    if surface == BallSurface::Profile {
+        all.extend([
+            ("z", AxisCosine, Type::Scalar, Reach::Configuration),
+            ("p", Profile, Type::Scalar, Reach::Phase),
+            ("p'", ProfileRate, Type::Scalar, Reach::Phase),
+            ("p''", ProfileSecond, Type::Scalar, Reach::Phase),
+        ]);
+    }
     all
 }
 

@@ -10,6 +10,7 @@ mod branches;
 mod conclude;
 mod conditions;
 mod coverage;
+mod equations;
 mod evidence;
 mod examine;
 mod existence;
@@ -35,6 +36,7 @@ mod values;
 mod wider;
 mod witness;
 
+pub use equations::{EquationsSize, equations_size};
 pub use evidence::{
     ClaimReport, Evidence, Independence, Measurement, Method, Proof, Rung, Sign, Verdict, Witness,
 };

@@ -1,6 +1,6 @@
 //! Evidence of `check -v`: formula, climb, witness and reasons of each claim.
 
-use liouville::verdict::{CaseReport, Measurement, Method, Sign, Witness};
+use liouville::verdict::{CaseReport, EquationsSize, Measurement, Method, Sign, Witness};
 
 /// Decimal places of measured numbers.
 const ALL: f64 = 15.0;
@@ -14,6 +14,27 @@ pub fn measured(found: &Measurement, most: f64) -> String {
     // without the sign of a rounded zero
     let value = if found.value.abs() < error { found.value.abs() } else { found.value };
     format!("{quantity} {value:.places$} ± {error:.0e}{stated}")
+}
+
+/// Renders the size of the equations of motion: all operations, those of each part that the case
+/// has, and the parts that were not recorded because it has none of them.
+pub fn equations(size: &EquationsSize) -> String {
+    let mut out = format!("equations: {} operations", size.operations);
+    let own = size.parts.iter().filter_map(|(part, share)| Some((part.name(), (*share)?)));
+    for (index, (name, share)) in own.enumerate() {
+        let before = if index == 0 { ", of which " } else { ", " };
+        out.push_str(&format!("{before}{name} {share}"));
+    }
+    let absent: Vec<&str> = size
+        .parts
+        .iter()
+        .filter(|(_, share)| share.is_none())
+        .map(|(part, _)| part.name())
+        .collect();
+    if !absent.is_empty() {
+        out.push_str(&format!("; not recorded: {}", absent.join(", ")));
+    }
+    out
 }
 
 /// Renders the evidence for each claim of the case at `path`.

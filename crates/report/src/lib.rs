@@ -14,12 +14,14 @@ pub mod typeset;
 
 pub use digest::{Digest, VERSION};
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use serde::Serialize;
 
 use liouville::case::{Case, Column};
-use liouville::verdict::{CaseReport, ClaimReport, MutationReport, Verdict};
+use liouville::formula::Layout;
+use liouville::verdict::{CaseReport, ClaimReport, EquationsSize, MutationReport, Verdict};
 
 /// Outcome for one file of a run.
 #[derive(Debug)]
@@ -68,6 +70,10 @@ pub struct Heading {
     pub notes: Vec<String>,
     /// Digest of the file's text.
     pub digest: Option<Digest>,
+    /// Formulas of the claims that fill cells of a table, by the names of the claims.
+    pub statements: BTreeMap<String, Layout>,
+    /// Size of the recorded equations of motion, where it was asked for.
+    pub equations: Option<EquationsSize>,
 }
 
 impl Heading {
@@ -80,8 +86,21 @@ impl Heading {
             column: case.column.clone(),
             notes: case.notes.clone(),
             digest: Some(Digest::of(text)),
+            statements: statements(case),
+            equations: None,
         }
     }
+}
+
+/// Sets the formulas of the claims that fill cells of a table.
+fn statements(case: &Case) -> BTreeMap<String, Layout> {
+    let in_table = case.claims.iter().filter(|claim| case.column.is_some() && claim.cell.is_some());
+    in_table
+        .filter_map(|claim| {
+            let layout = typeset::claim::statement(&case.model, claim)?;
+            Some((claim.name.clone(), layout))
+        })
+        .collect()
 }
 
 /// Results for all files of a run.

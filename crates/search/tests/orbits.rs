@@ -245,6 +245,19 @@ fn theorems_name_the_functions() {
     assert!(excluded(&damped).is_some_and(|degree| degree >= 4), "{:?}", damped.excluded);
     let theorem = &damped.excluded[0].theorem;
     assert!(theorem.contains("in x, p, sin(x), cos(x) of degree"), "{theorem}");
+    // Both signs of √k, and the one sign of √2 in the field modulo a prime, will do.
+    for root in ["√k", "√2"] {
+        let field = format!(
+            "title = 'x'\n[parameters]\nk = '0.5..2'\n[state]\nx = '-2..2'\np = '-2..2'\n\
+             [field]\n\"x'\" = 'p'\n\"p'\" = '-{root}*sin(x) - p'\n"
+        );
+        let report = searched(&field, &Effort::default());
+        assert!(
+            excluded(&report).is_some_and(|degree| degree >= 4),
+            "{root}: {:?}",
+            report.excluded
+        );
+    }
     // √8 = 2√2, which need not hold for the roots modulo a prime.
     let rates = [("x", "p"), ("p", "-√2*sin(x) - √8*p")];
     let report = searched(&any_field(&rates), &Effort::default());

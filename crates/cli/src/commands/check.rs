@@ -70,6 +70,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
         prepare: Box::new(move |case| of_case.prepare(case)),
         options: Options { mutants: options.mutants, ..options.sampling.options() },
         motions: options.motion,
+        sizes: options.verbose,
         threads: options.sampling.threads,
         limits: options.limits,
     })?;

@@ -34,6 +34,8 @@ pub struct Work {
     pub options: Options,
     /// Whether claims about motion are judged.
     pub motions: bool,
+    /// Whether the equations of motion are sized.
+    pub sizes: bool,
     /// Number of threads.
     pub threads: Option<usize>,
     /// Limits of time and memory.
@@ -183,7 +185,8 @@ fn read(slot: &Mutex<Slot>, work: &Work) {
             slot.result = Some(Err(diagnostic::of_case(&shown, &text, &error, coloured())));
         }
         Ok((text, Ok(case))) => {
-            slot.heading = Heading::of(&case, &text);
+            let equations = work.sizes.then(|| verdict::equations_size(&case).ok()).flatten();
+            slot.heading = Heading { equations, ..Heading::of(&case, &text) };
             slot.is_read = true;
             slot.stated = stated(&case, work.motions);
             (slot.warnings, slot.remarks) = (case.warnings.clone(), case.remarks.clone());
@@ -288,6 +291,7 @@ mod tests {
             prepare: Box::new(|case| assert!(!case.title.contains("Disk"), "a fault")),
             options: Options::default(),
             motions: false,
+            sizes: false,
             threads: Some(2),
             limits: Limits::default(),
         };

@@ -291,8 +291,10 @@ pub enum TableFormat {
     Text,
     /// Markdown
     Markdown,
-    /// LaTeX, for XeLaTeX or LuaLaTeX
+    /// A LaTeX document, for any LaTeX
     Latex,
+    /// A web page
+    Html,
 }
 
 /// Result of a command: text for standard output, and the exit code.

@@ -119,9 +119,10 @@ fn of_column() -> Value {
     for key in ["number", "column"] {
         properties.insert(key.to_string(), json!({ "type": "integer" }));
     }
-    for row in TABLE_ROWS {
+    for row in TABLE_ROWS.into_iter().chain(["caption"]) {
         properties.insert(row.to_string(), json!({ "type": ["string", "number"] }));
     }
+    properties.insert("notes".to_string(), text_or_list());
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 

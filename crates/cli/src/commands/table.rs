@@ -1,18 +1,20 @@
 //! The command `liouville table`.
 
 use crate::report::{diagnostic, table};
+use liouville::case::Case;
 
 use super::judging::{Work, judge};
 use super::{Answer, Table, TableFormat, width};
 
 pub fn run(options: &Table) -> Result<Answer, String> {
-    let sampling = &options.sampling;
+    let (sampling, number) = (&options.sampling, options.number);
     let run = judge(Work {
         paths: options.paths.clone(),
         settings: Vec::new(),
-        prepare: Box::new(|_| {}),
+        prepare: Box::new(move |case| keep_table(case, number)),
         options: sampling.options(),
         motions: false,
+        sizes: false,
         threads: sampling.threads,
         limits: options.limits,
     })?;
@@ -36,7 +38,20 @@ pub fn run(options: &Table) -> Result<Answer, String> {
             TableFormat::Text => table.text(width()),
             TableFormat::Markdown => table.markdown(),
             TableFormat::Latex => table.latex(),
+            TableFormat::Html => table.html(),
         }
     };
     Ok(Answer { text, code: run.exit_code() })
+}
+
+/// Keeps the claims that a table needs: those in its cells, and all of a case with claims of
+/// absence, which count what the others state.
+fn keep_table(case: &mut Case, number: u32) {
+    case.motions.clear();
+    if case.column.as_ref().is_none_or(|column| column.table != number) {
+        case.claims.clear();
+        case.absences.clear();
+    } else if case.absences.is_empty() {
+        case.claims.retain(|claim| claim.cell.is_some());
+    }
 }

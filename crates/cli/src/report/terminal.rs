@@ -2,7 +2,7 @@
 
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
-use super::evidence::{details, measured};
+use super::evidence::{details, equations, measured};
 use super::{Outcome, RunReport, diagnostic};
 use liouville::case::Expect;
 use liouville::verdict::{
@@ -70,6 +70,9 @@ fn case(outcome: &Outcome, style: Style) -> String {
     if style.detail == Detail::Evidence {
         if let Some(digest) = &heading.digest {
             out.push_str(&format!("  digest: {digest}\n"));
+        }
+        if let Some(size) = &heading.equations {
+            out.push_str(&format!("  {}\n", equations(size)));
         }
         for note in &heading.notes {
             out.push_str(&format!("  note: {note}\n"));

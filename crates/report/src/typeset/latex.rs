@@ -1,7 +1,7 @@
 //! Formulas in LaTeX, with commands of amsmath only.
 
 use super::mathml::without_tilde;
-use liouville::formula::{Layout, Type};
+use liouville::formula::{Layout, Type, ascii_name};
 
 /// Renders a formula in math mode, without the dollars.
 pub fn formula(layout: &Layout) -> String {
@@ -29,6 +29,41 @@ pub fn formula(layout: &Layout) -> String {
             let line = |row: &Vec<Layout>| row.iter().map(formula).collect::<Vec<_>>().join(" & ");
             let lines = rows.iter().map(line).collect::<Vec<_>>().join(" \\\\ ");
             format!("\\begin{{pmatrix}} {lines} \\end{{pmatrix}}")
+        }
+    }
+}
+
+/// Estimates the width, in letters, of the widest part that TeX does not break into lines.
+pub fn widest(layout: &Layout) -> usize {
+    match layout {
+        Layout::Row(parts) => parts.iter().map(widest).max().unwrap_or(0),
+        Layout::Fenced(_, inner, _) if !inner.is_tall() => widest(inner),
+        other => letters_wide(other) as usize,
+    }
+}
+
+/// Estimates the width of a box in letters.
+fn letters_wide(layout: &Layout) -> f64 {
+    /// Size of an index, an exponent and the parts of a fraction in a line.
+    const SMALL: f64 = 0.7;
+    match layout {
+        Layout::Number(digits) => digits.len() as f64,
+        Layout::Name { letter, index, primes, .. } => {
+            letter.chars().count() as f64 + SMALL * (index.chars().count() + primes) as f64
+        }
+        Layout::Word(word) => word.len() as f64,
+        Layout::Sign(_) => 2.0,
+        Layout::Space => 0.3,
+        Layout::Row(parts) => parts.iter().map(letters_wide).sum(),
+        Layout::Fenced(_, inner, _) => 1.0 + letters_wide(inner),
+        Layout::Fraction(above, below) => SMALL * letters_wide(above).max(letters_wide(below)),
+        Layout::Root(inner) => 1.0 + letters_wide(inner),
+        Layout::Raised(base, small) | Layout::Lowered(base, small) => {
+            letters_wide(base) + SMALL * letters_wide(small)
+        }
+        Layout::Matrix(rows) => {
+            let wide = |row: &Vec<Layout>| row.iter().map(|cell| 1.0 + letters_wide(cell)).sum();
+            rows.iter().map(wide).fold(1.0, f64::max)
         }
     }
 }
@@ -128,9 +163,85 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
+/// Sets a text in letters that any LaTeX reads.
+pub fn prose(text: &str) -> String {
+    let sign = |c: char| {
+        let math = match c {
+            '₀'..='₉' => return Some(format!("${{}}_{}$", u32::from(c) - u32::from('₀'))),
+            'ᵢ' => "_i",
+            'ₖ' => "_k",
+            '∥' => "\\parallel ",
+            '✓' => "\\checkmark ",
+            '✗' => "\\times ",
+            '²' => "^2",
+            '³' => "^3",
+            '¹' => "^1",
+            '⁰' => "^0",
+            '⁴' => "^4",
+            '⁵' => "^5",
+            '⁶' => "^6",
+            'ⁿ' => "^n",
+            '⁻' => "^-",
+            '½' => "\\tfrac12 ",
+            '↦' => "\\mapsto ",
+            '⟨' => "\\langle ",
+            '⟩' => "\\rangle ",
+            '×' => "\\times ",
+            '·' => "\\cdot ",
+            '−' => "-",
+            '⊗' => "\\otimes ",
+            '√' => "\\surd ",
+            '∫' => "\\int ",
+            '≤' => "\\le ",
+            '≥' => "\\ge ",
+            '≠' => "\\ne ",
+            '∞' => "\\infty ",
+            'ᵀ' => "^T",
+            '∂' => "\\partial ",
+            '∇' => "\\nabla ",
+            '→' => "\\to ",
+            '∈' => "\\in ",
+            'ℝ' => "\\mathbb{R}",
+            '–' => return Some("--".to_string()),
+            '—' => return Some("---".to_string()),
+            '’' => return Some("'".to_string()),
+            '§' => return Some("\\S ".to_string()),
+            _ => return None,
+        };
+        Some(format!("${{}}{math}$"))
+    };
+    let mut out = String::new();
+    for c in text.chars() {
+        match (sign(c), c) {
+            (Some(sign), _) => out.push_str(&sign),
+            (None, c) if c.is_ascii() => out.push_str(&escaped(&c.to_string())),
+            // Accented letters are read as they are.
+            (None, 'À'..='ſ') => out.push(c),
+            (None, c) => {
+                let own = formula(&Layout::name(&c.to_string(), Type::Scalar));
+                match own.is_ascii() {
+                    true => out.push_str(&format!("${own}$")),
+                    false => out.push_str(&ascii_name(&c.to_string())),
+                }
+            }
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sums_are_broken_and_fractions_are_not() {
+        let name = |text: &str| Layout::name(text, Type::Scalar);
+        let sum = Layout::Row(vec![name("a"), Layout::Sign("+"), name("b"), Layout::Sign("+")]);
+        assert_eq!(widest(&sum), 2, "a sign");
+        assert_eq!(widest(&Layout::Root(Box::new(sum.clone()))), 7, "all of a root");
+        let quotient = Layout::Fraction(Box::new(sum), Box::new(name("c")));
+        assert_eq!(widest(&quotient), 4, "a smaller fraction");
+    }
 
     #[test]
     fn special_characters_are_escaped() {

@@ -153,7 +153,11 @@ impl Part {
     /// Reports the degree reached and the theorem of absence.
     pub fn conclude(&self, setting: &Setting<'_>, report: &mut Report) -> Result<(), SearchError> {
         report.orbits.extend(self.done.iter().cloned());
-        if !setting.flow.is_rational || setting.has_lists() {
+        let is_rational = match setting.origin {
+            None => setting.flow.is_rational,
+            Some(_) => setting.flow.is_rational_in_state,
+        };
+        if !is_rational || setting.has_lists() {
             return Ok(());
         }
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();

@@ -179,8 +179,10 @@ impl<'c> Setting<'c> {
             let mut at = At { modulus, parameters, coordinates: Vec::new() };
             let Some(point) = self.point(&at, u64::MAX) else { continue };
             let inputs = [point.parameters, point.state].concat();
-            if let Some(values) = run(&self.points.coordinates, modulus, &inputs) {
-                at.coordinates = values;
+            let Some(values) = run(&self.points.coordinates, modulus, &inputs) else { continue };
+            at.coordinates = values;
+            // A root of parameters exists for half of their values.
+            if !matches!(self.orbit(&at, u64::MAX, 2), Ok(None)) {
                 return Some(at);
             }
         }
@@ -214,7 +216,7 @@ impl<'c> Setting<'c> {
     /// Expands the orbit through the random point of a number.
     pub fn orbit(&self, at: &At, number: u64, orders: usize) -> Result<Option<Orbit>, SearchError> {
         for attempt in 0..TRIES {
-            let Some(point) = self.point(at, number + (attempt << 32)) else { return Ok(None) };
+            let Some(point) = self.point(at, number.wrapping_add(attempt << 32)) else { return Ok(None) };
             if let Some(orbit) = self.along(at, &point, orders)? {
                 return Ok(Some((point, orbit)));
             }

@@ -34,6 +34,8 @@ pub struct Flow {
     rates: Vec<usize>,
     /// Whether the field is a rational function of the state and the parameters.
     pub is_rational: bool,
+    /// Whether it is one of the state, with roots of parameters as coefficients.
+    pub is_rational_in_state: bool,
 }
 
 impl Flow {
@@ -55,10 +57,15 @@ impl Flow {
         places: Vec<usize>,
         parameters: usize,
     ) -> Option<Self> {
-        let mut is_rational = true;
+        let (mut is_rational, mut is_rational_in_state) = (true, true);
+        let mut varies = vec![false; graph.len()];
         let mut at = vec![0; graph.len()];
         let mut steps = Vec::new();
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+            varies[place] = match step {
+                Step::Input(input) => input >= parameters,
+                _ => step.arguments().any(|argument| varies[argument]),
+            };
             let own = match step {
                 Step::Constant(value) => Rule::Constant(value.clone()),
                 Step::Input(input) if input < parameters => Rule::Parameter(input),
@@ -67,6 +74,7 @@ impl Flow {
                 Step::Unary(Function::Recip, a) => Rule::Inverse(at[a]),
                 Step::Unary(Function::Sqrt, a) => {
                     is_rational = false;
+                    is_rational_in_state &= !varies[a];
                     Rule::Power(at[a], Rational::new(1, 2))
                 }
                 Step::Unary(..) | Step::Binary(Operation::Pow, ..) => return None,
@@ -74,7 +82,9 @@ impl Flow {
                 Step::Binary(Operation::Sub, a, b) => Rule::Difference(at[a], at[b]),
                 Step::Binary(Operation::Mul, a, b) => Rule::Product(at[a], at[b]),
                 Step::Power(a, exponent) => {
-                    is_rational &= exponent.parts().1 == 1.into();
+                    let is_whole = exponent.parts().1 == 1.into();
+                    is_rational &= is_whole;
+                    is_rational_in_state &= is_whole || !varies[a];
                     Rule::Power(at[a], exponent.clone())
                 }
             };
@@ -82,7 +92,7 @@ impl Flow {
             steps.push(own);
         }
         let rates = places.into_iter().map(|place| at[place]).collect();
-        Some(Self { steps, rates, is_rational })
+        Some(Self { steps, rates, is_rational, is_rational_in_state })
     }
 
     /// Computes the coefficients of order below `orders` of the orbit from a state; `None` where

@@ -21,9 +21,7 @@ pub struct Axis {
 pub fn tried(case: &Case) -> Vec<Axis> {
     let second = match &case.model.system {
         System::Rubber(_) | System::Spinning(_) => "γ",
-        System::Ball(ball) if matches!(ball.surface, liouville::mechanics::Surface::Level(_)) => {
-            "r"
-        }
+        System::Ball(ball) if ball.surface.is_level() => "r",
         System::Ball(_) => "γ",
         _ => return Vec::new(),
     };

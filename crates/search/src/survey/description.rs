@@ -35,6 +35,9 @@ impl Description {
             System::Ball(ball) => {
                 match &ball.surface {
                     Surface::Level(formula) => own.function("F(r)", Some(formula)),
+                    Surface::Arbitrary(_) => {
+                        own.functions.push("F(r) is any smooth function".to_string());
+                    }
                     Surface::Support(shape) => own.shape(shape),
                 }
                 own.function("m", Some(&ball.mass));

@@ -140,7 +140,9 @@ impl Geometry {
             System::Ball(ball) => {
                 match ball.surface {
                     Surface::Support(_) => note("support", "the surface has a support function"),
-                    Surface::Level(_) => note("level", "the surface is a level of a function"),
+                    Surface::Level(_) | Surface::Arbitrary(_) => {
+                        note("level", "the surface is a level of a function")
+                    }
                 }
                 match ball.rotation {
                     Some(_) => note("rotating", "the surface turns"),

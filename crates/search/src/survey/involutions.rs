@@ -10,7 +10,7 @@ use super::question::{Finding, FixedSet, Question};
 use liouville::case::Case;
 use liouville::claim::{Claim, Reversor, Statement, Symmetry};
 use liouville::formula::{Composed, Formula, Type};
-use liouville::mechanics::{Surface, System};
+use liouville::mechanics::System;
 use liouville::verdict::{JudgeError, Options};
 
 /// A signed permutation: component i is `signs[i]` times component `places[i]`.
@@ -69,7 +69,7 @@ fn candidates(case: &Case) -> Vec<Candidate> {
             both(Map::all(case), candidate)
         }
         System::Ball(ball) => {
-            let is_level = matches!(ball.surface, Surface::Level(_));
+            let is_level = ball.surface.is_level();
             let second = if is_level { "r" } else { "γ" };
             let (Ok(momentum), Ok(place)) = (variable("M"), variable(second)) else {
                 return Vec::new();

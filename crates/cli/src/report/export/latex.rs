@@ -9,7 +9,7 @@ use super::Export;
 use super::lines::Body;
 use super::names::Names;
 use super::target::{Rank, Target, Term};
-use crate::report::typeset::latex::{escaped, formula};
+use crate::report::typeset::latex::{formula, prose};
 
 /// LaTeX.
 pub struct Latex;
@@ -172,64 +172,4 @@ fn operand(term: &Term, rank: Rank) -> String {
         true => term.text.clone(),
         false => format!("\\left({}\\right)", term.text),
     }
-}
-
-/// Text with letters that any LaTeX reads.
-fn prose(text: &str) -> String {
-    let sign = |c: char| {
-        let math = match c {
-            '²' => "^2",
-            '³' => "^3",
-            '¹' => "^1",
-            '⁰' => "^0",
-            '⁴' => "^4",
-            '⁵' => "^5",
-            '⁶' => "^6",
-            'ⁿ' => "^n",
-            '⁻' => "^-",
-            '½' => "\\tfrac12 ",
-            '↦' => "\\mapsto ",
-            '⟨' => "\\langle ",
-            '⟩' => "\\rangle ",
-            '×' => "\\times ",
-            '·' => "\\cdot ",
-            '−' => "-",
-            '⊗' => "\\otimes ",
-            '√' => "\\surd ",
-            '∫' => "\\int ",
-            '≤' => "\\le ",
-            '≥' => "\\ge ",
-            '≠' => "\\ne ",
-            '∞' => "\\infty ",
-            'ᵀ' => "^T",
-            '∂' => "\\partial ",
-            '∇' => "\\nabla ",
-            '→' => "\\to ",
-            '∈' => "\\in ",
-            'ℝ' => "\\mathbb{R}",
-            '–' => return Some("--".to_string()),
-            '—' => return Some("---".to_string()),
-            '’' => return Some("'".to_string()),
-            '§' => return Some("\\S ".to_string()),
-            _ => return None,
-        };
-        Some(format!("${{}}{math}$"))
-    };
-    let mut out = String::new();
-    for c in text.chars() {
-        match (sign(c), c) {
-            (Some(sign), _) => out.push_str(&sign),
-            (None, c) if c.is_ascii() => out.push_str(&escaped(&c.to_string())),
-            // Accented letters are read as they are.
-            (None, 'À'..='ſ') => out.push(c),
-            (None, c) => {
-                let own = formula(&Layout::name(&c.to_string(), Type::Scalar));
-                match own.is_ascii() {
-                    true => out.push_str(&format!("${own}$")),
-                    false => out.push_str(&liouville::formula::ascii_name(&c.to_string())),
-                }
-            }
-        }
-    }
-    out
 }

@@ -1,0 +1,69 @@
+//! Tables of the papers as Markdown.
+
+use super::{CellClaim, Filled, Regenerated, Stated, letter, one_line, target};
+use crate::report::typeset::latex::formula;
+
+/// Renders a Markdown table: rows as in the paper, verdicts as links.
+pub fn render(table: &Regenerated) -> String {
+    let mut out = format!("**{}**\n\n| |", inline(&table.title()));
+    for column in &table.columns {
+        out.push_str(&format!(" {column} |"));
+    }
+    out.push_str(&format!("\n|{}\n", "---|".repeat(table.columns.len() + 1)));
+    for row in &table.rows {
+        out.push_str(&format!("| **{}** |", row.label()));
+        for cell in &row.cells {
+            out.push_str(&format!(" {} |", filled(cell)));
+        }
+        out.push('\n');
+    }
+    let definitions = table.definitions.iter().map(stated);
+    let notes = table.notes.iter().map(|note| inline(note));
+    let theorems = table.theorems.iter().enumerate();
+    let theorems = theorems.map(|(k, text)| format!("({}) {}", letter(k), inline(text)));
+    for line in definitions.chain(notes).chain(theorems) {
+        out.push_str(&format!("\n{line}\n"));
+    }
+    out
+}
+
+fn filled(cell: &Filled) -> String {
+    let words = cell.words.iter().map(|text| inline(text));
+    let lines: Vec<String> = words.chain(cell.shown().map(stated)).collect();
+    if lines.is_empty() { "–".to_string() } else { lines.join("<br>") }
+}
+
+fn stated(claim: &CellClaim) -> String {
+    let text = match claim.stated() {
+        Stated::Formula(layout, _) => format!("${}$", formula(layout).replace('|', "\\|")),
+        Stated::Words(words) => inline(words),
+    };
+    let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
+    let (mark, verdict) = (claim.mark(), claim.verdict());
+    format!("{mark} [{verdict}](<{}>): {text}{letter}", target(&claim.path))
+}
+
+/// Text in one line of a Markdown table, with what would be markup escaped.
+fn inline(text: &str) -> String {
+    let mut out = String::new();
+    for c in one_line(text).chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '!' | '$' => out.extend(['\\', c]),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_no_markup() {
+        assert_eq!(inline("<b>|x\ny"), "&lt;b&gt;\\|x y");
+        assert_eq!(inline("![x](http://x)"), "\\!\\[x\\](http://x)");
+    }
+}
