@@ -152,12 +152,8 @@ mod tests {
         let source = [0.5, 0.25];
         let target = Rectangle { middle: [0.1, 0.0], half: [0.7, 0.4] };
         let margin = map.covers(source, &target).expect("covered");
-        let signs = [-1.0, 1.0];
-        for [a, b, c, d] in signs.iter().flat_map(|a| {
-            signs.iter().flat_map(move |b| {
-                signs.iter().flat_map(move |c| signs.iter().map(move |d| [*a, *b, *c, *d]))
-            })
-        }) {
+        for number in 0..16 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|bit| f64::from((number >> bit & 1) * 2 - 1));
             for (u, s) in [(-0.5_f64, -0.25), (-0.5, 0.25), (0.5, -0.25), (0.5, 0.25)] {
                 let across = 0.2 + (2.0 + 0.1 * a) * u + (0.3 + 0.1 * b) * s;
                 let along = -0.1 + (0.2 + 0.1 * c) * u + (0.4 + 0.1 * d) * s;

@@ -30,11 +30,14 @@ fn fitted_rectangles_cover_one_another() {
     assert!(halves[0][0] < 1e-2, "{halves:?}: 3⁶ is large");
 }
 
+/// Changes of a map, by name.
+type Spoilt = (&'static str, fn(&mut Map));
+
 #[test]
 fn one_broken_relation_breaks_the_chain() {
     let maps = saddles(6, 1e-3);
     let halves = fitted(&maps, &[[2.0, 2.0]; 6], 0.5, &LAST);
-    let broken: [(&str, fn(&mut Map)); 6] = [
+    let broken: [Spoilt; 6] = [
         ("it stretches less", |map| map.slopes[0][0].mid = 2.99),
         ("it squeezes less", |map| map.slopes[1][1].mid = 0.26),
         ("the directions are exchanged", |map| map.slopes.swap(0, 1)),
