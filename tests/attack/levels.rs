@@ -161,7 +161,7 @@ fn sphere(stream: &mut Stream) -> Level {
 fn charted(scene: &mut Scene, stream: &mut Stream) -> (Level, bool) {
     // The image of a chart lies in the declared ranges.
     for symbol in &mut scene.symbols {
-        symbol.origin = wide(50);
+        symbol.origin = wide(5000);
     }
     for name in ["u", "v"] {
         let (low, high) = super::draw::range(stream);
