@@ -71,7 +71,9 @@ fn every_kind_is_used_and_fails_somewhere() {
     }
     for kind in MOTIONS {
         assert!(seen.contains(&(*kind, Expect::Holds)), "{kind} holds somewhere");
-        assert!(seen.contains(&(*kind, Expect::Fails)), "{kind} fails somewhere");
+        // A horseshoe is proved or undecided, never refuted.
+        let fails = seen.contains(&(*kind, Expect::Fails));
+        assert!(fails || *kind == "horseshoe", "{kind} fails somewhere");
     }
 }
 
